@@ -1,0 +1,162 @@
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "tourmaline/case/nearest.h"
+#include "tourmaline/case/reader.h"
+#include "tourmaline/case/reference.h"
+#include "tourmaline/case/resolved.h"
+#include "tourmaline/error.h"
+#include "tourmaline/material/library.h"
+#include "tourmaline/solve/simulation.h"
+
+namespace {
+
+enum ExitStatus { done = 0, wrong_case = 2, solve_failed = 3, machine_failed = 4 };
+
+/// What the command line asked for.
+struct Asked {
+  std::filesystem::path file, directory;
+  std::vector<std::string> overrides;
+  std::string material;
+  bool quiet = false;
+};
+
+void run(const Asked &asked) {
+  const auto read = tourmaline::casefile::read_file(asked.file, asked.overrides);
+  const auto directory = asked.directory.empty()
+                             ? std::filesystem::path("results") / asked.file.stem()
+                             : asked.directory;
+  tourmaline::solve::simulate(read, directory, asked.quiet);
+}
+
+void check(const Asked &asked) {
+  const auto read = tourmaline::casefile::read_file(asked.file, asked.overrides);
+  tourmaline::solve::check(read);
+  std::cout << tourmaline::casefile::resolved(read);
+}
+
+void materials(const Asked &asked) {
+  std::cout << (asked.material.empty() ? tourmaline::material::describe_library()
+                                       : tourmaline::material::describe(asked.material));
+}
+
+void add_case(CLI::App &command, Asked &asked) {
+  command.add_option("CASE", asked.file, "the case file (TOML)")->required();
+  command
+      .add_option(
+          "--set", asked.overrides,
+          "another value for a key of the case file, key.path=value with the value as TOML; "
+          "may be given several times")
+      ->allow_extra_args(false);
+}
+
+void add_run(CLI::App &app, Asked &asked) {
+  CLI::App *command = app.add_subcommand("run", "simulate a case");
+  add_case(*command, asked);
+  command->add_option(
+      "-o,--output", asked.directory,
+      "folder of the results, made when missing; results/<name of the case> if not given");
+  command->add_flag("-q,--quiet", asked.quiet, "print nothing but errors");
+  command->callback([&asked] { run(asked); });
+}
+
+void add_check(CLI::App &app, Asked &asked) {
+  CLI::App *command =
+      app.add_subcommand("check", "check a case and print it with all defaults filled in");
+  add_case(*command, asked);
+  command->callback([&asked] { check(asked); });
+}
+
+void add_materials(CLI::App &app, Asked &asked) {
+  CLI::App *command = app.add_subcommand("materials", "list the built-in materials, or show one");
+  command->add_option("NAME", asked.material, "the material to show");
+  command->callback([&asked] { materials(asked); });
+}
+
+// For docs/case-file.md; of no use to somebody with a case, so `--help` does not list it.
+void add_reference(CLI::App &app) {
+  app.add_subcommand("reference", "print the reference of the case file")->group("")->callback([] {
+    std::cout << tourmaline::casefile::reference_page();
+  });
+}
+
+// CLI11 says of a misspelt command only that one is missing.
+void check_command(const CLI::App &app, int argc, char **argv) {
+  if (argc < 2 || argv[1][0] == '-')
+    return;
+  std::vector<std::string> names;
+  for (const CLI::App *command : app.get_subcommands([](const CLI::App *) { return true; })) {
+    if (command->get_name() == argv[1])
+      return;
+    names.push_back(command->get_name());
+  }
+  throw tourmaline::CaseError("there is no command \"" + std::string(argv[1]) + "\"" +
+                              tourmaline::casefile::did_you_mean(argv[1], names) +
+                              "; see tourmaline --help");
+}
+
+int obey(int argc, char **argv) {
+  Asked asked;
+  CLI::App app("Frictional contact of thermo-piezoelectric bodies.", "tourmaline");
+  app.set_version_flag("--version", "tourmaline " TOURMALINE_VERSION);
+  app.set_help_all_flag("--help-all", "the help of all commands");
+  app.require_subcommand(1);
+  app.failure_message([](const CLI::App *, const CLI::Error &error) {
+    return std::string("tourmaline: ") + error.what() + "; see tourmaline --help\n";
+  });
+  add_run(app, asked);
+  add_check(app, asked);
+  add_materials(app, asked);
+  add_reference(app);
+  check_command(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError &error) {
+    return app.exit(error, std::cout, std::cerr) == 0 ? done : wrong_case;
+  }
+  if (!std::cout.flush())
+    throw tourmaline::MachineError("the standard output cannot be written");
+  return done;
+}
+
+// Errors of the parts that the program is made of may run over several lines with empty ones
+// between.
+std::string one_paragraph(const std::string &text) {
+  std::string joined;
+  for (const char c : text) {
+    const bool blank = c == ' ' || c == '\n' || c == '\t' || c == '\r';
+    if (!blank)
+      joined += c;
+    else if (!joined.empty() && joined.back() != ' ')
+      joined += ' ';
+  }
+  return joined;
+}
+
+int report(ExitStatus status, const std::string &text) {
+  std::cerr << "tourmaline: " << one_paragraph(text) << '\n';
+  return status;
+}
+
+}  // namespace
+
+int main(int argc, char **argv) {
+  try {
+    return obey(argc, argv);
+  } catch (const tourmaline::CaseError &error) {
+    return report(wrong_case, error.what());
+  } catch (const tourmaline::SolveError &error) {
+    return report(solve_failed, error.what());
+  } catch (const tourmaline::MachineError &error) {
+    return report(machine_failed, error.what());
+  } catch (const std::bad_alloc &) {
+    return report(machine_failed, "not enough memory");
+  } catch (const std::exception &error) {
+    return report(machine_failed, error.what());
+  }
+}

@@ -1,0 +1,38 @@
+# The libraries Tourmaline is made of, all from Debian 12, each as one imported target `part::...`.
+
+find_package(PkgConfig REQUIRED)
+find_package(MPI REQUIRED COMPONENTS C)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(fmt REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(ZLIB REQUIRED)
+pkg_check_modules(TOMLPLUSPLUS REQUIRED IMPORTED_TARGET tomlplusplus)
+pkg_check_modules(MUPARSER REQUIRED IMPORTED_TARGET muparser)
+
+# deal.II's own target drags some 150 Trilinos libraries into the link line, and with them into every
+# start of the program. Only the library itself is linked here; `--as-needed` keeps of the two Teuchos
+# libraries (which deal.II's headers refer to) what is used.
+find_package(deal.II 9.4 REQUIRED HINTS /usr)
+include(${DEAL_II_TARGET_CONFIG})
+set(dealii_headers ${DEAL_II_INCLUDE_DIRS})
+list(REMOVE_ITEM dealii_headers /usr/include)
+add_library(part_dealii INTERFACE)
+target_include_directories(part_dealii SYSTEM INTERFACE ${dealii_headers})
+target_compile_definitions(part_dealii INTERFACE OMPI_SKIP_MPICXX $<$<CONFIG:Debug>:DEBUG>)
+get_target_property(dealii_release deal.ii IMPORTED_LOCATION_DEBUGRELEASE)
+get_target_property(dealii_debug deal.ii.g IMPORTED_LOCATION_DEBUGRELEASE)
+target_link_libraries(part_dealii INTERFACE
+  -Wl,--as-needed $<IF:$<CONFIG:Debug>,${dealii_debug},${dealii_release}>
+  tbb trilinos_teuchoscomm trilinos_teuchoscore MPI::MPI_C)
+add_library(part::dealii ALIAS part_dealii)
+
+# The MPI build of MUMPS, the one that deal.II, PETSc and Trilinos use; never the `_seq` one beside it.
+find_path(MUMPS_INCLUDE dmumps_c.h REQUIRED)
+find_library(MUMPS_LIBRARY dmumps REQUIRED)
+add_library(part_mumps INTERFACE)
+target_include_directories(part_mumps SYSTEM INTERFACE ${MUMPS_INCLUDE})
+target_link_libraries(part_mumps INTERFACE ${MUMPS_LIBRARY} MPI::MPI_C)
+add_library(part::mumps ALIAS part_mumps)
+
+find_library(METIS_LIBRARY metis REQUIRED)
+find_library(OPENBLAS_LIBRARY openblas REQUIRED)

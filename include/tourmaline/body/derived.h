@@ -1,0 +1,20 @@
+#pragma once
+
+#include <span>
+
+#include "tourmaline/body/operator.h"
+#include "tourmaline/material/constants.h"
+
+namespace tourmaline::body {
+
+/// Means over each cell of strain, stress (1), D (2), q (3) and the von Mises stress of the mean stress,
+/// in the order of `Discretisation::grid`. In 2D sigma_zz follows from plane strain and enters von Mises.
+template <int dim>
+output::CellFields derived_fields(const Discretisation<dim> &body,
+                                  const material::Constants &body_axes,
+                                  std::span<const double> state);
+
+/// sqrt(3/2 s:s) of the deviator s; components xx, yy, zz, xy, yz, xz.
+double von_mises(const output::SymmetricTensor &stress);
+
+}  // namespace tourmaline::body

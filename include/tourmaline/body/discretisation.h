@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tourmaline/mesh/mesh.h"
+#include "tourmaline/output/records.h"
+
+namespace tourmaline::body {
+
+using Node = unsigned int;
+
+/// Shape functions on one cell or one boundary facet: `nodes[a]` is the node of shape function a,
+/// `value(q, a)` and `gradient(q, a)` [1/m] belong to quadrature point q with weight `jxw[q]`
+/// [m^dim, facets m^(dim-1)].
+template <int dim>
+struct Quadrature {
+  std::vector<Node> nodes;
+  std::vector<double> jxw;
+  std::vector<std::array<double, 3>> points;
+  std::vector<double> values;
+  std::vector<std::array<double, dim>> gradients;  ///< empty on facets
+  std::vector<std::array<double, dim>> normals;    ///< outward nu at each point; empty on cells
+
+  double value(std::size_t q, std::size_t a) const { return values[q * nodes.size() + a]; }
+  const std::array<double, dim> &gradient(std::size_t q, std::size_t a) const {
+    return gradients[q * nodes.size() + a];
+  }
+};
+
+/// Neighbourhood of the nodes in compressed rows: node i shares a cell with column[row[i]] ...
+/// column[row[i+1] - 1], sorted, itself included.
+struct NodeGraph {
+  std::vector<std::size_t> row;
+  std::vector<Node> column;
+
+  std::size_t n_nodes() const { return row.size() - 1; }
+};
+
+/// One Lagrange space of degree 1 or 2 (28)-(30), shared by all components of u, by phi and by theta: a
+/// node carries dim + 2 unknowns. Nodes are numbered by x, then y, then z, whatever the mesh's own order is,
+/// so every table lists them alike. This is the only place that asks deal.II for shape functions; the rest
+/// of the body sees plain numbers.
+template <int dim>
+class Discretisation {
+ public:
+  Discretisation(mesh::Mesh<dim> mesh, int degree);
+  ~Discretisation();
+  Discretisation(Discretisation &&) noexcept;
+
+  std::size_t n_nodes() const;
+  std::size_t n_cells() const;
+  /// Places of the nodes [m]; z = 0 in 2D.
+  const std::vector<output::Vector> &points() const;
+  NodeGraph graph() const;
+
+  /// Calls `visit` for every cell, with a quadrature exact for the mass matrix on affine cells.
+  void for_each_cell(const std::function<void(const Quadrature<dim> &)> &visit) const;
+  /// Calls `visit` for every facet of the named boundaries. Throws CaseError for an unknown name.
+  void for_each_facet(const std::vector<std::string> &boundaries,
+                      const std::function<void(const Quadrature<dim> &)> &visit) const;
+  /// Nodes on the closure of the named boundaries, ascending.
+  std::vector<Node> nodes_on(const std::vector<std::string> &boundaries) const;
+
+  /// The grid as the output wants it, points in the order of the nodes, cells in the order of
+  /// `for_each_cell`.
+  output::Grid grid() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace tourmaline::body

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tourmaline/body/operator.h"
+#include "tourmaline/case/case.h"
+
+namespace tourmaline::body {
+
+/// The integral of a density against the shape functions, (density(t), v), for one component of the
+/// unknowns. What does not change is integrated once: a density without t wholly, one without x, y, z up
+/// to its factor in time.
+class Load {
+ public:
+  /// One quadrature point's share: density at `point` times `weights[a]` goes to node `nodes[a]`.
+  struct Share {
+    output::Vector point;
+    std::vector<Node> nodes;
+    std::vector<double> weights;
+  };
+
+  /// `factor` multiplies the density; `stride` unknowns a node, this load in component `component`.
+  Load(casefile::Formula density, double factor, int stride, int component);
+
+  void add(Share share);
+  /// Adds the load at time t to `right_side`.
+  void integrate(double t, std::vector<double> &right_side) const;
+
+ private:
+  void add_to(std::vector<double> &right_side, double density, const Share &share) const;
+
+  casefile::Formula density_;
+  double factor_;
+  int stride_, component_;
+  std::vector<Share> shares_;    // of a density that depends on place and time
+  std::vector<double> uniform_;  // by node, of any other: density(t) or 1 times this
+};
+
+/// Right-hand sides (19)-(21), (18) in the signs of `Operator`: the electric part times -1, the heat
+/// part times -k / theta_ref.
+template <int dim>
+class Loads {
+ public:
+  /// `step` is k [s].
+  Loads(const Discretisation<dim> &body, const casefile::Case &asked, double step,
+        double reference_temperature);
+
+  /// Adds all loads at time t; one entry for each unknown of the body.
+  void integrate(double t, std::vector<double> &right_side) const;
+
+ private:
+  void add_volume_loads(const Discretisation<dim> &body, const casefile::LoadCase &load);
+  void add_surface_loads(const Discretisation<dim> &body, const casefile::BoundaryCase &boundary);
+  void add_foundation_heat(const Discretisation<dim> &body, const casefile::ContactCase &contact);
+
+  double heat_factor_;
+  std::vector<Load> loads_;
+};
+
+}  // namespace tourmaline::body

@@ -1,0 +1,135 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tourmaline/case/formula.h"
+
+/// What the user asked for: plain structs, one for each table of the case file. They hold values
+/// that have been read and checked; defaults stand here and nowhere else. All values are SI.
+namespace tourmaline::casefile {
+
+enum class CellShape { triangle, quadrilateral, tetrahedron, hexahedron };
+
+int dimension_of(CellShape shape);
+const char *name_of(CellShape shape);
+/// The shape of that name, one of `name_of`; throws CaseError otherwise.
+CellShape shape_named(const std::string &name);
+
+/// [mesh] box: `cells` intervals along each axis between the corners `min` and `max` [m]; simplices
+/// come from splitting each square or cube.
+struct Box {
+  std::vector<double> min, max;
+  std::vector<int> cells;
+  CellShape cell = CellShape::triangle;
+};
+
+struct MeshCase {
+  std::optional<Box> box;
+  std::optional<std::string> file;  ///< Gmsh; physical groups name the boundaries
+  int degree = 1;                   ///< of the finite elements, 1 or 2
+};
+
+/// [material] Constants in crystal axes, stress-charge form at constant strain. What is not given
+/// is taken from the library's entry; without an entry it must be given.
+struct MaterialCase {
+  std::optional<std::string> library;
+  /// scalar constants by their usual names: c11, c12, c13, c33, c44, e31, e33, e15, beta11, beta33,
+  /// m11, m33, p3, k11, k33, density, specific_heat, reference_temperature
+  std::map<std::string, double> constants;
+  std::optional<std::vector<std::vector<double>>> stiffness;      ///< 6x6 Voigt [Pa]
+  std::optional<std::vector<std::vector<double>>> piezoelectric;  ///< 3x6 Voigt [C/m^2]
+  std::optional<std::vector<std::vector<double>>> permittivity;   ///< 3x3 [C/(V m)]
+  std::optional<std::vector<double>> thermal_stress;              ///< 6 Voigt [N/(K m^2)]
+  std::optional<std::vector<double>> pyroelectric;  ///< (p1, p3) in 2D, or (p1, p2, p3) [C/(K m^2)]
+  std::optional<std::vector<std::vector<double>>> conductivity;  ///< 3x3 [W/(K m)]
+  /// direction of the crystal's axis 3 (the poling axis); empty: y in 2D, z in 3D
+  std::vector<double> poling;
+  /// direction of the crystal's axis 1, made orthogonal to `poling`; empty: x, or any when x is the
+  /// poling axis. Matters only for crystals that are not isotropic about axis 3.
+  std::vector<double> axis1;
+};
+
+struct TimeCase {
+  double end = 1;  ///< [s]
+  int steps = 1;
+};
+
+/// One [[boundary]] entry. What is not given is the natural condition.
+struct BoundaryCase {
+  std::vector<std::string> on;
+  std::string where;  ///< file and line of the entry, for error texts
+  /// an entry is empty where the component is "free" [m]
+  std::optional<std::vector<std::optional<Formula>>> displacement;
+  std::optional<Formula> potential;       ///< [V]
+  std::optional<Formula> temperature;     ///< [K], difference to the reference temperature
+  std::optional<FormulaVector> traction;  ///< sigma nu = f_N [N/m^2]
+  std::optional<Formula> surface_charge;  ///< D.nu = phi_b [C/m^2]
+  std::optional<Formula> heat_flux;       ///< q.nu [W/m^2], positive leaves the body
+};
+
+struct FrictionCase {
+  std::string law = "none";  ///< none | tresca
+  Formula bound = 0;         ///< S [N/m^2]
+};
+
+struct HeatExchangeCase {
+  std::string law = "insulated";       ///< insulated | exchange
+  Formula coefficient = 0;             ///< k_c [W/(K m^2)], no dependence on t
+  Formula foundation_temperature = 0;  ///< theta_f [K], difference to the reference temperature
+};
+
+struct ContactCase {
+  std::vector<std::string> on;
+  std::string where;
+  std::string normal = "bilateral";
+  FrictionCase friction;
+  HeatExchangeCase heat;
+};
+
+struct SolverCase {
+  std::string method = "condensed";  ///< condensed | monolithic
+  double tolerance =
+      1e-12;  ///< of the contact iteration: natural residual over the largest nodal force
+  int max_iterations = 100;  ///< Newton iterations in one step
+  int threads = 1;           ///< of OpenBLAS and OpenMP
+};
+
+struct OutputCase {
+  bool fields = true;
+  int every =
+      0;  ///< steps between two field files; 0 while reading: so many that at most 50 are left
+  bool report = true;
+};
+
+struct LoadCase {
+  FormulaVector force;  ///< f_0 [N/m^3]; empty: none
+  Formula charge = 0;   ///< phi_0 [C/m^3]
+  Formula heat = 0;     ///< q_0 [W/m^3]
+};
+
+struct InitialCase {
+  FormulaVector displacement;  ///< u_0 [m]; empty: zero
+  Formula potential = 0;       ///< phi_0 [V]
+  Formula temperature = 0;     ///< theta_0 [K]
+};
+
+struct Case {
+  std::string title;
+  std::string source;  ///< the file's name, for error texts
+  MeshCase mesh;
+  MaterialCase material;
+  TimeCase time;
+  std::vector<BoundaryCase> boundaries;
+  std::optional<ContactCase> contact;
+  SolverCase solver;
+  OutputCase output;
+  LoadCase load;
+  InitialCase initial;
+
+  int dimension = 2;  ///< 2 or 3, from the mesh
+};
+
+}  // namespace tourmaline::casefile

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tourmaline::casefile {
+
+/// A number or a muParser expression in x, y, z [m] and t [s], as it stands in the case file.
+///
+/// Besides muParser's own operators and functions it knows `if(c, a, b)` and `pi`. Values that are
+/// not finite are errors at the place of evaluation: `value` throws CaseError with `where()`, the
+/// text and the point.
+class Formula {
+ public:
+  Formula() : Formula(0.0) {}
+  /// The number must be finite.
+  /*implicit*/ Formula(double number, std::string where = {});
+  /// Throws CaseError with muParser's reason when the text does not parse, and when it uses no
+  /// variable and is not finite. An expression without variables becomes its number. `where` is
+  /// what an error begins with: file, line and key.
+  explicit Formula(const std::string &text, std::string where = {});
+
+  /// Safe to call from several threads at once.
+  double value(const std::array<double, 3> &point, double time) const;
+
+  bool is_number() const { return !expression_; }
+  bool is_zero() const { return is_number() && number_ == 0; }
+  bool depends_on_time() const { return uses_time_; }
+  bool depends_on_place() const { return uses_place_; }
+  /// The number with as many digits (at most 17) as reading the same number back takes, or the
+  /// expression.
+  std::string text() const;
+  const std::string &where() const { return where_; }
+
+ private:
+  struct Expression;
+
+  double number_ = 0;
+  std::shared_ptr<const Expression> expression_;
+  bool uses_time_ = false, uses_place_ = false;
+  std::string where_;
+};
+
+using FormulaVector = std::vector<Formula>;
+
+/// What a formula may be made of, as muParser knows it.
+struct FormulaNames {
+  std::vector<std::string> variables, functions, constants;
+};
+const FormulaNames &formula_names();
+
+}  // namespace tourmaline::casefile

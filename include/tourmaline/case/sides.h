@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace tourmaline::casefile {
+
+/// A side of a box: the one where the coordinate along `axis` (0, 1, 2) is least or greatest.
+struct Side {
+  std::string name;
+  int axis = 0;
+  bool greatest = false;
+};
+
+/// left, right, bottom, top; in three dimensions left and right (x), front and back (y), bottom and
+/// top (z).
+const std::vector<Side> &sides(int dimension);
+
+std::vector<std::string> side_names(int dimension);
+
+}  // namespace tourmaline::casefile

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <string>
+#include <vector>
+
+#include "tourmaline/body/discretisation.h"
+
+namespace tourmaline::contact {
+
+/// A node of Gamma_C with its lumped weight, the integral of its shape function over Gamma_C [m^(dim-1)],
+/// and the outward normal nu, the mean of the facets' normals with the same weights.
+template <int dim>
+struct InterfaceNode {
+  body::Node node;
+  output::Vector point;
+  double weight;
+  Eigen::Matrix<double, dim, 1> normal;
+};
+
+/// The nodes of the named boundaries in ascending order. Throws CaseError where a weight is not
+/// positive (quadratic tetrahedra), because complementarity node by node needs positive weights.
+template <int dim>
+std::vector<InterfaceNode<dim>> interface_nodes(const body::Discretisation<dim> &body,
+                                                const std::vector<std::string> &boundaries);
+
+}  // namespace tourmaline::contact

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// What a run hands to its output files: plain numbers in SI units, no mesh library, no MPI.
+/// Vectors have three components in 2D too (z = 0); symmetric tensors are xx, yy, zz, xy, yz, xz.
+namespace tourmaline::output {
+
+using Vector = std::array<double, 3>;
+using SymmetricTensor = std::array<double, 6>;
+
+/// VTK's numbers for the cells that we write.
+enum class VtkCell : std::uint8_t {
+  triangle = 5,
+  quadrilateral = 9,
+  tetrahedron = 10,
+  hexahedron = 12,
+  quadratic_triangle = 22,
+  quadratic_quadrilateral = 28,  // biquadratic, 9 nodes
+  quadratic_tetrahedron = 24,
+  quadratic_hexahedron = 29  // triquadratic, 27 nodes
+};
+
+/// Nodes and cells; `connectivity` lists each cell's nodes in VTK's order, all cells alike.
+struct Grid {
+  int dimension = 2;
+  std::vector<Vector> points;
+  VtkCell cell = VtkCell::triangle;
+  std::size_t nodes_per_cell = 3;
+  std::vector<std::uint32_t> connectivity;
+
+  std::size_t n_cells() const { return connectivity.size() / nodes_per_cell; }
+};
+
+/// Values at the nodes of the grid.
+struct PointFields {
+  std::vector<Vector> displacement;  // m
+  std::vector<double> potential;     // V
+  std::vector<double> temperature;   // K
+};
+
+/// Means over each cell, by the constitutive law (1)-(3).
+struct CellFields {
+  std::vector<SymmetricTensor> stress;        // Pa
+  std::vector<double> von_mises;              // Pa
+  std::vector<SymmetricTensor> strain;        // 1
+  std::vector<Vector> electric_displacement;  // C/m^2
+  std::vector<Vector> heat_flux;              // W/m^2
+};
+
+enum class ContactStatus : std::uint8_t { open, stick, slip };
+const char *name_of(ContactStatus status);
+
+/// One contact node in one step; traction is sigma nu on the body.
+struct ContactRow {
+  Vector point;
+  double normal_traction;       // N/m^2
+  Vector tangential_traction;   // N/m^2
+  double normal_displacement;   // m
+  Vector slip;                  // u_tau [m]
+  double slip_rate;             // |u_tau(n) - u_tau(n-1)| / k [m/s]
+  ContactStatus status;
+  double temperature;  // K
+  double potential;    // V
+  double heat_flux;    // q.nu = k_c (theta - theta_f), positive leaves the body [W/m^2]
+};
+
+/// One line of history.csv. `quantities` are the named columns behind the fixed ones; every step of a
+/// run has the same names in the same order.
+struct HistoryRow {
+  int step = 0;
+  double time = 0;
+  int newton_iterations = 0;
+  double residual = 0;
+  std::size_t stick = 0, slip = 0, open = 0;
+  std::vector<std::pair<std::string, double>> quantities;
+};
+
+/// The smallest or largest value of a field and the node where it stands.
+struct Extreme {
+  std::string field;
+  double minimum = 0, maximum = 0;
+  Vector at_minimum{}, at_maximum{};
+};
+
+}  // namespace tourmaline::output

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tourmaline/output/atomic_file.h"
+#include "tourmaline/output/pvd.h"
+#include "tourmaline/output/records.h"
+#include "tourmaline/output/summary.h"
+#include "tourmaline/output/vtu.h"
+
+namespace tourmaline::output {
+
+/// The folder that a run leaves behind. Every file in it is whole at every moment: one that is
+/// being written is called NAME.part. In a parallel run only one rank owns this. Whatever fails to
+/// be written is a MachineError with the file's name and the reason.
+class ResultFolder {
+ public:
+  /// Makes the folder, with its parents, checks that it can be written to, and removes the files
+  /// that an earlier run left there (by the names that this program gives them, and no others).
+  ResultFolder(std::filesystem::path directory, int dimension);
+
+  /// resolved.toml: the case with every default filled in.
+  void put_case(const std::string &resolved_toml);
+
+  /// result_NNNN.vtu, and result.pvd with all field files so far. The grid is encoded at the first
+  /// call: every call of a run passes the same one. Throws std::invalid_argument when sizes
+  /// disagree.
+  void put_fields(int step, double time, const Grid &grid, const PointFields &points,
+                  const CellFields &cells);
+
+  /// Rows of contact.csv. The file exists only if this was called: without a contact boundary, do
+  /// not.
+  void put_contact(int step, double time, std::span<const ContactRow> rows);
+
+  /// A row of history.csv. Throws std::invalid_argument when its quantities are not those of the
+  /// first row.
+  void put_history(const HistoryRow &row);
+
+  /// nodes.csv; rows in the order of the grid's points.
+  void put_nodes(const Grid &grid, const PointFields &fields);
+
+  /// summary.json
+  void put_summary(const Summary &summary);
+
+  /// Moves contact.csv and history.csv into place; after a failed solve too, so that the steps that
+  /// were computed are kept. Without it they are discarded. Idempotent; no rows can follow.
+  void finish();
+
+  const std::filesystem::path &directory() const { return directory_; }
+
+ private:
+  std::filesystem::path directory_;
+  int dimension_;
+  std::optional<VtuWriter> vtu_;
+  std::vector<PvdEntry> series_;
+  std::unique_ptr<AtomicFile> contact_, history_;
+  std::string history_header_;
+};
+
+}  // namespace tourmaline::output

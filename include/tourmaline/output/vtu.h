@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+#include "tourmaline/output/records.h"
+
+namespace tourmaline::output {
+
+/// Field files of one grid in VTK's XML format: the points and cells are encoded once, when this is
+/// built, and reused by every file.
+class VtuWriter {
+ public:
+  /// Throws std::invalid_argument when a cell refers to a point that there is not.
+  explicit VtuWriter(const Grid &grid);
+
+  /// Writes the fields at `time` [s] to `path`, whole or not at all. Throws std::invalid_argument
+  /// when a field does not have one value for each point or cell, MachineError when the file cannot
+  /// be written.
+  void write(const std::filesystem::path &path, double time, const PointFields &points,
+             const CellFields &cells) const;
+
+  std::size_t n_points() const { return n_points_; }
+  std::size_t n_cells() const { return n_cells_; }
+
+ private:
+  std::size_t n_points_, n_cells_;
+  std::string topology_;  // the elements <Points> and <Cells>
+};
+
+}  // namespace tourmaline::output

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "tourmaline/body/conditions.h"
+#include "tourmaline/body/loads.h"
+#include "tourmaline/body/operator.h"
+#include "tourmaline/case/case.h"
+#include "tourmaline/contact/interface.h"
+#include "tourmaline/material/constants.h"
+
+namespace tourmaline::solve {
+
+/// Everything a step needs that does not change from step to step: the case as mathematics.
+template <int dim>
+struct Model {
+  explicit Model(const casefile::Case &asked_for);
+
+  casefile::Case asked;
+  double step;                             ///< k [s]
+  material::Constants material;            ///< in the axes of the body
+  body::Discretisation<dim> body;
+  body::Operator<dim> op;
+  std::vector<body::Prescribed> prescribed;
+  body::Loads<dim> loads;
+  std::vector<contact::InterfaceNode<dim>> interface;  ///< empty without contact
+  double mesh_seconds = 0, assemble_seconds = 0;
+
+  double time(int n) const { return asked.time.end * n / asked.time.steps; }
+  std::size_t n_unknowns() const { return body.n_nodes() * body::Fields<dim>::count; }
+
+ private:
+  struct Built;  // material and mesh, made before the members that need them
+  explicit Model(const casefile::Case &asked_for, Built built);
+};
+
+/// The constants of a case in the axes of its body. Throws CaseError.
+material::Constants body_material(const casefile::Case &asked);
+
+}  // namespace tourmaline::solve

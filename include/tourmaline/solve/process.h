@@ -1,0 +1,18 @@
+#pragma once
+
+namespace tourmaline::solve {
+
+/// MPI for as long as it lives, and the number of threads of OpenBLAS and deal.II. MUMPS needs MPI even on
+/// one rank. Throws CaseError under `mpirun` with several ranks, which are not available yet.
+class Process {
+ public:
+  explicit Process(int threads);
+  ~Process();
+  Process(const Process &) = delete;
+  Process &operator=(const Process &) = delete;
+
+ private:
+  bool owns_mpi_ = false;
+};
+
+}  // namespace tourmaline::solve

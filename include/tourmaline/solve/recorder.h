@@ -1,0 +1,42 @@
+#pragma once
+
+#include <map>
+
+#include "tourmaline/output/result_folder.h"
+#include "tourmaline/solve/model.h"
+#include "tourmaline/solve/route.h"
+
+namespace tourmaline::solve {
+
+/// Turns states into what the files hold: fields every so many steps, contact rows and a line of history
+/// every step, nodes and extremes at the end.
+template <int dim>
+class Recorder {
+ public:
+  Recorder(const Model<dim> &model, output::ResultFolder &folder);
+
+  void initial(std::span<const double> state);
+  /// Writes step n; returns its line of history.
+  output::HistoryRow step(int n, const StepOutcome &outcome, std::span<const double> before,
+                          std::span<const double> state);
+  /// The last state's nodes, and the tables into place.
+  void finish(std::span<const double> state);
+
+  std::vector<output::Extreme> extremes(std::span<const double> state) const;
+  double seconds() const { return seconds_; }
+
+ private:
+  output::PointFields point_fields(std::span<const double> state) const;
+  std::vector<output::ContactRow> contact_rows(int n, const StepOutcome &outcome,
+                                               std::span<const double> before,
+                                               std::span<const double> state) const;
+  void put_fields(int n, std::span<const double> state);
+  double heat_coefficient(const output::Vector &point) const;
+
+  const Model<dim> &model_;
+  output::ResultFolder &folder_;
+  output::Grid grid_;
+  double seconds_ = 0, friction_work_ = 0;
+};
+
+}  // namespace tourmaline::solve

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <span>
+#include <vector>
+
+#include "tourmaline/output/records.h"
+
+namespace tourmaline::solve {
+
+/// What a step did at the contact, besides the new state.
+struct StepOutcome {
+  int newton_iterations = 0;
+  double residual = 0;
+  /// nodal contact forces q on the body, dim entries for each interface node [N]
+  Eigen::VectorXd contact_forces;
+  std::vector<output::ContactStatus> status;  ///< by interface node
+};
+
+/// What a route did to get ready, and how well it solves.
+struct RouteReport {
+  int factorisations = 0;
+  double analyse_seconds = 0, factorise_seconds = 0, condense_seconds = 0;
+  std::size_t unknowns = 0, electric_and_thermal_unknowns = 0;
+  long long factor_entries = 0;
+  int negative_pivots = -1;  ///< -1: not known to this route
+  double backward_error = 0;  ///< largest over the steps in which it was measured
+};
+
+/// A way to solve the nonlinear system of one step, (31)-(35).
+class Route {
+ public:
+  virtual ~Route() = default;
+
+  /// From the state of the last step and the right-hand side of this one (loads and history) to the new
+  /// state at `time`. `state` holds the prescribed values already and is filled; `before` is the state of
+  /// the last step. Throws SolveError when the iteration does not converge.
+  virtual StepOutcome advance(double time, std::span<const double> right_side,
+                              std::span<const double> before, std::span<double> state) = 0;
+
+  virtual RouteReport report() const = 0;
+};
+
+}  // namespace tourmaline::solve

@@ -1,0 +1,54 @@
+#include "tourmaline/body/conditions.h"
+
+#include <map>
+
+namespace tourmaline::body {
+
+template <int dim>
+std::vector<Prescribed> prescribed_unknowns(
+    const Discretisation<dim> &body, const std::vector<casefile::BoundaryCase> &boundaries) {
+  std::map<std::size_t, Prescribed> by_unknown;
+  const auto prescribe = [&](Node node, int component, const casefile::Formula &value) {
+    const std::size_t i = unknown<dim>(node, component);
+    by_unknown.try_emplace(i, Prescribed{i, body.points()[node], value});
+  };
+  for (const casefile::BoundaryCase &boundary : boundaries)
+    for (const Node node : body.nodes_on(boundary.on)) {
+      for (int c = 0; boundary.displacement && c < dim; ++c)
+        if (const auto &component = (*boundary.displacement)[c])
+          prescribe(node, c, *component);
+      if (boundary.potential)
+        prescribe(node, Fields<dim>::potential, *boundary.potential);
+      if (boundary.temperature)
+        prescribe(node, Fields<dim>::temperature, *boundary.temperature);
+    }
+  std::vector<Prescribed> all;
+  for (auto &[i, prescribed] : by_unknown)
+    all.push_back(std::move(prescribed));
+  return all;
+}
+
+template <int dim>
+std::vector<double> initial_state(const Discretisation<dim> &body,
+                                  const casefile::InitialCase &initial) {
+  std::vector<double> state(body.n_nodes() * Fields<dim>::count, 0.);
+  for (Node node = 0; node < body.n_nodes(); ++node) {
+    const output::Vector &point = body.points()[node];
+    for (int c = 0; c < dim && !initial.displacement.empty(); ++c)
+      state[unknown<dim>(node, c)] = initial.displacement[c].value(point, 0);
+    state[unknown<dim>(node, Fields<dim>::potential)] = initial.potential.value(point, 0);
+    state[unknown<dim>(node, Fields<dim>::temperature)] = initial.temperature.value(point, 0);
+  }
+  return state;
+}
+
+template std::vector<Prescribed> prescribed_unknowns<2>(
+    const Discretisation<2> &, const std::vector<casefile::BoundaryCase> &);
+template std::vector<Prescribed> prescribed_unknowns<3>(
+    const Discretisation<3> &, const std::vector<casefile::BoundaryCase> &);
+template std::vector<double> initial_state<2>(const Discretisation<2> &,
+                                              const casefile::InitialCase &);
+template std::vector<double> initial_state<3>(const Discretisation<3> &,
+                                              const casefile::InitialCase &);
+
+}  // namespace tourmaline::body

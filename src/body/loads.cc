@@ -1,0 +1,119 @@
+#include "tourmaline/body/loads.h"
+
+namespace tourmaline::body {
+
+Load::Load(casefile::Formula density, double factor, int stride, int component)
+    : density_(std::move(density)), factor_(factor), stride_(stride), component_(component) {}
+
+void Load::add(Share share) {
+  if (density_.depends_on_place() && density_.depends_on_time()) {
+    shares_.push_back(std::move(share));
+    return;
+  }
+  // A density without t is integrated here and now, one without place up to its value in time.
+  const double density = density_.depends_on_time() ? 1 : density_.value(share.point, 0);
+  for (std::size_t a = 0; a < share.nodes.size(); ++a)
+    if (share.weights[a] != 0 && density != 0) {
+      if (uniform_.size() <= share.nodes[a])
+        uniform_.resize(share.nodes[a] + std::size_t{1}, 0.);
+      uniform_[share.nodes[a]] += factor_ * density * share.weights[a];
+    }
+}
+
+void Load::integrate(double t, std::vector<double> &right_side) const {
+  const double density =
+      density_.depends_on_time() && !density_.depends_on_place() ? density_.value({}, t) : 1;
+  for (std::size_t node = 0; node < uniform_.size(); ++node)
+    right_side[node * stride_ + component_] += density * uniform_[node];
+  for (const Share &share : shares_)
+    add_to(right_side, density_.value(share.point, t), share);
+}
+
+void Load::add_to(std::vector<double> &right_side, double density, const Share &share) const {
+  for (std::size_t a = 0; a < share.nodes.size(); ++a)
+    right_side[std::size_t{share.nodes[a]} * stride_ + component_] +=
+        factor_ * density * share.weights[a];
+}
+
+namespace {
+
+// Shares of cells or facets for a density; `weight` scales each point (1, or k_c there).
+template <int dim>
+void add_shares(const Quadrature<dim> &quadrature, const casefile::Formula &weight, Load &load) {
+  for (std::size_t q = 0; q < quadrature.jxw.size(); ++q) {
+    const double scale = quadrature.jxw[q] * weight.value(quadrature.points[q], 0);
+    Load::Share share{quadrature.points[q], quadrature.nodes, {}};
+    for (std::size_t a = 0; a < quadrature.nodes.size(); ++a)
+      share.weights.push_back(scale * quadrature.value(q, a));
+    load.add(std::move(share));
+  }
+}
+
+}  // namespace
+
+template <int dim>
+Loads<dim>::Loads(const Discretisation<dim> &body, const casefile::Case &asked, double step,
+                  double reference_temperature)
+    : heat_factor_(-step / reference_temperature) {
+  add_volume_loads(body, asked.load);
+  for (const casefile::BoundaryCase &boundary : asked.boundaries)
+    add_surface_loads(body, boundary);
+  if (asked.contact && asked.contact->heat.law == "exchange")
+    add_foundation_heat(body, *asked.contact);
+}
+
+template <int dim>
+void Loads<dim>::add_volume_loads(const Discretisation<dim> &body,
+                                  const casefile::LoadCase &load) {
+  const auto over_cells = [&](const casefile::Formula &density, double factor, int component) {
+    if (density.is_zero())
+      return;
+    Load &added = loads_.emplace_back(density, factor, Fields<dim>::count, component);
+    body.for_each_cell([&](const Quadrature<dim> &cell) { add_shares(cell, 1., added); });
+  };
+  for (std::size_t c = 0; c < load.force.size(); ++c)
+    over_cells(load.force[c], 1, static_cast<int>(c));
+  over_cells(load.charge, -1, Fields<dim>::potential);
+  over_cells(load.heat, heat_factor_, Fields<dim>::temperature);
+}
+
+template <int dim>
+void Loads<dim>::add_surface_loads(const Discretisation<dim> &body,
+                                   const casefile::BoundaryCase &boundary) {
+  const auto over_facets = [&](const casefile::Formula &density, double factor, int component) {
+    if (density.is_zero())
+      return;
+    Load &added = loads_.emplace_back(density, factor, Fields<dim>::count, component);
+    body.for_each_facet(boundary.on,
+                        [&](const Quadrature<dim> &facet) { add_shares(facet, 1., added); });
+  };
+  for (int c = 0; boundary.traction && c < dim; ++c)
+    over_facets((*boundary.traction)[c], 1, c);
+  if (boundary.surface_charge)
+    over_facets(*boundary.surface_charge, 1, Fields<dim>::potential);
+  if (boundary.heat_flux)  // leaves the body, so it takes from the heat rows
+    over_facets(*boundary.heat_flux, -heat_factor_, Fields<dim>::temperature);
+}
+
+template <int dim>
+void Loads<dim>::add_foundation_heat(const Discretisation<dim> &body,
+                                     const casefile::ContactCase &contact) {
+  if (contact.heat.foundation_temperature.is_zero())
+    return;
+  Load &added = loads_.emplace_back(contact.heat.foundation_temperature, heat_factor_,
+                                    Fields<dim>::count, Fields<dim>::temperature);
+  body.for_each_facet(contact.on, [&](const Quadrature<dim> &facet) {
+    add_shares(facet, contact.heat.coefficient, added);
+  });
+}
+
+template <int dim>
+void Loads<dim>::integrate(double t, std::vector<double> &right_side) const {
+  for (const Load &load : loads_)
+    load.integrate(t, right_side);
+}
+
+template class Loads<2>;
+template class Loads<3>;
+
+}  // namespace tourmaline::body

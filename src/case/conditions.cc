@@ -1,0 +1,104 @@
+#include "tourmaline/case/conditions.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <utility>
+
+#include "tourmaline/case/toml_text.h"
+#include "tourmaline/error.h"
+
+namespace tourmaline::casefile {
+
+namespace {
+
+/// What has been prescribed so far: boundary and field -> the formula that prescribes it.
+class Prescribed {
+ public:
+  void add(const std::string &boundary, const std::string &field, const Formula &formula) {
+    const auto [entry, is_new] = claims_.try_emplace({boundary, field}, formula);
+    if (!is_new)
+      throw CaseError(
+          fmt::format("{}: \"{}\" has already a condition on the {}, {}; one is possible",
+                      stated(formula), boundary, field, stated(entry->second)));
+  }
+
+  const Formula *find(const std::string &boundary, const std::string &field) const {
+    const auto entry = claims_.find({boundary, field});
+    return entry == claims_.end() ? nullptr : &entry->second;
+  }
+
+  // "case.toml:12:13 [boundary[0]] potential = 0"
+  static std::string stated(Formula formula) {
+    return fmt::format("{} = {}", formula.where(), toml_text(Value(&formula)));
+  }
+
+ private:
+  std::map<std::pair<std::string, std::string>, Formula> claims_;
+};
+
+std::string component(int axis) {
+  return fmt::format("{} component of displacement or traction", "xyz"[axis]);
+}
+
+const std::string electric = "potential or surface charge";
+const std::string thermal = "temperature or heat flow";
+const std::string whole_traction = "traction";
+
+void add_mechanics(Prescribed &prescribed, const BoundaryCase &boundary, const std::string &name) {
+  if (boundary.displacement)
+    for (std::size_t i = 0; i < boundary.displacement->size(); ++i)
+      if (const auto &formula = (*boundary.displacement)[i])
+        prescribed.add(name, component(static_cast<int>(i)), *formula);
+  if (!boundary.traction)
+    return;
+  prescribed.add(name, whole_traction, boundary.traction->front());
+  for (std::size_t i = 0; i < boundary.traction->size(); ++i)
+    if (const Formula &formula = (*boundary.traction)[i]; !formula.is_zero())
+      prescribed.add(name, component(static_cast<int>(i)), formula);
+}
+
+void add(Prescribed &prescribed, const BoundaryCase &boundary, const std::string &name) {
+  add_mechanics(prescribed, boundary, name);
+  for (const auto *formula : {&boundary.potential, &boundary.surface_charge})
+    if (*formula)
+      prescribed.add(name, electric, **formula);
+  for (const auto *formula : {&boundary.temperature, &boundary.heat_flux})
+    if (*formula)
+      prescribed.add(name, thermal, **formula);
+}
+
+[[noreturn]] void fail(const ContactCase &contact, const std::string &boundary,
+                       const Formula &formula, const std::string &reason) {
+  throw CaseError(fmt::format("{} on = \"{}\": {}, by {}", contact.where, boundary, reason,
+                              Prescribed::stated(formula)));
+}
+
+void check_contact(const ContactCase &contact, const std::string &boundary, int dimension,
+                   const Prescribed &prescribed) {
+  if (const Formula *formula = prescribed.find(boundary, whole_traction))
+    fail(contact, boundary, *formula,
+         "the traction on a contact boundary is the law's, but is given as well");
+  for (int axis = 0; axis < dimension; ++axis)
+    if (const Formula *formula = prescribed.find(boundary, component(axis)))
+      fail(contact, boundary, *formula,
+           "contact on a clamped boundary; its displacement is prescribed");
+  if (const Formula *formula = prescribed.find(boundary, thermal);
+      formula && contact.heat.law == "exchange")
+    fail(contact, boundary, *formula,
+         "heat.law = \"exchange\" says what heat flows there, but it is prescribed as well");
+}
+
+}  // namespace
+
+void check_conditions(const Case &asked) {
+  Prescribed prescribed;
+  for (const BoundaryCase &boundary : asked.boundaries)
+    for (const std::string &name : boundary.on)
+      add(prescribed, boundary, name);
+  if (asked.contact)
+    for (const std::string &name : asked.contact->on)
+      check_contact(*asked.contact, name, asked.dimension, prescribed);
+}
+
+}  // namespace tourmaline::casefile

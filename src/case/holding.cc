@@ -1,0 +1,173 @@
+#include "tourmaline/case/holding.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+
+#include "tourmaline/case/sides.h"
+#include "tourmaline/error.h"
+
+namespace tourmaline::casefile {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+
+// Of the supports' rows, whose entries are of order one.
+constexpr double tolerance = 1e-9;
+
+Eigen::Index rank(const MatrixXd &matrix) {
+  if (matrix.rows() == 0)
+    return 0;
+  Eigen::JacobiSVD<MatrixXd> svd(matrix);
+  return (svd.singularValues().array() > tolerance).count();
+}
+
+/// The rows that a rigid motion v(p) = T + W x (p - c)/l must annihilate: d.T + ((p - c)/l x d).W =
+/// 0 for a support at p in the direction d.
+struct Constraints {
+  MatrixXd translation, rotation;
+};
+
+Vector3d vector(const std::array<double, 3> &a, int dimension) {
+  return {a[0], a[1], dimension == 3 ? a[2] : 0.0};
+}
+
+Constraints constraints_of(int dimension, const std::vector<Support> &supports) {
+  Vector3d centre = Vector3d::Zero();
+  for (const Support &support : supports)
+    centre += vector(support.point, dimension) / static_cast<double>(supports.size());
+  double length = 0;
+  for (const Support &support : supports)
+    length = std::max(length, (vector(support.point, dimension) - centre).norm());
+  if (length == 0)
+    length = 1;
+  const auto rows = static_cast<Eigen::Index>(supports.size());
+  Constraints all{MatrixXd(rows, dimension), MatrixXd(rows, dimension == 2 ? 1 : 3)};
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const Support &support = supports[static_cast<std::size_t>(i)];
+    const Vector3d arm = (vector(support.point, dimension) - centre) / length;
+    const Vector3d direction = vector(support.direction, dimension);
+    const Vector3d moment = arm.cross(direction);
+    all.translation.row(i) = direction.head(dimension).transpose();
+    all.rotation.row(i) = moment.tail(all.rotation.cols()).transpose();
+  }
+  return all;
+}
+
+bool can_rotate_about(const Constraints &constraints, Eigen::Index axis) {
+  const Eigen::VectorXd turning = constraints.rotation.col(axis);
+  if (turning.size() == 0)
+    return true;
+  // Some translation must undo what the rotation does at the supports.
+  const Eigen::VectorXd translation =
+      constraints.translation.completeOrthogonalDecomposition().solve(-turning);
+  return (constraints.translation * translation + turning).norm() < tolerance;
+}
+
+void add_translations(const Constraints &constraints, std::vector<std::string> &free) {
+  const Eigen::Index dimension = constraints.translation.cols();
+  Eigen::Index missing = dimension - rank(constraints.translation);
+  for (Eigen::Index axis = 0; axis < dimension; ++axis)
+    if (constraints.translation.col(axis).norm() < tolerance) {
+      free.push_back(fmt::format("a translation along {}", "xyz"[axis]));
+      --missing;
+    }
+  if (missing > 0)
+    free.emplace_back("a translation in an oblique direction");
+}
+
+void add_rotations(const Constraints &constraints, std::vector<std::string> &free) {
+  MatrixXd all(constraints.translation.rows(),
+               constraints.translation.cols() + constraints.rotation.cols());
+  all << constraints.translation, constraints.rotation;
+  const Eigen::Index axes = constraints.rotation.cols();
+  Eigen::Index missing = axes - (rank(all) - rank(constraints.translation));
+  for (Eigen::Index axis = 0; axis < axes; ++axis)
+    if (can_rotate_about(constraints, axis)) {
+      free.push_back(axes == 1
+                         ? "a rotation in the plane"
+                         : fmt::format("a rotation about an axis parallel to {}", "xyz"[axis]));
+      --missing;
+    }
+  if (missing > 0)
+    free.emplace_back("a rotation about an oblique axis");
+}
+
+std::vector<std::array<double, 3>> corners(const Box &box, const Side &side) {
+  std::vector<std::array<double, 3>> all;
+  const int dimension = static_cast<int>(box.min.size());
+  for (int corner = 0; corner < 1 << dimension; ++corner) {
+    std::array<double, 3> point{};
+    for (int axis = 0; axis < dimension; ++axis)
+      point[axis] = (corner >> axis & 1) != 0 ? box.max[axis] : box.min[axis];
+    if ((corner >> side.axis & 1) == (side.greatest ? 1 : 0))
+      all.push_back(point);
+  }
+  return all;
+}
+
+// A rigid motion is affine: it vanishes on a side when it does at the side's corners.
+void hold(const Box &box, const std::string &name, int component, std::vector<Support> &supports) {
+  std::array<double, 3> direction{};
+  direction[component] = 1;
+  for (const Side &side : sides(static_cast<int>(box.min.size())))
+    if (side.name == name)
+      for (const std::array<double, 3> &point : corners(box, side))
+        supports.push_back({point, direction});
+}
+
+std::vector<Support> supports_of(const Case &asked) {
+  std::vector<Support> supports;
+  for (const BoundaryCase &boundary : asked.boundaries)
+    if (boundary.displacement)
+      for (const std::string &name : boundary.on)
+        for (int i = 0; i < asked.dimension; ++i)
+          if ((*boundary.displacement)[i])
+            hold(*asked.mesh.box, name, i, supports);
+  if (asked.contact && asked.contact->normal == "bilateral")
+    for (const Side &side : sides(asked.dimension))
+      if (std::find(asked.contact->on.begin(), asked.contact->on.end(), side.name) !=
+          asked.contact->on.end())
+        hold(*asked.mesh.box, side.name, side.axis, supports);
+  return supports;
+}
+
+std::string listed(const std::vector<std::string> &texts) {
+  std::string all;
+  for (std::size_t i = 0; i < texts.size(); ++i)
+    all += (i == 0 ? "" : i + 1 == texts.size() ? " and " : ", ") + texts[i];
+  return all;
+}
+
+}  // namespace
+
+std::vector<std::string> free_motions(int dimension, const std::vector<Support> &supports) {
+  const Constraints constraints = constraints_of(dimension, supports);
+  std::vector<std::string> free;
+  add_translations(constraints, free);
+  add_rotations(constraints, free);
+  return free;
+}
+
+void check_holding(const Case &asked) {
+  const bool grounded = std::any_of(asked.boundaries.begin(), asked.boundaries.end(),
+                                    [](const auto &boundary) { return boundary.potential; });
+  if (!grounded)
+    throw CaseError(asked.source +
+                    " [[boundary]]: the electric potential floats, as no boundary "
+                    "prescribes it; give `potential` on at least one");
+  if (!asked.mesh.box)
+    return;
+  const std::vector<std::string> free = free_motions(asked.dimension, supports_of(asked));
+  if (!free.empty())
+    throw CaseError(fmt::format(
+        "{} [[boundary]]: nothing holds the body against {}; prescribe further components of "
+        "`displacement`{}",
+        asked.source, listed(free),
+        asked.contact ? " (bilateral contact holds only the normal one)" : ""));
+}
+
+}  // namespace tourmaline::casefile

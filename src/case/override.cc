@@ -1,0 +1,164 @@
+#include "override.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "tourmaline/case/toml_text.h"
+#include "tourmaline/error.h"
+
+namespace tourmaline::casefile {
+
+namespace {
+
+struct Override {
+  std::string place;  ///< the override itself, which begins every error text
+  std::vector<std::string> path;
+  std::string value;
+};
+
+[[noreturn]] void fail(const Override &asked, const std::string &reason) {
+  throw CaseError(asked.place + ": " + reason);
+}
+
+// "boundary[1].potential" -> boundary, 1, potential
+std::vector<std::string> path_of(std::string_view text) {
+  std::vector<std::string> path(1);
+  for (const char c : text) {
+    if (c == '.' || c == '[')
+      path.emplace_back();
+    else if (c != ']')
+      path.back() += c;
+  }
+  return path;
+}
+
+std::string trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos)
+    return "";
+  return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
+}
+
+Override split(const std::string &assignment) {
+  Override asked{.place = "--set " + shortened(assignment), .path = {}, .value = {}};
+  const auto equals = assignment.find('=');
+  if (equals == std::string::npos)
+    fail(asked, "has no \"=\"; write key.path=value");
+  asked.path = path_of(trimmed(std::string_view(assignment).substr(0, equals)));
+  asked.value = trimmed(std::string_view(assignment).substr(equals + 1));
+  if (std::find(asked.path.begin(), asked.path.end(), "") != asked.path.end())
+    fail(asked, "the key's path has an empty part; write key.path=value");
+  if (asked.value.empty())
+    fail(asked, "has no value; write key.path=value");
+  return asked;
+}
+
+// The value as TOML reads it, in a table of its own under the name "value", where it remembers its
+// place. Nothing when it is not TOML.
+std::optional<toml::table> parsed(const std::string &value, const std::string &place,
+                                  std::string *reason = nullptr) {
+  try {
+    toml::table table = toml::parse("value = " + value, std::string_view(place));
+    // A line break inside the value must not smuggle in further keys.
+    if (table.size() == 1)
+      return table;
+    if (reason)
+      *reason = "there are several";
+  } catch (const toml::parse_error &error) {
+    if (reason)
+      *reason = error.description();
+  }
+  return std::nullopt;
+}
+
+bool is_bare(const std::string &value) {
+  return std::string_view("[{\"'").find(value.front()) == std::string_view::npos;
+}
+
+toml::table value_of(const Override &asked) {
+  std::string reason;
+  if (auto table = parsed(asked.value, asked.place, &reason))
+    return std::move(*table);
+  if (is_bare(asked.value) && asked.value.find('\n') == std::string::npos)
+    if (auto table = parsed("'''" + asked.value + "'''", asked.place))
+      return std::move(*table);
+  fail(asked, "the value is not one of TOML's: " + reason);
+}
+
+// An empty table or array that remembers the override as its place.
+toml::table empty(const Override &asked, bool array) {
+  return *parsed(array ? "[]" : "{}", asked.place);
+}
+
+bool is_index(const std::string &part) {
+  return part.size() < 6 && std::all_of(part.begin(), part.end(),
+                                        [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+std::string joined(const std::vector<std::string> &path, std::size_t parts) {
+  std::string text;
+  for (std::size_t i = 0; i < parts; ++i)
+    text += (i == 0 ? "" : ".") + path[i];
+  return text;
+}
+
+std::size_t index_in(const toml::array &array, const Override &asked, std::size_t part) {
+  const std::string name = joined(asked.path, part);
+  if (!is_index(asked.path[part]))
+    fail(asked, fmt::format("{} is a list; its entries are {}[0], {}[1], ...", name, name, name));
+  const auto index = static_cast<std::size_t>(std::stoi(asked.path[part]));
+  if (index > array.size())
+    fail(asked, fmt::format("{} has {} entries, counted from 0; {}[{}] would be the next one", name,
+                            array.size(), name, array.size()));
+  return index;
+}
+
+// The place for the part of that number inside `parent`: what is there, or nullptr.
+toml::node *child(toml::node &parent, const Override &asked, std::size_t part) {
+  if (toml::table *table = parent.as_table())
+    return table->get(asked.path[part]);
+  if (toml::array *array = parent.as_array())
+    return array->get(index_in(*array, asked, part));
+  fail(asked, fmt::format("{} is a value, which has no key or entry \"{}\"",
+                          joined(asked.path, part), asked.path[part]));
+}
+
+void put(toml::node &parent, const Override &asked, std::size_t part, toml::node &&value) {
+  if (toml::table *table = parent.as_table()) {
+    const toml::source_region place = value.source();
+    table->erase(asked.path[part]);
+    table->insert(toml::key(asked.path[part], place), std::move(value));
+    return;
+  }
+  toml::array &array = *parent.as_array();
+  const std::size_t index = index_in(array, asked, part);
+  if (index < array.size())
+    array.erase(array.begin() + static_cast<std::ptrdiff_t>(index));
+  array.insert(array.begin() + static_cast<std::ptrdiff_t>(index), std::move(value));
+}
+
+}  // namespace
+
+void apply_override(toml::table &root, const std::string &assignment) {
+  const Override asked = split(assignment);
+  toml::table value = value_of(asked);
+  toml::node *parent = &root;
+  const std::size_t last = asked.path.size() - 1;
+  for (std::size_t part = 0; part < last; ++part) {
+    if (!child(*parent, asked, part)) {
+      toml::table made = empty(asked, is_index(asked.path[part + 1]));
+      put(*parent, asked, part, std::move(*made.get("value")));
+    }
+    parent = child(*parent, asked, part);
+  }
+  child(*parent, asked, last);  // complains about a path that goes through a value
+  put(*parent, asked, last, std::move(*value.get("value")));
+}
+
+}  // namespace tourmaline::casefile

@@ -1,0 +1,261 @@
+#include "tourmaline/case/reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <utility>
+
+#include "override.h"
+#include "tourmaline/case/conditions.h"
+#include "tourmaline/case/holding.h"
+#include "tourmaline/case/nearest.h"
+#include "tourmaline/case/schema.h"
+#include "tourmaline/case/toml_text.h"
+#include "tourmaline/error.h"
+#include "value.h"
+
+namespace tourmaline::casefile {
+
+namespace {
+
+/// The names of the keys and tables directly inside one table.
+class Names : public Visitor {
+ public:
+  std::vector<std::string> all;
+  std::vector<std::pair<std::string, std::string>> refused;
+
+  void key(const Key &key, Value) override { all.push_back(key.name); }
+  bool given(const Key &key, bool) override {
+    all.push_back(key.name);
+    return false;
+  }
+  void table(const Key &key, const Body &) override { all.push_back(key.name); }
+  int count(const Key &key, int) override {
+    all.push_back(key.name);
+    return 0;
+  }
+  void entry(const Key &, int, const Body &) override {}
+  void refuse(const std::string &name, const std::string &reason) override {
+    refused.emplace_back(name, reason);
+  }
+};
+
+/// The tables, by their paths, that have a key of a certain name.
+class TablesWith : public Visitor {
+ public:
+  explicit TablesWith(std::string name) : name_(std::move(name)) {}
+
+  std::vector<std::string> found;
+
+  void key(const Key &key, Value) override {
+    if (key.name == name_)
+      found.push_back(path_);
+  }
+  bool given(const Key &, bool) override { return true; }
+  void table(const Key &key, const Body &body) override {
+    const std::string outside = path_;
+    path_ += (path_.empty() ? "" : ".") + key.name;
+    body(*this);
+    path_ = outside;
+  }
+  int count(const Key &, int) override { return 1; }
+  void entry(const Key &key, int, const Body &body) override { table(key, body); }
+
+ private:
+  std::string name_, path_;
+};
+
+// A key that has strayed into another table.
+std::string found_elsewhere(const std::string &name) {
+  Case scratch;
+  TablesWith tables(name);
+  declare(tables, scratch);
+  const std::string words = fmt::format("{}", fmt::join(tables.found, "], ["));
+  return words.empty() ? "" : fmt::format("; there is one of that name in [{}]", words);
+}
+
+/// Reads one table of the case file.
+class Reader : public Visitor {
+ public:
+  Reader(const toml::table &table, std::string path) : table_(table), path_(std::move(path)) {}
+
+  /// Checks that every key of the table is declared, then reads those that are.
+  void read_all(const Body &body) {
+    Names names;
+    body(names);
+    for (const auto &[name, node] : table_)
+      check_known(name, node, names);
+    body(*this);
+  }
+
+  void key(const Key &key, Value value) override {
+    const toml::node *node = table_.get(key.name);
+    if (!key.used) {
+      if (node)
+        fail(item(*node, key), "is only used with " + key.used_with);
+      return;
+    }
+    if (node)
+      read(item(*node, key), value);
+    else if (key.required)
+      fail_missing(key);
+  }
+
+  bool given(const Key &key, bool) override {
+    const bool present = table_.contains(key.name);
+    if (!present && key.required)
+      fail_missing(key);
+    return present;
+  }
+
+  void table(const Key &key, const Body &body) override {
+    const toml::node *node = table_.get(key.name);
+    if (!node && key.required)
+      fail_missing(key);
+    if (!node)
+      return;
+    const toml::table *inner = node->as_table();
+    if (!inner)
+      fail(item(*node, key), "must be a table: [" + path_to(key.name) + "]");
+    Reader(*inner, path_to(key.name)).read_all(body);
+  }
+
+  int count(const Key &key, int) override {
+    const toml::node *node = table_.get(key.name);
+    if (!node)
+      return 0;
+    const toml::array *array = node->as_array();
+    const bool tables = array && std::all_of(array->begin(), array->end(),
+                                             [](const auto &entry) { return entry.is_table(); });
+    if (!tables)
+      fail(item(*node, key),
+           fmt::format("must be an array of tables; write [[{}]] above each entry",
+                       path_to(key.name)));
+    return static_cast<int>(array->size());
+  }
+
+  void entry(const Key &key, int index, const Body &body) override {
+    const toml::node *node =
+        table_.get_as<toml::array>(key.name)->get(static_cast<std::size_t>(index));
+    Reader(*node->as_table(), fmt::format("{}[{}]", path_to(key.name), index)).read_all(body);
+  }
+
+  void check(const std::string &name, const Complaint &complaint) override {
+    const std::string text = complaint();
+    if (text.empty())
+      return;
+    const toml::node *node = table_.get(name);
+    if (!node)
+      throw CaseError(where(table_.source(), name) + ": " + text);
+    fail(item(*node, {.name = name, .description = ""}), text);
+  }
+
+  void place(std::string &where_) override { where_ = where(table_.source(), ""); }
+
+ private:
+  std::string path_to(const std::string &name) const {
+    return path_.empty() ? name : path_ + "." + name;
+  }
+
+  // " [contact.friction] bound"; an empty name stands for the table itself.
+  std::string full_name(const std::string &name) const {
+    return (path_.empty() ? "" : " [" + path_ + "]") + (name.empty() ? "" : " " + name);
+  }
+
+  std::string where(const toml::source_region &source, const std::string &name) const {
+    return place_of(source) + full_name(name);
+  }
+
+  Item item(const toml::node &node, const Key &key) const {
+    return {node, key, full_name(key.name)};
+  }
+
+  [[noreturn]] void fail_missing(const Key &key) const {
+    const std::string unit = key.unit.empty() ? "" : " [" + key.unit + "]";
+    throw CaseError(fmt::format("{}: missing, but must be given: {}{}",
+                                where(table_.source(), key.name), key.description, unit));
+  }
+
+  void check_known(const toml::key &key, const toml::node &node, const Names &names) const {
+    const std::string name(key.str());
+    if (std::find(names.all.begin(), names.all.end(), name) != names.all.end())
+      return;
+    const std::string place = where(key.source(), shortened(name));
+    for (const auto &[refused, reason] : names.refused)
+      if (name == refused)
+        throw CaseError(place + " = " + quoted(node) + ": " + reason);
+    constexpr std::size_t most = 12;
+    std::string allowed;
+    if (names.all.size() <= most)
+      allowed = "; allowed: " + fmt::format("{}", fmt::join(names.all, ", "));
+    const std::string meant = did_you_mean(name, names.all);
+    throw CaseError(place + " = " + quoted(node) + ": unknown key" + allowed +
+                    (meant.empty() ? found_elsewhere(name) : meant));
+  }
+
+  const toml::table &table_;
+  std::string path_;  ///< of the table, with dots
+};
+
+toml::table parsed(const std::string &text, const std::string &name) {
+  if (text.find('\0') != std::string::npos)
+    throw CaseError(name + ": is not a text file");
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos)
+    throw CaseError(name + ": is empty; a case needs at least [mesh], [material] and [time]");
+  try {
+    return toml::parse(text, std::string_view(name));
+  } catch (const toml::parse_error &error) {
+    throw CaseError(fmt::format("{}: is not TOML: {}", place_of(error.source()),
+                                std::string(error.description())));
+  }
+}
+
+// No more field files than anybody wants to look through.
+int steps_between_files(int steps) {
+  constexpr int files = 50;
+  return (steps - 1) / files + 1;
+}
+
+std::string text_of_file(const std::filesystem::path &file) {
+  const std::string name = file.string();
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored))
+    throw CaseError(name + ": there is no such file");
+  if (std::filesystem::is_directory(file, ignored))
+    throw CaseError(name + ": is a folder; the case file inside it is needed");
+  std::ifstream in(file, std::ios::binary);
+  // Not a file's size, which a pipe does not have.
+  constexpr std::size_t most = 16 << 20;
+  std::string text(most + 1, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  if (!in.eof() && text.size() <= most)
+    throw CaseError(name + ": cannot be read");
+  if (text.size() > most)
+    throw CaseError(name + ": is larger than 16 MiB, which no case file is");
+  return text;
+}
+
+}  // namespace
+
+Case read_text(const std::string &text, const std::string &name,
+               const std::vector<std::string> &overrides) {
+  toml::table root = parsed(text, name);
+  for (const std::string &assignment : overrides)
+    apply_override(root, assignment);
+  Case asked;
+  asked.source = name;
+  Reader(root, "").read_all([&](Visitor &visitor) { declare(visitor, asked); });
+  if (asked.output.every == 0)
+    asked.output.every = steps_between_files(asked.time.steps);
+  check_conditions(asked);
+  check_holding(asked);
+  return asked;
+}
+
+Case read_file(const std::filesystem::path &file, const std::vector<std::string> &overrides) {
+  return read_text(text_of_file(file), file.string(), overrides);
+}
+
+}  // namespace tourmaline::casefile

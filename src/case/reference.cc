@@ -1,0 +1,145 @@
+#include "tourmaline/case/reference.h"
+
+#include <fmt/format.h>
+
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "tourmaline/case/schema.h"
+#include "tourmaline/case/toml_text.h"
+
+namespace tourmaline::casefile {
+
+namespace {
+
+constexpr std::string_view introduction = R"(# The case file
+
+A case file says what is simulated. It is [TOML](https://toml.io); `cases/` holds examples. This page is
+printed by `tourmaline reference` from the declarations that the program reads with
+(`src/case/schema.cc`).
+
+All values are SI. Temperatures are differences to the reference temperature. Unknown keys, wrong types
+and impossible values are errors that say the place and what is allowed. `tourmaline check CASE.toml`
+prints the complete case with all defaults filled in; that text is itself a case file.
+
+`--set key.path=value` replaces any key from the command line, the value as TOML; what is not TOML is a
+text: `--set time.steps=40 --set mesh.box.cells=[32,32] --set solver.method=monolithic`. Entries of lists
+are counted from 0: `--set "boundary[2].traction=[0,'-1*t']"`.
+
+## Formulas
+
+Where the type below is *formula*, a number or a text such as `"-0.5*t"` stands. Operators are
+`+ - * / ^`, the comparisons `== != < > <= >=`, `&&`, `||` and `c ? a : b`.
+
+)";
+
+std::string code_list(const std::vector<std::string> &names) {
+  std::string all;
+  for (const std::string &name : names)
+    all += (all.empty() ? "`" : ", `") + name + "`";
+  return all;
+}
+
+std::string formulas() {
+  const FormulaNames &names = formula_names();
+  return fmt::format(
+      "- variables: {} (place [m] and time [s])\n- constants: {}\n- functions: {}\n\n"
+      "`if(c, a, b)` is `c ? a : b`, `log` and `ln` are the natural logarithm, `mod(a, b)` has the "
+      "sign of b.\nA formula whose value is infinite or not a number ends the run with an error.\n",
+      code_list(names.variables), code_list(names.constants), code_list(names.functions));
+}
+
+struct TypeName {
+  const Key &key;
+
+  std::string operator()(const bool *) const { return "true or false"; }
+  std::string operator()(const int *) const { return "integer"; }
+  std::string operator()(const double *) const { return "number"; }
+  std::string operator()(const std::string *) const { return "text"; }
+  std::string operator()(const std::vector<std::string> *) const { return "text or list of texts"; }
+  std::string operator()(const std::vector<int> *) const { return "list of integers"; }
+  std::string operator()(const std::vector<double> *) const { return "list of numbers"; }
+  std::string operator()(const Matrix *) const {
+    return fmt::format("{} rows of {} numbers", key.rows, key.length.counts.front());
+  }
+  std::string operator()(const Formula *) const { return "formula"; }
+  std::string operator()(const FormulaVector *) const { return "list of formulas"; }
+  std::string operator()(const Displacement *) const { return "list of formulas or \"free\""; }
+};
+
+/// A row for each key, then the tables inside.
+class Page : public Visitor {
+ public:
+  explicit Page(std::string path) : path_(std::move(path)) {}
+
+  std::string text() const {
+    constexpr std::string_view head =
+        "| key | type | unit | default | meaning |\n"
+        "| --- | --- | --- | --- | --- |\n";
+    return (rows_.empty() ? "" : std::string(head) + rows_) + tables_;
+  }
+
+  void key(const Key &key, Value value) override {
+    rows_ +=
+        fmt::format("| `{}` | {} | {} | {} | {} |\n", key.name, std::visit(TypeName{key}, value),
+                    key.unit, default_of(key, value), meaning(key, value));
+  }
+
+  bool given(const Key &, bool) override { return true; }
+
+  void table(const Key &key, const Body &body) override { add(key, body, "[", "]"); }
+
+  int count(const Key &, int) override { return 1; }
+
+  void entry(const Key &key, int, const Body &body) override { add(key, body, "[[", "]]"); }
+
+ private:
+  static std::string default_of(const Key &key, Value value) {
+    if (key.required)
+      return "required";
+    if (!key.default_words.empty())
+      return key.default_words;
+    return key.optional ? "" : "`" + toml_text(value) + "`";
+  }
+
+  static std::string meaning(const Key &key, Value value) {
+    std::string text = key.description;
+    if (!key.choices_words.empty())
+      text += "; one of " + key.choices_words;
+    else if (!key.choices.empty())
+      text += "; one of " + code_list(key.choices);
+    if (!key.length.words.empty() && !std::holds_alternative<Matrix *>(value))
+      text += "; entries: " + key.length.words;
+    if (const std::string range = key.range.words(); !range.empty())
+      text += "; " + range;
+    if (key.constant_in_time)
+      text += "; must not depend on t";
+    if (!key.used_with.empty())
+      text += "; only with `" + key.used_with + "`";
+    return text;
+  }
+
+  void add(const Key &key, const Body &body, const char *open, const char *close) {
+    const std::string path = path_.empty() ? key.name : path_ + "." + key.name;
+    Page inner(path);
+    body(inner);
+    const char *level = path_.empty() ? "##" : "###";
+    const char *required = key.required ? " Required." : "";
+    tables_ += fmt::format("\n{} {}{}{}\n\n{}.{}\n\n{}", level, open, path, close, key.description,
+                           required, inner.text());
+  }
+
+  std::string path_, rows_, tables_;
+};
+
+}  // namespace
+
+std::string reference_page() {
+  Case defaults;
+  Page page("");
+  declare(page, defaults);
+  return std::string(introduction) + formulas() + "\n## Keys outside of tables\n\n" + page.text();
+}
+
+}  // namespace tourmaline::casefile

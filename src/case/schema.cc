@@ -1,0 +1,392 @@
+#include "tourmaline/case/schema.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tourmaline/case/sides.h"
+#include "tourmaline/error.h"
+
+namespace tourmaline::casefile {
+
+bool Range::contains(double number) const {
+  return std::isfinite(number) && (low_allowed ? number >= low : number > low) &&
+         (high_allowed ? number <= high : number < high);
+}
+
+std::string Range::words() const {
+  const std::string lower = fmt::format("{} {}", low_allowed ? ">=" : ">", low);
+  const std::string upper = fmt::format("{} {}", high_allowed ? "<=" : "<", high);
+  if (std::isfinite(low) && std::isfinite(high))
+    return lower + " and " + upper;
+  return std::isfinite(low) ? lower : std::isfinite(high) ? upper : "";
+}
+
+Range positive() {
+  return {.low = 0, .low_allowed = false};
+}
+Range not_negative() {
+  return {.low = 0};
+}
+Range at_least(double low) {
+  return {.low = low};
+}
+Range from_to(double low, double high) {
+  return {.low = low, .high = high};
+}
+
+Length one_each_axis(int dimension) {
+  return {{dimension},
+          "one for each axis",
+          fmt::format("mesh.box.cell makes the case {}-dimensional", dimension)};
+}
+
+int dimension_of(CellShape shape) {
+  return shape == CellShape::triangle || shape == CellShape::quadrilateral ? 2 : 3;
+}
+
+const char *name_of(CellShape shape) {
+  constexpr const char *names[] = {"triangle", "quadrilateral", "tetrahedron", "hexahedron"};
+  return names[static_cast<int>(shape)];
+}
+
+CellShape shape_named(const std::string &name) {
+  for (const CellShape shape : {CellShape::triangle, CellShape::quadrilateral,
+                                CellShape::tetrahedron, CellShape::hexahedron})
+    if (name == name_of(shape))
+      return shape;
+  throw CaseError("there is no cell shape \"" + name + "\"");
+}
+
+namespace {
+
+std::string corners_complaint(const Box &box) {
+  for (std::size_t i = 0; i < box.max.size(); ++i) {
+    if (!(box.max[i] > box.min[i]))
+      return fmt::format("entry {} must be greater than that of min, which is {}", i, box.min[i]);
+    // Below this the corners of a cell are the same numbers.
+    const double size = (box.max[i] - box.min[i]) / box.cells[i];
+    const double far = std::max(std::abs(box.min[i]), std::abs(box.max[i]));
+    if (!std::isfinite(size) || size < 1e-10 * far)
+      return fmt::format(
+          "entry {} and that of min, {}, make cells of {} m, which double precision "
+          "cannot tell apart",
+          i, box.min[i], size);
+  }
+  return "";
+}
+
+std::string cells_complaint(const Box &box, int degree) {
+  double unknowns = static_cast<double>(box.cells.size()) + 2;
+  for (const int cells : box.cells)
+    unknowns *= static_cast<double>(degree) * cells + 1;
+  if (unknowns < std::numeric_limits<int>::max())
+    return "";
+  return fmt::format("makes {:.3g} unknowns; at most {} are possible", unknowns,
+                     std::numeric_limits<int>::max());
+}
+
+void declare(Visitor &v, Box &box, int degree) {
+  std::string cell = name_of(box.cell);
+  v.key({.name = "cell",
+         .description = "shape of the cells, which says also whether the case is two- or "
+                        "three-dimensional; simplices come from splitting squares and cubes",
+         .choices = {"triangle", "quadrilateral", "tetrahedron", "hexahedron"}},
+        &cell);
+  box.cell = shape_named(cell);
+  const Length axes = one_each_axis(dimension_of(box.cell));
+  v.key({.name = "min",
+         .description = "corner where the coordinates are least",
+         .unit = "m",
+         .required = true,
+         .length = axes},
+        &box.min);
+  v.key({.name = "max",
+         .description = "corner where the coordinates are greatest",
+         .unit = "m",
+         .required = true,
+         .length = axes},
+        &box.max);
+  v.key({.name = "cells",
+         .description = "intervals along each axis",
+         .required = true,
+         .range = at_least(1),
+         .length = axes},
+        &box.cells);
+  v.check("max", [&] { return corners_complaint(box); });
+  v.check("cells", [&] { return cells_complaint(box, degree); });
+}
+
+void declare(Visitor &v, MeshCase &mesh) {
+  v.optional(
+      {.name = "file",
+       .description = "Gmsh file whose physical groups name the boundaries; not available in "
+                      "this version"},
+      mesh.file);
+  v.key({.name = "degree",
+         .description = "of the finite elements for all fields",
+         .range = from_to(1, 2)},
+        &mesh.degree);
+  const Key box = {.name = "box",
+                   .description =
+                       "A rectangle or cuboid whose sides are parallel to the axes; its "
+                       "sides are named left, right (least and greatest x), bottom, top "
+                       "(2D: y, 3D: z) and in 3D front, back (y)",
+                   .optional = true};
+  if (v.given(box, mesh.box.has_value())) {
+    if (!mesh.box)
+      mesh.box.emplace();
+    v.table(box, [&](Visitor &inner) { declare(inner, *mesh.box, mesh.degree); });
+  }
+  v.check("", [&] {
+    return mesh.box || mesh.file ? "" : "no mesh; give mesh.box = { min, max, cells, cell }";
+  });
+  v.check("file", [&] {
+    if (mesh.box && mesh.file)
+      return "both mesh.box and mesh.file are given; a case has one mesh";
+    return mesh.file ? "Gmsh files are not available yet; give mesh.box instead" : "";
+  });
+}
+
+void declare(Visitor &v, TimeCase &time) {
+  v.key({.name = "end",
+         .description = "time at which the simulation ends; it begins at 0",
+         .unit = "s",
+         .required = true,
+         .range = positive()},
+        &time.end);
+  v.key({.name = "steps",
+         .description = "number of equal time steps (backward Euler)",
+         .required = true,
+         .range = at_least(1)},
+        &time.steps);
+}
+
+Key on_sides(const std::string &description, int dimension) {
+  return {.name = "on",
+          .description = description,
+          .required = true,
+          .choices = side_names(dimension),
+          .choices_words = "left, right, bottom, top, in 3D also front, back"};
+}
+
+void declare_mechanics(Visitor &v, BoundaryCase &boundary, int dimension) {
+  v.optional({.name = "displacement",
+              .description = "prescribed displacement u; a component may be \"free\"",
+              .unit = "m",
+              .length = one_each_axis(dimension)},
+             boundary.displacement);
+  v.optional({.name = "traction",
+              .description =
+                  "force on the body, sigma nu = f_N (8), nu the outward normal; must be 0 where "
+                  "the displacement is prescribed",
+              .unit = "N/m^2",
+              .length = one_each_axis(dimension)},
+             boundary.traction);
+}
+
+void declare(Visitor &v, BoundaryCase &boundary, int dimension) {
+  v.place(boundary.where);
+  v.key(on_sides("boundary, or list of boundaries, that the conditions hold on", dimension),
+        &boundary.on);
+  declare_mechanics(v, boundary, dimension);
+  v.optional({.name = "potential", .description = "prescribed electric potential", .unit = "V"},
+             boundary.potential);
+  v.optional(
+      {.name = "surface_charge", .description = "free charge, D.nu = phi_b (11)", .unit = "C/m^2"},
+      boundary.surface_charge);
+  v.optional({.name = "temperature",
+              .description = "prescribed difference to the reference temperature",
+              .unit = "K"},
+             boundary.temperature);
+  v.optional({.name = "heat_flux",
+              .description = "heat flow q.nu; positive leaves the body",
+              .unit = "W/m^2"},
+             boundary.heat_flux);
+}
+
+void declare(Visitor &v, FrictionCase &friction) {
+  v.key({.name = "law",
+         .description = "none: the foundation is slippery; tresca: the tangential traction stays "
+                        "below a given bound, and slip is opposed by it (9)",
+         .choices = {"none", "tresca"},
+         .foreseen = {"coulomb", "slip_rate"}},
+        &friction.law);
+  v.key({.name = "bound",
+         .description = "friction bound S of Tresca's law (9)",
+         .unit = "N/m^2",
+         .required = true,
+         .range = not_negative(),
+         .used = friction.law == "tresca",
+         .used_with = "law = \"tresca\""},
+        &friction.bound);
+}
+
+void declare(Visitor &v, HeatExchangeCase &heat) {
+  v.key({.name = "law",
+         .description = "insulated: no heat crosses; exchange: q.nu = k_c (theta - theta_f) (13)",
+         .choices = {"insulated", "exchange"},
+         .foreseen = {"pressure_dependent", "frictional_heating"}},
+        &heat.law);
+  const bool exchange = heat.law == "exchange";
+  const std::string used_with = "law = \"exchange\"";
+  v.key({.name = "coefficient",
+         .description = "coefficient of heat exchange k_c (13)",
+         .unit = "W/(K m^2)",
+         .required = true,
+         .range = not_negative(),
+         .constant_in_time = true,
+         .used = exchange,
+         .used_with = used_with},
+        &heat.coefficient);
+  v.key({.name = "foundation_temperature",
+         .description = "temperature theta_f of the foundation (13), difference to the reference "
+                        "temperature",
+         .unit = "K",
+         .required = true,
+         .used = exchange,
+         .used_with = used_with},
+        &heat.foundation_temperature);
+}
+
+void declare(Visitor &v, ContactCase &contact, int dimension) {
+  v.place(contact.where);
+  v.key(on_sides("boundary, or list of boundaries, in contact with the foundation", dimension),
+        &contact.on);
+  v.key({.name = "normal",
+         .description = "bilateral: contact is never lost, u_nu = 0 (9)",
+         .choices = {"bilateral"},
+         .foreseen = {"signorini", "normal_compliance", "damped_response"}},
+        &contact.normal);
+  v.refuse("charge", "not available in this version; no charge crosses the contact boundary");
+  v.table({.name = "friction", .description = "The tangential contact law"},
+          [&](Visitor &inner) { declare(inner, contact.friction); });
+  v.table({.name = "heat", .description = "The heat flow between body and foundation"},
+          [&](Visitor &inner) { declare(inner, contact.heat); });
+}
+
+void declare(Visitor &v, SolverCase &solver) {
+  v.key(
+      {.name = "method",
+       .description = "condensed: one factorisation for all steps, Newton iteration on the contact "
+                      "boundary; monolithic: Newton iteration on all unknowns, as in the paper",
+       .choices = {"condensed", "monolithic"}},
+      &solver.method);
+  v.key({.name = "tolerance",
+         .description = "at which the contact iteration stops: natural residual divided by the "
+                        "largest nodal force",
+         .range = {.low = 0, .high = 1, .low_allowed = false, .high_allowed = false}},
+        &solver.tolerance);
+  v.key({.name = "max_iterations",
+         .description = "Newton iterations in one step after which the run fails",
+         .range = at_least(1)},
+        &solver.max_iterations);
+  v.key({.name = "threads", .description = "of OpenBLAS and OpenMP", .range = from_to(1, 1024)},
+        &solver.threads);
+}
+
+void declare(Visitor &v, OutputCase &output) {
+  v.key({.name = "fields",
+         .description =
+             "whether VTU files are written; without them only the tables and the summary"},
+        &output.fields);
+  v.key({.name = "every",
+         .description = "steps between two field files",
+         .range = at_least(1),
+         .default_words = "time.steps / 50, rounded up: at most about 50 files"},
+        &output.every);
+  v.key({.name = "report", .description = "whether the report, a web page, is written"},
+        &output.report);
+}
+
+void declare(Visitor &v, LoadCase &load, int dimension) {
+  v.key({.name = "force",
+         .description = "force f_0 on the volume (4)",
+         .unit = "N/m^3",
+         .length = one_each_axis(dimension),
+         .default_words = "none"},
+        &load.force);
+  v.key({.name = "charge", .description = "free charge phi_0 in the volume (5)", .unit = "C/m^3"},
+        &load.charge);
+  v.key({.name = "heat", .description = "heat source q_0 in the volume (6)", .unit = "W/m^3"},
+        &load.heat);
+}
+
+void declare(Visitor &v, InitialCase &initial, int dimension) {
+  v.key({.name = "displacement",
+         .description = "displacement u_0 at the time 0",
+         .unit = "m",
+         .length = one_each_axis(dimension),
+         .constant_in_time = true,
+         .default_words = "zero"},
+        &initial.displacement);
+  v.key({.name = "potential",
+         .description = "electric potential at the time 0",
+         .unit = "V",
+         .constant_in_time = true},
+        &initial.potential);
+  v.key(
+      {.name = "temperature",
+       .description = "temperature theta_0 at the time 0, difference to the reference temperature",
+       .unit = "K",
+       .constant_in_time = true},
+      &initial.temperature);
+}
+
+void declare_boundaries(Visitor &v, std::vector<BoundaryCase> &boundaries, int dimension) {
+  const Key key = {.name = "boundary",
+                   .description =
+                       "Conditions on a part of the boundary. Several entries may name one "
+                       "boundary as long as no field gets two conditions there. Where "
+                       "nothing is said, there is no traction, charge or heat flow"};
+  boundaries.resize(static_cast<std::size_t>(v.count(key, static_cast<int>(boundaries.size()))));
+  for (std::size_t i = 0; i < boundaries.size(); ++i)
+    v.entry(key, static_cast<int>(i),
+            [&](Visitor &inner) { declare(inner, boundaries[i], dimension); });
+}
+
+void declare_contact(Visitor &v, std::optional<ContactCase> &contact, int dimension) {
+  const Key key = {.name = "contact",
+                   .description =
+                       "Contact with a foundation that does not deform. Without this table "
+                       "there is no contact",
+                   .optional = true};
+  if (!v.given(key, contact.has_value()))
+    return;
+  if (!contact)
+    contact.emplace();
+  v.table(key, [&](Visitor &inner) { declare(inner, *contact, dimension); });
+}
+
+}  // namespace
+
+void declare(Visitor &v, Case &c) {
+  v.key({.name = "title", .description = "what the run is called in its results"}, &c.title);
+  v.table({.name = "mesh", .description = "The body's shape and its cells", .required = true},
+          [&](Visitor &inner) { declare(inner, c.mesh); });
+  if (c.mesh.box)
+    c.dimension = dimension_of(c.mesh.box->cell);
+  v.table({.name = "material",
+           .description =
+               "Constants of (1)-(3) in crystal axes, in the stress-charge form at constant "
+               "strain: sigma = F eps(u) - E^T E(phi) - M theta, D = E eps(u) + beta E(phi) + "
+               "P theta, q = -K grad theta, with E(phi) = -grad phi. What is not given is "
+               "taken from the library's entry; without an entry it must be given",
+           .required = true},
+          [&](Visitor &inner) { declare(inner, c.material, c.dimension); });
+  v.table({.name = "time", .description = "The simulated time", .required = true},
+          [&](Visitor &inner) { declare(inner, c.time); });
+  declare_boundaries(v, c.boundaries, c.dimension);
+  declare_contact(v, c.contact, c.dimension);
+  v.table({.name = "load", .description = "Loads on the volume"},
+          [&](Visitor &inner) { declare(inner, c.load, c.dimension); });
+  v.table({.name = "initial", .description = "The state at the time 0"},
+          [&](Visitor &inner) { declare(inner, c.initial, c.dimension); });
+  v.table({.name = "solver", .description = "How the equations are solved"},
+          [&](Visitor &inner) { declare(inner, c.solver); });
+  v.table({.name = "output", .description = "What a run leaves in its folder"},
+          [&](Visitor &inner) { declare(inner, c.output); });
+}
+
+}  // namespace tourmaline::casefile

@@ -1,0 +1,260 @@
+#include "value.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "tourmaline/case/nearest.h"
+#include "tourmaline/case/toml_text.h"
+#include "tourmaline/error.h"
+
+namespace tourmaline::casefile {
+
+std::string place_of(const toml::source_region &source) {
+  const std::string path = source.path ? *source.path : "";
+  if (path.starts_with("--set"))
+    return path;
+  return fmt::format("{}:{}:{}", path, source.begin.line, source.begin.column);
+}
+
+namespace {
+
+std::string quoted_whole(const toml::node &node);
+
+std::string quoted_entries(const toml::node &node) {
+  std::string text;
+  if (const toml::array *array = node.as_array())
+    for (const toml::node &entry : *array)
+      text += (text.empty() ? "" : ", ") + quoted_whole(entry);
+  if (const toml::table *table = node.as_table())
+    for (const auto &[name, entry] : *table)
+      text += (text.empty() ? "" : ", ") + std::string(name.str()) + " = " + quoted_whole(entry);
+  return text;
+}
+
+std::string quoted_whole(const toml::node &node) {
+  if (node.is_array())
+    return "[" + quoted_entries(node) + "]";
+  if (node.is_table())
+    return "{ " + quoted_entries(node) + " }";
+  if (const auto text = node.value_exact<std::string>())
+    return toml_text(*text);
+  if (const auto number = node.value_exact<double>())
+    return fmt::format("{}", *number);
+  std::ostringstream out;
+  node.visit([&](const auto &value) { out << value; });
+  return out.str();
+}
+
+std::string type_of(const toml::node &node) {
+  switch (node.type()) {
+    case toml::node_type::string:
+      return "a text";
+    case toml::node_type::integer:
+      return "an integer";
+    case toml::node_type::floating_point:
+      return "a number";
+    case toml::node_type::boolean:
+      return "true or false";
+    case toml::node_type::array:
+      return "a list";
+    case toml::node_type::table:
+      return "a table";
+    default:
+      return "a date or time";
+  }
+}
+
+[[noreturn]] void fail_type(const Item &item, const std::string &wanted) {
+  fail(item, fmt::format("is {}, but must be {}", type_of(item.node), wanted));
+}
+
+std::string with_unit(const Key &key) {
+  const std::string range = key.range.words();
+  return "must be " + range + (key.unit.empty() ? "" : " " + key.unit);
+}
+
+void check_range(const Item &item, double number) {
+  if (!std::isfinite(number))
+    fail(item, "is not a finite number");
+  if (!item.key.range.contains(number))
+    fail(item, with_unit(item.key));
+}
+
+std::string listed(const std::vector<std::string> &texts) {
+  std::string all;
+  for (const std::string &text : texts)
+    all += (all.empty() ? "\"" : ", \"") + text + "\"";
+  return all;
+}
+
+void check_choice(const Item &item, const std::string &text) {
+  const Key &key = item.key;
+  const auto among = [&](const std::vector<std::string> &texts) {
+    return std::find(texts.begin(), texts.end(), text) != texts.end();
+  };
+  if (key.choices.empty() || among(key.choices))
+    return;
+  if (among(key.foreseen))
+    fail(item, "not available in this version; allowed: " + listed(key.choices));
+  fail(item, "is not allowed; allowed: " + listed(key.choices) + did_you_mean(text, key.choices));
+}
+
+const toml::array &entries_of(const Item &item, const std::string &wanted) {
+  if (const toml::array *array = item.node.as_array())
+    return *array;
+  fail_type(item, wanted);
+}
+
+std::string needed(const std::vector<int> &counts) {
+  std::string text;
+  for (const int count : counts)
+    text += (text.empty() ? "" : " or ") + std::to_string(count);
+  return text;
+}
+
+void check_length(const Item &item, std::size_t given) {
+  const Length &length = item.key.length;
+  if (length.counts.empty() || std::find(length.counts.begin(), length.counts.end(),
+                                         static_cast<int>(given)) != length.counts.end())
+    return;
+  fail(item, fmt::format("has {} entr{}, but needs {}: {}{}", given, given == 1 ? "y" : "ies",
+                         needed(length.counts), length.words,
+                         length.reason.empty() ? "" : "; " + length.reason));
+}
+
+Item entry_of(const Item &item, const toml::array &entries, std::size_t i) {
+  return {entries[i], item.key, fmt::format("{}[{}]", item.name, i)};
+}
+
+void read_into(const Item &item, bool &value) {
+  const auto given = item.node.value_exact<bool>();
+  if (!given)
+    fail_type(item, "true or false");
+  value = *given;
+}
+
+void read_into(const Item &item, int &value) {
+  const auto given = item.node.value_exact<std::int64_t>();
+  if (!given)
+    fail_type(item, "an integer");
+  check_range(item, static_cast<double>(*given));
+  if (*given > std::numeric_limits<int>::max() || *given < std::numeric_limits<int>::min())
+    fail(item, fmt::format("must be at most {}", std::numeric_limits<int>::max()));
+  value = static_cast<int>(*given);
+}
+
+double number_in(const Item &item, const std::string &wanted) {
+  if (const auto integer = item.node.value_exact<std::int64_t>())
+    return static_cast<double>(*integer);
+  if (const auto number = item.node.value_exact<double>())
+    return *number;
+  fail_type(item, wanted);
+}
+
+void read_into(const Item &item, double &value) {
+  value = number_in(item, "a number");
+  check_range(item, value);
+}
+
+void read_into(const Item &item, std::string &value) {
+  const auto given = item.node.value_exact<std::string>();
+  if (!given)
+    fail_type(item, "a text");
+  check_choice(item, *given);
+  value = *given;
+}
+
+void check_formula(const Item &item, const Formula &formula) {
+  if (formula.is_number())
+    check_range(item, formula.value({}, 0));
+  if (item.key.constant_in_time && formula.depends_on_time())
+    fail(item, "must not depend on the time t");
+}
+
+void read_into(const Item &item, Formula &value) {
+  if (const auto text = item.node.value_exact<std::string>())
+    value = Formula(*text, item.where());
+  else if (const double number = number_in(item, "a number or a formula"); std::isfinite(number))
+    value = Formula(number, item.where());
+  else
+    fail(item, "is not a finite number");
+  check_formula(item, value);
+}
+
+void read_into(const Item &item, std::optional<Formula> &component) {
+  component.reset();
+  const auto text = item.node.value_exact<std::string>();
+  if (text == "free")
+    return;
+  if (text && nearest(*text, {"free"}))
+    fail(item, "not a formula" + did_you_mean(*text, {"free"}));
+  component.emplace();
+  read_into(item, *component);
+}
+
+template <class T>
+void read_entries(const Item &item, const std::string &wanted, std::vector<T> &values) {
+  const toml::array &entries = entries_of(item, wanted);
+  check_length(item, entries.size());
+  values.assign(entries.size(), T());
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    read_into(entry_of(item, entries, i), values[i]);
+}
+
+void read_into(const Item &item, std::vector<int> &values) {
+  read_entries(item, "a list of integers", values);
+}
+
+void read_into(const Item &item, std::vector<double> &values) {
+  read_entries(item, "a list of numbers", values);
+}
+
+void read_into(const Item &item, Matrix &rows) {
+  const toml::array &entries = entries_of(item, "a list of rows");
+  if (static_cast<int>(entries.size()) != item.key.rows)
+    fail(item, fmt::format("has {} rows, but needs {}", entries.size(), item.key.rows));
+  rows.assign(entries.size(), {});
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    read_into(entry_of(item, entries, i), rows[i]);
+}
+
+void read_into(const Item &item, FormulaVector &values) {
+  read_entries(item, "a list of numbers or formulas", values);
+}
+
+void read_into(const Item &item, Displacement &values) {
+  read_entries(item, "a list of numbers, formulas or \"free\"", values);
+}
+
+void read_into(const Item &item, std::vector<std::string> &names) {
+  if (item.node.is_string()) {
+    names.assign(1, "");
+    return read_into(item, names.front());
+  }
+  read_entries(item, "a text or a list of texts", names);
+  if (names.empty())
+    fail(item, "names nothing; allowed: " + listed(item.key.choices));
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
+        names.begin() + static_cast<std::ptrdiff_t>(i))
+      fail(item, "names \"" + names[i] + "\" twice");
+}
+
+}  // namespace
+
+std::string quoted(const toml::node &node) {
+  return shortened(quoted_whole(node));
+}
+
+void fail(const Item &item, const std::string &reason) {
+  throw CaseError(item.where() + " = " + quoted(item.node) + ": " + reason);
+}
+
+void read(const Item &item, Value value) {
+  std::visit([&](auto *target) { read_into(item, *target); }, value);
+}
+
+}  // namespace tourmaline::casefile

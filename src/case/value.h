@@ -1,0 +1,32 @@
+#pragma once
+
+#include <toml++/toml.h>
+#include <string>
+
+#include "tourmaline/case/schema.h"
+
+namespace tourmaline::casefile {
+
+/// `file:line:column`, or the `--set` that a value comes from.
+std::string place_of(const toml::source_region &source);
+
+/// A value as an error text quotes it: on one line, and not all of it when it is long.
+std::string quoted(const toml::node &node);
+
+/// A TOML value with the key that declares it and where it stands.
+struct Item {
+  const toml::node &node;
+  const Key &key;
+  std::string name;  ///< with its table: " [contact.friction] bound"
+
+  /// What error texts begin with: place, table and key.
+  std::string where() const { return place_of(node.source()) + name; }
+};
+
+/// Throws CaseError: where, what was given, `reason`.
+[[noreturn]] void fail(const Item &item, const std::string &reason);
+
+/// Reads the item into `value` and checks it against everything that the key declares.
+void read(const Item &item, Value value);
+
+}  // namespace tourmaline::casefile

@@ -1,0 +1,44 @@
+#include "tourmaline/contact/tresca.h"
+
+namespace tourmaline::contact {
+
+namespace {
+
+// Tangential part with respect to x: I - x x^T / |x|^2; zero in one dimension.
+TangentMatrix across(const Tangent &x) {
+  return TangentMatrix::Identity(x.size(), x.size()) - x * x.transpose() / x.squaredNorm();
+}
+
+}  // namespace
+
+double Tresca::dissipation(const Tangent &d) const { return bound * d.norm(); }
+
+Tangent Tresca::traction(const Tangent &trial) const {
+  const double size = trial.norm();
+  return size <= bound ? trial : Tangent(bound / size * trial);
+}
+
+TangentMatrix Tresca::traction_derivative(const Tangent &trial) const {
+  const double size = trial.norm();
+  if (size <= bound)
+    return TangentMatrix::Identity(trial.size(), trial.size());
+  return bound / size * across(trial);
+}
+
+output::ContactStatus Tresca::status(const Tangent &trial) const {
+  return trial.norm() <= bound ? output::ContactStatus::stick : output::ContactStatus::slip;
+}
+
+bool Tresca::is_smooth_at(const Tangent &d) const { return bound == 0 || !d.isZero(0); }
+
+Tangent Tresca::gradient(const Tangent &d) const {
+  return bound == 0 ? Tangent(Tangent::Zero(d.size())) : Tangent(bound * d.normalized());
+}
+
+TangentMatrix Tresca::hessian(const Tangent &d) const {
+  if (bound == 0 || d.size() == 1)
+    return TangentMatrix::Zero(d.size(), d.size());
+  return bound / d.norm() * across(d);
+}
+
+}  // namespace tourmaline::contact

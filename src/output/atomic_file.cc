@@ -1,0 +1,89 @@
+#include "tourmaline/output/atomic_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+
+#include "tourmaline/error.h"
+
+namespace tourmaline::output {
+namespace {
+
+/// Writes all of `text`; 0, or the system's error number.
+int write_all(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(descriptor, text.data(), text.size());
+    if (written >= 0)
+      text.remove_prefix(static_cast<std::size_t>(written));
+    else if (errno != EINTR)
+      return errno;
+  }
+  return 0;
+}
+
+/// Takes back what a failed write left behind `size`.
+bool cut(int descriptor, std::size_t size) {
+  const auto end = static_cast<off_t>(size);
+  return ::ftruncate(descriptor, end) == 0 && ::lseek(descriptor, end, SEEK_SET) == end;
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)), part_(path_) {
+  part_ += ".part";
+  descriptor_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (descriptor_ < 0)
+    fail(errno);
+}
+
+AtomicFile::~AtomicFile() {
+  if (descriptor_ < 0)
+    return;
+  ::close(descriptor_);
+  ::unlink(part_.c_str());
+}
+
+void AtomicFile::fail(int error_number) const {
+  throw MachineError(
+      fmt::format("cannot write {}: {}", path_.string(), std::strerror(error_number)));
+}
+
+void AtomicFile::append(std::string_view text) {
+  if (descriptor_ < 0)
+    throw std::logic_error(path_.string() + ": append after finish");
+  if (const int error_number = write_all(descriptor_, text); error_number != 0) {
+    // Where the torn end cannot be taken back the file must not be finished.
+    if (!cut(descriptor_, size_)) {
+      ::close(std::exchange(descriptor_, -1));
+      ::unlink(part_.c_str());
+    }
+    fail(error_number);
+  }
+  size_ += text.size();
+}
+
+void AtomicFile::finish() {
+  if (descriptor_ < 0)
+    return;
+  // Some file systems (NFS, quotas) report a failed write only here.
+  if (::close(std::exchange(descriptor_, -1)) != 0 ||
+      std::rename(part_.c_str(), path_.c_str()) != 0) {
+    const int error_number = errno;
+    ::unlink(part_.c_str());
+    fail(error_number);
+  }
+}
+
+void write_file(const std::filesystem::path &path, std::string_view content) {
+  AtomicFile file(path);
+  file.append(content);
+  file.finish();
+}
+
+}  // namespace tourmaline::output

@@ -1,0 +1,212 @@
+#include "tourmaline/solve/condensed_route.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Sparse>
+#include <optional>
+
+#include "tourmaline/condensation/condensed_body.h"
+#include "tourmaline/contact/bilateral.h"
+#include "tourmaline/error.h"
+#include "tourmaline/solve/interface_newton.h"
+#include "tourmaline/solve/stopwatch.h"
+
+namespace tourmaline::solve {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+template <int dim>
+std::vector<body::Node> nodes_of(const std::vector<contact::InterfaceNode<dim>> &interface) {
+  std::vector<body::Node> nodes;
+  for (const auto &node : interface)
+    nodes.push_back(node.node);
+  return nodes;
+}
+
+template <int dim>
+class CondensedRoute : public Route {
+ public:
+  explicit CondensedRoute(const Model<dim> &model);
+
+  StepOutcome advance(double time, std::span<const double> right_side,
+                      std::span<const double> before, std::span<double> state) override;
+  RouteReport report() const override;
+
+ private:
+  void condense_onto_slips();
+  contact::Admissible<dim> admissible(std::size_t node, std::span<const double> state) const;
+  VectorXd contact_displacements(std::span<const double> state) const;
+  VectorXd admissible_base(std::span<const double> state) const;
+  InterfaceSolution solve_contact(double time, const VectorXd &s, const VectorXd &held,
+                                  const VectorXd &before);
+  [[noreturn]] void give_up(double time, const InterfaceSolution &solution) const;
+
+  const Model<dim> &model_;
+  std::vector<bool> is_prescribed_;
+  condensation::CondensedBody<dim> condensed_;
+  Eigen::SparseMatrix<double> directions_;  // T: admissible slips of all nodes, block diagonal
+  MatrixXd slip_stiffness_;  // T^T S T
+  std::vector<ContactPoint> points_;
+  VectorXd last_increment_;
+  double backward_error_ = 0, condense_seconds_ = 0;
+  bool measured_ = false;
+};
+
+template <int dim>
+CondensedRoute<dim>::CondensedRoute(const Model<dim> &model)
+    : model_(model),
+      is_prescribed_(model.n_unknowns(), false),
+      condensed_(model.op, model.step, model.prescribed, nodes_of(model.interface),
+                 model.asked.solver.threads) {
+  for (const body::Prescribed &p : model.prescribed)
+    is_prescribed_[p.unknown] = true;
+  Stopwatch watch;
+  condense_onto_slips();
+  condense_seconds_ = watch.lap();
+}
+
+template <int dim>
+void CondensedRoute<dim>::condense_onto_slips() {
+  const std::vector<double> zero(model_.n_unknowns(), 0.);
+  std::vector<Eigen::Triplet<double>> triplets;
+  Index n_slips = 0;
+  for (std::size_t i = 0; i < model_.interface.size(); ++i) {
+    const auto directions = admissible(i, zero).directions;
+    points_.push_back({n_slips, directions.cols(), model_.interface[i].weight, {}});
+    for (Index k = 0; k < directions.cols(); ++k)
+      for (int c = 0; c < dim; ++c)
+        triplets.emplace_back(dim * static_cast<Index>(i) + c, n_slips + k, directions(c, k));
+    n_slips += directions.cols();
+  }
+  directions_.resize(condensed_.stiffness().rows(), n_slips);
+  directions_.setFromTriplets(triplets.begin(), triplets.end());
+  slip_stiffness_ = directions_.transpose() * (condensed_.stiffness() * directions_);
+  slip_stiffness_ = (slip_stiffness_ + slip_stiffness_.transpose()).eval() / 2;
+  last_increment_ = VectorXd::Zero(n_slips);
+}
+
+template <int dim>
+contact::Admissible<dim> CondensedRoute<dim>::admissible(std::size_t node,
+                                                         std::span<const double> state) const {
+  std::array<std::optional<double>, dim> prescribed;
+  for (int c = 0; c < dim; ++c) {
+    const std::size_t i = body::unknown<dim>(model_.interface[node].node, c);
+    if (is_prescribed_[i])
+      prescribed[c] = state[i];
+  }
+  return contact::bilateral<dim>(model_.interface[node].normal, prescribed);
+}
+
+template <int dim>
+VectorXd CondensedRoute<dim>::contact_displacements(std::span<const double> state) const {
+  VectorXd c(dim * static_cast<Index>(model_.interface.size()));
+  for (std::size_t i = 0; i < model_.interface.size(); ++i)
+    for (int k = 0; k < dim; ++k)
+      c[dim * static_cast<Index>(i) + k] =
+          state[body::unknown<dim>(model_.interface[i].node, k)];
+  return c;
+}
+
+template <int dim>
+VectorXd CondensedRoute<dim>::admissible_base(std::span<const double> state) const {
+  VectorXd base(dim * static_cast<Index>(model_.interface.size()));
+  for (std::size_t i = 0; i < model_.interface.size(); ++i)
+    base.segment<dim>(dim * static_cast<Index>(i)) = admissible(i, state).base;
+  return base;
+}
+
+template <int dim>
+InterfaceSolution CondensedRoute<dim>::solve_contact(double time, const VectorXd &s,
+                                                     const VectorXd &held, const VectorXd &before) {
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    points_[i].friction =
+        contact::friction_at(model_.asked.contact->friction, model_.interface[i].point, time);
+  const VectorXd slips_before = directions_.transpose() * before;
+  const VectorXd stuck = held + directions_ * slips_before;  // the contact if no point slipped
+  const VectorXd resisted = condensed_.stiffness() * stuck;
+  const VectorXd force = directions_.transpose() * (s - resisted);
+  const double scale = std::max(s.cwiseAbs().maxCoeff(), resisted.cwiseAbs().maxCoeff());
+  const InterfaceSolution solution =
+      minimise({slip_stiffness_, force, points_, scale}, last_increment_,
+               {model_.asked.solver.tolerance, model_.asked.solver.max_iterations});
+  if (!solution.converged)
+    give_up(time, solution);
+  return solution;
+}
+
+template <int dim>
+void CondensedRoute<dim>::give_up(double time, const InterfaceSolution &solution) const {
+  std::string places;
+  for (std::size_t i = 0; i < std::min<std::size_t>(solution.unsettled.size(), 3); ++i) {
+    const output::Vector &p = model_.interface[solution.unsettled[i]].point;
+    places += fmt::format(" ({:g}, {:g}, {:g})", p[0], p[1], p[2]);
+  }
+  throw SolveError(fmt::format(
+      "the contact iteration did not converge at t = {:g} s: residual {:.3g} of the largest force after "
+      "{} iterations, wanted {:.3g}; {} points are unsettled, among them{}; raise solver.max_iterations or "
+      "solver.tolerance, or take smaller time steps",
+      time, solution.residual, solution.iterations, model_.asked.solver.tolerance,
+      solution.unsettled.size(), places));
+}
+
+template <int dim>
+StepOutcome CondensedRoute<dim>::advance(double time, std::span<const double> right_side,
+                                         std::span<const double> before, std::span<double> state) {
+  const VectorXd s = condensed_.reduce(right_side, state);
+  StepOutcome outcome;
+  VectorXd c = s;
+  if (!model_.interface.empty()) {
+    const VectorXd held = admissible_base(state);
+    const VectorXd c_before = contact_displacements(before);
+    const InterfaceSolution solution = solve_contact(time, s, held, c_before);
+    last_increment_ = solution.increment;
+    // Adding the increment to the very values of the last step keeps a sticking point in its place exactly.
+    const VectorXd slips = directions_.transpose() * c_before + solution.increment;
+    c = held + directions_ * slips;
+    outcome.contact_forces = condensed_.stiffness() * c - s;
+    // Friction forces are the law's; the rest of q holds the normal and prescribed displacements.
+    outcome.contact_forces -=
+        directions_ * (directions_.transpose() * outcome.contact_forces + solution.force);
+    outcome.status = solution.status;
+    outcome.newton_iterations = solution.iterations;
+    outcome.residual = solution.residual;
+  }
+  condensed_.expand(c, state);
+  if (!measured_) {
+    backward_error_ = condensed_.backward_error(right_side, state, outcome.contact_forces);
+    measured_ = true;
+  }
+  return outcome;
+}
+
+template <int dim>
+RouteReport CondensedRoute<dim>::report() const {
+  const condensation::FactorisationStatistics &statistics = condensed_.statistics();
+  RouteReport report;
+  report.factorisations = 1;
+  report.analyse_seconds = statistics.analyse_seconds;
+  report.factorise_seconds = statistics.factorise_seconds;
+  report.condense_seconds = condense_seconds_;
+  report.unknowns = condensed_.n_unknowns();
+  report.electric_and_thermal_unknowns = condensed_.n_electric_and_thermal();
+  report.factor_entries = statistics.factor_entries;
+  report.negative_pivots = statistics.negative_pivots;
+  report.backward_error = backward_error_;
+  return report;
+}
+
+}  // namespace
+
+template <int dim>
+std::unique_ptr<Route> condensed_route(const Model<dim> &model) {
+  return std::make_unique<CondensedRoute<dim>>(model);
+}
+
+template std::unique_ptr<Route> condensed_route<2>(const Model<2> &);
+template std::unique_ptr<Route> condensed_route<3>(const Model<3> &);
+
+}  // namespace tourmaline::solve

@@ -1,0 +1,225 @@
+#include "tourmaline/solve/interface_newton.h"
+
+#include <cmath>
+
+namespace tourmaline::solve {
+
+namespace {
+
+using contact::Tangent;
+using contact::TangentMatrix;
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr int sweeps_per_iteration = 3;
+
+// Calls `f(law)` with whatever law is in force at the point.
+template <class Function>
+auto with_law(const ContactPoint &point, Function &&f) {
+  return std::visit(std::forward<Function>(f), point.friction);
+}
+
+class Iteration {
+ public:
+  Iteration(const InterfaceProgramme &programme, VectorXd start)
+      : programme_(programme), d_(std::move(start)) {
+    for (const ContactPoint &p : programme.points)
+      curvature_.push_back(largest_eigenvalue(p));
+    update_residual_force();
+  }
+
+  void sweep(bool backwards);
+  /// Solves one linear system; the length of the step taken, 1 when the whole step went.
+  double newton_step();
+  void update_residual_force() { force_.noalias() = programme_.force - programme_.stiffness * d_; }
+
+  /// Natural residual |lambda - P(lambda + r d)| of a point, as a nodal force.
+  double residual(std::size_t i) const;
+  double largest_residual() const;
+  double force_size() const;
+  InterfaceSolution solution() const;
+
+ private:
+  double largest_eigenvalue(const ContactPoint &p) const;
+  // lambda + r d as a traction; r is the largest curvature of the point's own block of A.
+  Tangent trial(std::size_t i) const;
+  Tangent friction_force(std::size_t i) const;
+  std::vector<std::size_t> smooth_points() const;
+  double dissipation(const VectorXd &d) const;
+  VectorXd truncated(const VectorXd &step, double length) const;
+
+  const InterfaceProgramme &programme_;
+  VectorXd d_;      // slip increments
+  VectorXd force_;  // f - A d
+  std::vector<double> curvature_;
+};
+
+double Iteration::largest_eigenvalue(const ContactPoint &p) const {
+  const TangentMatrix block = programme_.stiffness.block(p.offset, p.offset, p.size, p.size);
+  if (p.size == 1)
+    return block(0, 0);
+  return p.size == 0 ? 0 : Eigen::SelfAdjointEigenSolver<TangentMatrix>(block).eigenvalues()(p.size - 1);
+}
+
+Tangent Iteration::trial(std::size_t i) const {
+  const ContactPoint &p = programme_.points[i];
+  return (force_.segment(p.offset, p.size) + curvature_[i] * d_.segment(p.offset, p.size)) / p.weight;
+}
+
+Tangent Iteration::friction_force(std::size_t i) const {
+  const ContactPoint &p = programme_.points[i];
+  return p.weight * with_law(p, [&](const auto &law) { return law.traction(trial(i)); });
+}
+
+// The point's own problem with all others held, its block of A replaced by its largest eigenvalue: exact
+// in one dimension, a descent step in two. A point inside the ball comes out as exactly zero.
+void Iteration::sweep(bool backwards) {
+  const std::size_t n = programme_.points.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t i = backwards ? n - 1 - k : k;
+    const ContactPoint &p = programme_.points[i];
+    if (p.size == 0)
+      continue;
+    const Tangent x = trial(i);
+    const Tangent lambda = with_law(p, [&](const auto &law) { return law.traction(x); });
+    const Tangent after = (x - lambda) * (p.weight / curvature_[i]);
+    const Tangent change = after - d_.segment(p.offset, p.size);
+    if (change.isZero(0))
+      continue;
+    d_.segment(p.offset, p.size) = after;
+    force_.noalias() -= programme_.stiffness.middleCols(p.offset, p.size) * change;
+  }
+}
+
+std::vector<std::size_t> Iteration::smooth_points() const {
+  std::vector<std::size_t> smooth;
+  for (std::size_t i = 0; i < programme_.points.size(); ++i) {
+    const ContactPoint &p = programme_.points[i];
+    const Tangent d = d_.segment(p.offset, p.size);
+    if (p.size > 0 && with_law(p, [&](const auto &law) { return law.is_smooth_at(d); }))
+      smooth.push_back(i);
+  }
+  return smooth;
+}
+
+double Iteration::dissipation(const VectorXd &d) const {
+  double sum = 0;
+  for (const ContactPoint &p : programme_.points) {
+    const Tangent di = d.segment(p.offset, p.size);
+    sum += p.weight * with_law(p, [&](const auto &law) { return law.dissipation(di); });
+  }
+  return sum;
+}
+
+// d + length * step, but a point on a line that would pass through zero stops there: beyond the kink the
+// Newton model does not hold.
+VectorXd Iteration::truncated(const VectorXd &step, double length) const {
+  VectorXd next = d_ + length * step;
+  for (const ContactPoint &p : programme_.points) {
+    const Tangent before = d_.segment(p.offset, p.size);
+    const bool kink = !with_law(p, [&](const auto &law) { return law.is_smooth_at(Tangent::Zero(p.size)); });
+    if (p.size == 1 && kink && before[0] * next[p.offset] < 0)
+      next[p.offset] = 0;
+  }
+  return next;
+}
+
+double Iteration::newton_step() {
+  std::vector<Index> entries;
+  std::vector<std::size_t> smooth = smooth_points();
+  for (const std::size_t i : smooth)
+    for (Index c = 0; c < programme_.points[i].size; ++c)
+      entries.push_back(programme_.points[i].offset + c);
+  Eigen::MatrixXd hessian = programme_.stiffness(entries, entries);
+  VectorXd descent = force_(entries);
+  Index row = 0;
+  for (const std::size_t i : smooth) {
+    const ContactPoint &p = programme_.points[i];
+    const Tangent d = d_.segment(p.offset, p.size);
+    with_law(p, [&](const auto &law) {
+      hessian.block(row, row, p.size, p.size) += p.weight * law.hessian(d);
+      descent.segment(row, p.size) -= p.weight * law.gradient(d);
+    });
+    row += p.size;
+  }
+  VectorXd step = VectorXd::Zero(d_.size());
+  const VectorXd solved = hessian.llt().solve(descent);
+  step(entries) = solved;
+
+  const double dissipated = dissipation(d_);
+  for (double length = 1; length > 1e-10; length /= 2) {
+    const VectorXd next = truncated(step, length);
+    const VectorXd change = next - d_;
+    const VectorXd resisted = programme_.stiffness * change;
+    const double growth = change.dot(resisted) / 2 - force_.dot(change) + dissipation(next) - dissipated;
+    // Round-off of the sum above: near the minimum the whole step must not be refused for it.
+    const double noise = 1e-14 * (std::abs(force_.dot(change)) + dissipated);
+    if (growth <= noise) {
+      d_ = next;
+      update_residual_force();
+      return length;
+    }
+  }
+  return 0;
+}
+
+double Iteration::residual(std::size_t i) const {
+  const ContactPoint &p = programme_.points[i];
+  return (force_.segment(p.offset, p.size) - friction_force(i)).norm();
+}
+
+double Iteration::largest_residual() const {
+  double largest = 0;
+  for (std::size_t i = 0; i < programme_.points.size(); ++i)
+    largest = std::max(largest, residual(i));
+  return largest;
+}
+
+double Iteration::force_size() const {
+  double size = programme_.force_scale;
+  if (d_.size() > 0)
+    size = std::max({size, programme_.force.cwiseAbs().maxCoeff(),
+                     (programme_.stiffness.cwiseAbs() * d_.cwiseAbs()).maxCoeff()});
+  return size > 0 ? size : 1;
+}
+
+InterfaceSolution Iteration::solution() const {
+  InterfaceSolution solution;
+  solution.increment = d_;
+  solution.force = VectorXd::Zero(d_.size());
+  for (std::size_t i = 0; i < programme_.points.size(); ++i) {
+    const ContactPoint &p = programme_.points[i];
+    solution.force.segment(p.offset, p.size) = friction_force(i);
+    solution.status.push_back(with_law(p, [&](const auto &law) { return law.status(trial(i)); }));
+  }
+  solution.residual = largest_residual() / force_size();
+  return solution;
+}
+
+}  // namespace
+
+InterfaceSolution minimise(const InterfaceProgramme &programme, VectorXd start,
+                           const InterfaceSettings &settings) {
+  Iteration iteration(programme, std::move(start));
+  int solved = 0;
+  bool converged = false;
+  while (true) {
+    // The residual force is fresh here: no drift from the sweeps' updates enters the verdict.
+    converged = iteration.largest_residual() <= settings.tolerance * iteration.force_size();
+    if (converged || solved == settings.max_iterations)
+      break;
+    for (int k = 0; k < sweeps_per_iteration; ++k)
+      iteration.sweep(k % 2 == 1);
+    iteration.newton_step();
+    ++solved;
+  }
+  InterfaceSolution solution = iteration.solution();
+  solution.iterations = solved;
+  solution.converged = converged;
+  for (std::size_t i = 0; !converged && i < programme.points.size(); ++i)
+    if (iteration.residual(i) > settings.tolerance * iteration.force_size())
+      solution.unsettled.push_back(i);
+  return solution;
+}
+
+}  // namespace tourmaline::solve

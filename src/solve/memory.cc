@@ -1,0 +1,58 @@
+#include "tourmaline/solve/memory.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <string>
+
+#include "tourmaline/error.h"
+
+namespace tourmaline::solve {
+
+namespace {
+
+constexpr double bytes_per_unknown_2d = 2000;
+constexpr double bytes_3d = 390;  // times unknowns^(4/3)
+
+double available_on_system() {
+  std::ifstream file("/proc/meminfo");
+  std::string key, unit;
+  for (double kilobytes; file >> key >> kilobytes; std::getline(file, unit))
+    if (key == "MemAvailable:")
+      return 1024 * kilobytes;
+  return std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+double estimated_memory(const casefile::Case &asked) {
+  if (!asked.mesh.box)
+    return 0;
+  double nodes = 1;
+  for (const int cells : asked.mesh.box->cells)
+    nodes *= double(asked.mesh.degree) * cells + 1;
+  const double unknowns = nodes * (asked.dimension + 2);
+  return asked.dimension == 2 ? bytes_per_unknown_2d * unknowns
+                              : bytes_3d * std::pow(unknowns, 4. / 3);
+}
+
+double available_memory() {
+  rlimit limit{};
+  double allowed = std::numeric_limits<double>::infinity();
+  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+    allowed = static_cast<double>(limit.rlim_cur);
+  return std::min(allowed, available_on_system());
+}
+
+void require_memory(const casefile::Case &asked) {
+  const double needed = estimated_memory(asked), available = available_memory();
+  if (needed > available)
+    throw CaseError(fmt::format(
+        "{}: [mesh] this mesh needs about {:.3g} GiB of memory, {:.3g} GiB are available; take fewer cells",
+        asked.source, needed / (1 << 30), available / (1 << 30)));
+}
+
+}  // namespace tourmaline::solve

@@ -1,0 +1,60 @@
+#include "tourmaline/solve/model.h"
+
+#include "tourmaline/material/orientation.h"
+#include "tourmaline/solve/stopwatch.h"
+
+namespace tourmaline::solve {
+
+material::Constants body_material(const casefile::Case &asked) {
+  return material::rotated(material::constants_of(asked.material),
+                           material::crystal_axes(asked.material, asked.dimension));
+}
+
+template <int dim>
+struct Model<dim>::Built {
+  material::Constants material;
+  body::Discretisation<dim> body;
+  double mesh_seconds;
+  Stopwatch since_mesh;
+};
+
+namespace {
+
+template <int dim>
+body::Discretisation<dim> discretise(const casefile::MeshCase &asked) {
+  return {mesh::build<dim>(asked), asked.degree};
+}
+
+}  // namespace
+
+template <int dim>
+Model<dim>::Model(const casefile::Case &asked_for)
+    : Model(asked_for, [&] {
+        Stopwatch watch;
+        material::Constants constants = body_material(asked_for);
+        body::Discretisation<dim> discretised = discretise<dim>(asked_for.mesh);
+        return Built{constants, std::move(discretised), watch.lap(), Stopwatch()};
+      }()) {}
+
+template <int dim>
+Model<dim>::Model(const casefile::Case &asked_for, Built built)
+    : asked(asked_for),
+      step(asked.time.end / asked.time.steps),
+      material(built.material),
+      body(std::move(built.body)),
+      op(body, material::restricted<dim>(material)),
+      prescribed(body::prescribed_unknowns(body, asked.boundaries)),
+      loads(body, asked, step, material.reference_temperature),
+      mesh_seconds(built.mesh_seconds) {
+  if (asked.contact) {
+    interface = contact::interface_nodes(body, asked.contact->on);
+    if (asked.contact->heat.law == "exchange")
+      op.add_exchange(body, asked.contact->on, asked.contact->heat.coefficient);
+  }
+  assemble_seconds = built.since_mesh.lap();
+}
+
+template struct Model<2>;
+template struct Model<3>;
+
+}  // namespace tourmaline::solve

@@ -1,0 +1,47 @@
+#include "tourmaline/solve/process.h"
+
+#include <deal.II/base/multithread_info.h>
+#include <mpi.h>
+
+#include <cstdlib>
+
+#include "tourmaline/error.h"
+
+extern "C" void openblas_set_num_threads(int threads);
+
+namespace tourmaline::solve {
+
+namespace {
+
+// Started alone, Open MPI forks a daemon that only processes spawned later would need.
+void start_mpi() {
+  setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  MPI_Init(nullptr, nullptr);
+}
+
+}  // namespace
+
+Process::Process(int threads) {
+  int running = 0;
+  MPI_Initialized(&running);
+  if (!running) {
+    start_mpi();
+    owns_mpi_ = true;
+  }
+  openblas_set_num_threads(threads);
+  dealii::MultithreadInfo::set_thread_limit(threads);
+  int ranks = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  if (ranks > 1) {
+    if (owns_mpi_)
+      MPI_Finalize();
+    throw CaseError("several MPI ranks are not available yet; start the program without mpirun");
+  }
+}
+
+Process::~Process() {
+  if (owns_mpi_)
+    MPI_Finalize();
+}
+
+}  // namespace tourmaline::solve

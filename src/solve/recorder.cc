@@ -1,0 +1,168 @@
+#include "tourmaline/solve/recorder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tourmaline/body/derived.h"
+#include "tourmaline/solve/stopwatch.h"
+
+namespace tourmaline::solve {
+
+namespace {
+
+template <int dim>
+using Vector = Eigen::Matrix<double, dim, 1>;
+
+template <int dim>
+output::Vector in_space(const Vector<dim> &v) {
+  output::Vector plain{};
+  std::copy(v.begin(), v.end(), plain.begin());
+  return plain;
+}
+
+template <int dim>
+Vector<dim> displacement(std::span<const double> state, body::Node node) {
+  return Eigen::Map<const Vector<dim>>(&state[body::unknown<dim>(node, 0)]);
+}
+
+template <int dim>
+Vector<dim> tangential(const Vector<dim> &v, const Vector<dim> &normal) {
+  return v - v.dot(normal) * normal;
+}
+
+}  // namespace
+
+template <int dim>
+Recorder<dim>::Recorder(const Model<dim> &model, output::ResultFolder &folder)
+    : model_(model), folder_(folder), grid_(model.body.grid()) {}
+
+template <int dim>
+void Recorder<dim>::initial(std::span<const double> state) {
+  Stopwatch watch;
+  put_fields(0, state);
+  seconds_ += watch.lap();
+}
+
+template <int dim>
+output::HistoryRow Recorder<dim>::step(int n, const StepOutcome &outcome,
+                                       std::span<const double> before,
+                                       std::span<const double> state) {
+  Stopwatch watch;
+  const double time = model_.time(n);
+  output::HistoryRow row;
+  row.step = n;
+  row.time = time;
+  row.newton_iterations = outcome.newton_iterations;
+  row.residual = outcome.residual;
+  row.stick = std::count(outcome.status.begin(), outcome.status.end(), output::ContactStatus::stick);
+  row.slip = std::count(outcome.status.begin(), outcome.status.end(), output::ContactStatus::slip);
+  row.open = std::count(outcome.status.begin(), outcome.status.end(), output::ContactStatus::open);
+  if (model_.asked.contact) {
+    const std::vector<output::ContactRow> rows = contact_rows(n, outcome, before, state);
+    folder_.put_contact(n, time, rows);
+  }
+  const body::FieldForms forms = model_.op.forms(state, state);
+  row.quantities = {{"elastic_energy", forms[0][0] / 2},
+                    {"electric_energy", -forms[1][1] / 2},
+                    {"thermal_energy", -forms[2][2] / 2}};
+  for (const output::Extreme &e : extremes(state)) {
+    row.quantities.emplace_back("min_" + e.field, e.minimum);
+    row.quantities.emplace_back("max_" + e.field, e.maximum);
+  }
+  folder_.put_history(row);
+  if (n % model_.asked.output.every == 0 || n == model_.asked.time.steps)
+    put_fields(n, state);
+  seconds_ += watch.lap();
+  return row;
+}
+
+template <int dim>
+void Recorder<dim>::finish(std::span<const double> state) {
+  Stopwatch watch;
+  folder_.put_nodes(grid_, point_fields(state));
+  folder_.finish();
+  seconds_ += watch.lap();
+}
+
+template <int dim>
+void Recorder<dim>::put_fields(int n, std::span<const double> state) {
+  if (model_.asked.output.fields)
+    folder_.put_fields(n, model_.time(n), grid_, point_fields(state),
+                       body::derived_fields(model_.body, model_.material, state));
+}
+
+template <int dim>
+output::PointFields Recorder<dim>::point_fields(std::span<const double> state) const {
+  output::PointFields fields;
+  for (body::Node node = 0; node < model_.body.n_nodes(); ++node) {
+    fields.displacement.push_back(in_space<dim>(displacement<dim>(state, node)));
+    fields.potential.push_back(state[body::unknown<dim>(node, body::Fields<dim>::potential)]);
+    fields.temperature.push_back(state[body::unknown<dim>(node, body::Fields<dim>::temperature)]);
+  }
+  return fields;
+}
+
+template <int dim>
+double Recorder<dim>::heat_coefficient(const output::Vector &point) const {
+  const casefile::HeatExchangeCase &heat = model_.asked.contact->heat;
+  return heat.law == "exchange" ? heat.coefficient.value(point, 0) : 0;
+}
+
+template <int dim>
+std::vector<output::ContactRow> Recorder<dim>::contact_rows(int n, const StepOutcome &outcome,
+                                                            std::span<const double> before,
+                                                            std::span<const double> state) const {
+  std::vector<output::ContactRow> rows;
+  const casefile::HeatExchangeCase &heat = model_.asked.contact->heat;
+  for (std::size_t i = 0; i < model_.interface.size(); ++i) {
+    const contact::InterfaceNode<dim> &at = model_.interface[i];
+    // Tractions are the multipliers: nodal force over lumped weight.
+    const Vector<dim> traction =
+        outcome.contact_forces.segment<dim>(dim * static_cast<Eigen::Index>(i)) / at.weight;
+    const Vector<dim> u = displacement<dim>(state, at.node);
+    const Vector<dim> change = u - displacement<dim>(before, at.node);
+    const double theta = state[body::unknown<dim>(at.node, body::Fields<dim>::temperature)];
+    const double k_c = heat_coefficient(at.point);
+    rows.push_back({at.point, traction.dot(at.normal),
+                    in_space<dim>(tangential<dim>(traction, at.normal)), u.dot(at.normal),
+                    in_space<dim>(tangential<dim>(u, at.normal)),
+                    tangential<dim>(change, at.normal).norm() / model_.step, outcome.status[i],
+                    theta, state[body::unknown<dim>(at.node, body::Fields<dim>::potential)],
+                    k_c == 0 ? 0 : k_c * (theta - heat.foundation_temperature.value(at.point, model_.time(n)))});
+  }
+  return rows;
+}
+
+template <int dim>
+std::vector<output::Extreme> Recorder<dim>::extremes(std::span<const double> state) const {
+  using Value = std::function<double(body::Node)>;
+  const auto component = [&](int c) {
+    return [&state, c](body::Node node) { return state[body::unknown<dim>(node, c)]; };
+  };
+  const std::vector<std::pair<std::string, Value>> fields{
+      {"displacement", [&](body::Node node) { return displacement<dim>(state, node).norm(); }},
+      {"potential", component(body::Fields<dim>::potential)},
+      {"temperature", component(body::Fields<dim>::temperature)}};
+  std::vector<output::Extreme> all;
+  for (const auto &[name, value] : fields) {
+    output::Extreme e{name, value(0), value(0), model_.body.points()[0], model_.body.points()[0]};
+    for (body::Node node = 1; node < model_.body.n_nodes(); ++node) {
+      const double v = value(node);
+      if (v < e.minimum) {
+        e.minimum = v;
+        e.at_minimum = model_.body.points()[node];
+      }
+      if (v > e.maximum) {
+        e.maximum = v;
+        e.at_maximum = model_.body.points()[node];
+      }
+    }
+    all.push_back(e);
+  }
+  return all;
+}
+
+template class Recorder<2>;
+template class Recorder<3>;
+
+}  // namespace tourmaline::solve

@@ -1,0 +1,183 @@
+#include "tourmaline/solve/simulation.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+
+#include "tourmaline/case/resolved.h"
+#include "tourmaline/contact/friction.h"
+#include "tourmaline/error.h"
+#include "tourmaline/material/plane.h"
+#include "tourmaline/output/progress.h"
+#include "tourmaline/solve/condensed_route.h"
+#include "tourmaline/solve/memory.h"
+#include "tourmaline/solve/process.h"
+#include "tourmaline/solve/recorder.h"
+#include "tourmaline/solve/stopwatch.h"
+#include "tourmaline/solve/versions.h"
+
+namespace tourmaline::solve {
+
+namespace {
+
+template <int dim>
+class Simulation {
+ public:
+  Simulation(const casefile::Case &asked, const std::filesystem::path &directory, bool quiet);
+  void run();
+
+ private:
+  void prescribe(double time, std::vector<double> &state) const;
+  void right_side(double time, std::vector<double> &b) const;
+  void step(int n);
+  void keep_what_there_is();
+  output::Summary summary() const;
+
+  output::Progress progress_;
+  Model<dim> model_;
+  std::vector<double> state_, before_, right_side_;
+  std::optional<output::ResultFolder> folder_;
+  std::optional<Recorder<dim>> recorder_;
+  std::unique_ptr<Route> route_;
+  Stopwatch total_;
+  int newton_total_ = 0, newton_max_ = 0, newton_first_ = 0;
+  double step_seconds_ = 0;
+};
+
+template <int dim>
+std::unique_ptr<Route> make_route(const Model<dim> &model) {
+  if (model.asked.solver.method == "monolithic")
+    throw CaseError(model.asked.source +
+                    ": [solver] method = \"monolithic\" is not available yet; use \"condensed\"");
+  return condensed_route(model);
+}
+
+// Evaluates the case's formulas once before anything is written: a formula that is undefined somewhere
+// should not leave a folder behind. Then opens the folder, which may fail, before the factorisation.
+template <int dim>
+Simulation<dim>::Simulation(const casefile::Case &asked, const std::filesystem::path &directory,
+                            bool quiet)
+    : progress_(asked.time.steps, quiet), model_((progress_.stage("mesh and operator"), asked)) {
+  state_ = body::initial_state(model_.body, asked.initial);
+  std::vector<double> trial = state_;
+  prescribe(model_.time(1), trial);
+  right_side(model_.time(1), right_side_);
+  for (const auto &node : model_.interface)
+    contact::friction_at(asked.contact->friction, node.point, model_.time(1));
+  folder_.emplace(directory, dim);
+  folder_->put_case(casefile::resolved(asked));
+  recorder_.emplace(model_, *folder_);
+  progress_.stage("factorisation");
+  route_ = make_route(model_);
+}
+
+template <int dim>
+void Simulation<dim>::prescribe(double time, std::vector<double> &state) const {
+  for (const body::Prescribed &p : model_.prescribed)
+    state[p.unknown] = p.value.value(p.point, time);
+}
+
+template <int dim>
+void Simulation<dim>::right_side(double time, std::vector<double> &b) const {
+  b.assign(model_.n_unknowns(), 0.);
+  model_.loads.integrate(time, b);
+  model_.op.add_history(state_, b);
+}
+
+template <int dim>
+void Simulation<dim>::step(int n) {
+  Stopwatch watch;
+  right_side(model_.time(n), right_side_);
+  before_ = state_;
+  prescribe(model_.time(n), state_);
+  const StepOutcome outcome = route_->advance(model_.time(n), right_side_, before_, state_);
+  newton_total_ += outcome.newton_iterations;
+  newton_max_ = std::max(newton_max_, outcome.newton_iterations);
+  if (n == 1)
+    newton_first_ = outcome.newton_iterations;
+  step_seconds_ += watch.lap();
+  progress_.step(recorder_->step(n, outcome, before_, state_));
+}
+
+template <int dim>
+void Simulation<dim>::run() {
+  recorder_->initial(state_);
+  for (int n = 1; n <= model_.asked.time.steps; ++n)
+    try {
+      step(n);
+    } catch (...) {
+      state_ = before_;
+      keep_what_there_is();
+      throw;
+    }
+  recorder_->finish(state_);
+  folder_->put_summary(summary());
+  progress_.done();
+}
+
+template <int dim>
+void Simulation<dim>::keep_what_there_is() {
+  progress_.done();
+  recorder_->finish(state_);
+}
+
+std::uint64_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024 * static_cast<std::uint64_t>(usage.ru_maxrss);
+}
+
+template <int dim>
+output::Summary Simulation<dim>::summary() const {
+  const RouteReport report = route_->report();
+  output::Summary summary;
+  summary.title = model_.asked.title;
+  summary.version = program_version();
+  summary.components = component_versions();
+  summary.sizes = {{"dimension", dim},
+                   {"nodes", model_.body.n_nodes()},
+                   {"cells", model_.body.n_cells()},
+                   {"unknowns", report.unknowns},
+                   {"electric_and_thermal_unknowns", report.electric_and_thermal_unknowns},
+                   {"contact_nodes", model_.interface.size()},
+                   {"factor_entries", report.factor_entries},
+                   {"steps", model_.asked.time.steps}};
+  summary.iterations = {
+      {"newton_total", newton_total_}, {"newton_max", newton_max_}, {"newton_first", newton_first_}};
+  summary.factorisations = report.factorisations;
+  if (report.negative_pivots >= 0)
+    summary.negative_pivots = report.negative_pivots;
+  summary.backward_error = report.backward_error;
+  summary.extremes = recorder_->extremes(state_);
+  summary.seconds.mesh = model_.mesh_seconds;
+  summary.seconds.assemble = model_.assemble_seconds;
+  summary.seconds.analyse = report.analyse_seconds;
+  summary.seconds.factorise = report.factorise_seconds;
+  summary.seconds.condense = report.condense_seconds;
+  summary.seconds.step = {step_seconds_, step_seconds_ / model_.asked.time.steps};
+  summary.seconds.output = recorder_->seconds();
+  summary.peak_memory_bytes = peak_memory();
+  return summary;
+}
+
+}  // namespace
+
+void check(const casefile::Case &asked) {
+  const material::Constants constants = body_material(asked);
+  if (asked.dimension == 2)
+    material::restricted<2>(constants);
+  if (!asked.mesh.box)
+    throw CaseError(asked.source + ": [mesh] file: Gmsh files are not available yet; use mesh.box");
+  require_memory(asked);
+}
+
+void simulate(const casefile::Case &asked, const std::filesystem::path &directory, bool quiet) {
+  check(asked);
+  const Process process(asked.solver.threads);
+  if (asked.dimension == 2)
+    Simulation<2>(asked, directory, quiet).run();
+  else
+    Simulation<3>(asked, directory, quiet).run();
+}
+
+}  // namespace tourmaline::solve

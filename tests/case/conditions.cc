@@ -1,0 +1,92 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "example.h"
+#include "tourmaline/case/reader.h"
+#include "tourmaline/error.h"
+
+namespace tourmaline::casefile {
+namespace {
+
+using testing::HasSubstr;
+
+// What is wrong with the example after the overrides.
+std::string error_of(const std::vector<std::string> &overrides) {
+  try {
+    read_text(example, "case.toml", overrides);
+  } catch (const CaseError &error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Conditions, OneFieldMayHaveOneConditionOnABoundary) {
+  const std::string error = error_of({"boundary[3]={on='right', potential=5}"});
+  EXPECT_THAT(error, HasSubstr("[boundary[3]] potential = 5"));
+  EXPECT_THAT(error, HasSubstr("\"right\" has already a condition on the potential"));
+  EXPECT_THAT(error, HasSubstr("case.toml:17:13 [boundary[0]] potential = 0"));
+}
+
+TEST(Conditions, TheSameConditionTwiceIsStillTwo) {
+  EXPECT_THAT(error_of({"boundary[3]={on='top', temperature=0}"}), HasSubstr("has already"));
+  EXPECT_THAT(error_of({"boundary[3]={on='right', displacement=[0,'free']}"}),
+              HasSubstr("has already a condition on the x component"));
+}
+
+TEST(Conditions, PotentialAndChargeExcludeEachOther) {
+  EXPECT_THAT(error_of({"boundary[0].surface_charge=0"}),
+              HasSubstr("has already a condition on the potential or surface charge"));
+}
+
+TEST(Conditions, TemperatureAndHeatFlowExcludeEachOther) {
+  EXPECT_THAT(error_of({"boundary[1].heat_flux=1"}),
+              HasSubstr("\"bottom\" has already a condition on the temperature or heat flow"));
+}
+
+TEST(Conditions, TractionAgainstAFixedComponentIsAnError) {
+  EXPECT_THAT(error_of({"boundary[1].displacement=['free',0]"}),
+              HasSubstr("\"top\" has already a condition on the y component"));
+}
+
+TEST(Conditions, AZeroTractionBesideAFixedComponentIsNone) {
+  EXPECT_EQ(error_of({"boundary[2].displacement=[0,'free']"}), "no error");
+}
+
+TEST(Conditions, TwoTractionsOnOneBoundaryAreAnError) {
+  EXPECT_THAT(error_of({"boundary[3]={on='top', traction=[1,0]}"}),
+              HasSubstr("has already a condition on the traction"));
+}
+
+TEST(Conditions, TwoEntriesMayFixDifferentComponents) {
+  EXPECT_EQ(error_of({"boundary[0].displacement=[0,'free']",
+                      "boundary[3]={on='right', displacement=['free',0]}"}),
+            "no error");
+}
+
+TEST(Conditions, ContactOnAClampedBoundaryIsAnError) {
+  const std::string error = error_of({"boundary[3]={on='left', displacement=['free',0]}"});
+  EXPECT_THAT(error, HasSubstr("[contact] on = \"left\": contact on a clamped boundary"));
+  EXPECT_THAT(error, HasSubstr("[boundary[3]] displacement[1] = 0"));
+}
+
+TEST(Conditions, TheTractionOnAContactBoundaryBelongsToTheLaw) {
+  EXPECT_THAT(error_of({"boundary[3]={on='left', traction=[0,0]}"}),
+              HasSubstr("the traction on a contact boundary"));
+}
+
+TEST(Conditions, AnExchangingContactBoundaryHasNoFurtherThermalCondition) {
+  EXPECT_THAT(error_of({"boundary[3]={on='left', temperature=0}"}), HasSubstr("heat.law"));
+  EXPECT_THAT(error_of({"boundary[3]={on='left', heat_flux=0}"}), HasSubstr("heat.law"));
+}
+
+TEST(Conditions, AnInsulatedContactBoundaryMayHaveATemperature) {
+  EXPECT_EQ(error_of({"boundary[3]={on='left', temperature=0}", "contact.heat={law='insulated'}"}),
+            "no error");
+}
+
+TEST(Conditions, AContactBoundaryMayHaveAPotential) {
+  EXPECT_EQ(error_of({"boundary[3]={on='left', potential=0}"}), "no error");
+}
+
+}  // namespace
+}  // namespace tourmaline::casefile

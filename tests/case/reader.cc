@@ -1,0 +1,177 @@
+#include "tourmaline/case/reader.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "example.h"
+
+namespace tourmaline::casefile {
+namespace {
+
+Case read(const std::vector<std::string> &overrides = {}) {
+  return read_text(example, "case.toml", overrides);
+}
+
+TEST(Reader, ReadsTheMesh) {
+  const Case c = read();
+  ASSERT_TRUE(c.mesh.box);
+  EXPECT_EQ(c.title, "Thermally conductive foundation");
+  EXPECT_EQ(c.source, "case.toml");
+  EXPECT_EQ(c.mesh.box->min, (std::vector<double>{0, 0}));
+  EXPECT_EQ(c.mesh.box->max, (std::vector<double>{0.1, 0.1}));
+  EXPECT_EQ(c.mesh.box->cells, (std::vector<int>{64, 64}));
+  EXPECT_EQ(c.mesh.box->cell, CellShape::triangle);
+  EXPECT_EQ(c.mesh.degree, 1);
+  EXPECT_EQ(c.dimension, 2);
+}
+
+TEST(Reader, ReadsTheMaterial) {
+  const Case c = read();
+  EXPECT_EQ(c.material.library, "BaTiO3-Liu2014");
+  EXPECT_EQ(c.material.pyroelectric, (std::vector<double>{0, 1e-4}));
+  EXPECT_TRUE(c.material.constants.empty());
+  EXPECT_FALSE(c.material.stiffness);
+}
+
+TEST(Reader, ReadsNamedConstantsAndTensors) {
+  const Case c = read({"material.c11=166e9", "material.density=5800",
+                       "material.permittivity=[[1e-8,0,0],[0,1e-8,0],[0,0,2e-8]]"});
+  EXPECT_EQ(c.material.constants.at("c11"), 166e9);
+  EXPECT_EQ(c.material.constants.at("density"), 5800);
+  EXPECT_EQ(c.material.constants.size(), 2u);
+  EXPECT_EQ(c.material.permittivity->at(2).at(2), 2e-8);
+}
+
+TEST(Reader, ReadsBoundaryConditions) {
+  const Case c = read();
+  ASSERT_EQ(c.boundaries.size(), 3u);
+  EXPECT_EQ(c.boundaries[0].on, std::vector<std::string>{"right"});
+  EXPECT_TRUE(c.boundaries[0].displacement->at(1)->is_zero());
+  EXPECT_EQ(c.boundaries[0].where, "case.toml:14:1 [boundary[0]]");
+  EXPECT_EQ(c.boundaries[1].on, (std::vector<std::string>{"bottom", "top"}));
+  EXPECT_FALSE(c.boundaries[1].displacement);
+  EXPECT_FALSE(c.boundaries[1].potential);
+  EXPECT_EQ(c.boundaries[2].traction->at(1).value({}, 2), -1);
+  EXPECT_EQ(c.boundaries[2].traction->at(1).where(), "case.toml:26:16 [boundary[2]] traction[1]");
+}
+
+TEST(Reader, AFreeComponentHasNoFormula) {
+  const Case c = read({"boundary[1].displacement=['free', 0]", "boundary[2].traction=[1, 0]"});
+  EXPECT_FALSE(c.boundaries[1].displacement->at(0));
+  EXPECT_TRUE(c.boundaries[1].displacement->at(1));
+}
+
+TEST(Reader, ReadsTheContact) {
+  const Case c = read();
+  ASSERT_TRUE(c.contact);
+  EXPECT_EQ(c.contact->on, std::vector<std::string>{"left"});
+  EXPECT_EQ(c.contact->normal, "bilateral");
+  EXPECT_EQ(c.contact->friction.law, "tresca");
+  EXPECT_EQ(c.contact->friction.bound.value({}, 0), 15);
+  EXPECT_EQ(c.contact->heat.law, "exchange");
+  EXPECT_EQ(c.contact->heat.coefficient.value({}, 0), 1);
+  EXPECT_EQ(c.contact->heat.foundation_temperature.value({}, 0), -27);
+}
+
+TEST(Reader, ContactWithoutLawsIsSlipperyAndInsulated) {
+  const Case c = read({"contact={on='left'}"});
+  EXPECT_EQ(c.contact->friction.law, "none");
+  EXPECT_EQ(c.contact->heat.law, "insulated");
+}
+
+TEST(Reader, ACaseWithoutContactIsPossible) {
+  EXPECT_FALSE(read_text(cube, "cube.toml").contact);
+}
+
+TEST(Reader, ThreeDimensionsFollowFromTheCells) {
+  EXPECT_EQ(read_text(cube, "cube.toml").dimension, 3);
+}
+
+TEST(Reader, DefaultsLeaveAtMostFiftyFieldFiles) {
+  EXPECT_EQ(read_text(cube, "cube.toml").output.every, 2);
+  EXPECT_EQ(read_text(cube, "cube.toml", {"time.steps=1"}).output.every, 1);
+  EXPECT_EQ(read_text(cube, "cube.toml", {"time.steps=50"}).output.every, 1);
+  EXPECT_EQ(read_text(cube, "cube.toml", {"time.steps=51"}).output.every, 2);
+  EXPECT_EQ(read_text(cube, "cube.toml", {"time.steps=2147483647"}).output.every, 42949673);
+}
+
+TEST(Reader, ReadsLoadsAndInitialValues) {
+  const Case c = read({"load.force=[0,'-9.81*5800']", "load.heat='exp(-t)'",
+                       "initial.displacement=['1e-6*x',0]", "initial.temperature=20"});
+  EXPECT_DOUBLE_EQ(c.load.force.at(1).value({}, 0), -9.81 * 5800);
+  EXPECT_TRUE(c.load.heat.depends_on_time());
+  EXPECT_TRUE(c.initial.displacement.at(0).depends_on_place());
+  EXPECT_EQ(c.initial.temperature.value({}, 0), 20);
+  EXPECT_TRUE(c.load.charge.is_zero());
+}
+
+TEST(Reader, IntegersAreNumbers) {
+  EXPECT_EQ(read({"time.end=9007199254740993"}).time.end, 9007199254740992.0);
+}
+
+TEST(Reader, ReadsAFile) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "read a file.toml";
+  std::ofstream(file) << "\xEF\xBB\xBF" << example;  // as some editors on Windows write it
+  const Case c = read_file(file);
+  EXPECT_EQ(c.source, file.string());
+  EXPECT_EQ(c.time.steps, 20);
+  std::filesystem::remove(file);
+}
+
+TEST(Override, ReplacesAValue) {
+  EXPECT_EQ(read({"time.steps=40"}).time.steps, 40);
+}
+
+TEST(Override, TheLastOneCounts) {
+  EXPECT_EQ(read({"time.steps=40", "time.steps=50"}).time.steps, 50);
+}
+
+TEST(Override, ReachesIntoInlineTables) {
+  const Case c = read({"contact.friction.bound=30", "mesh.box.cells[0]=8"});
+  EXPECT_EQ(c.contact->friction.bound.value({}, 0), 30);
+  EXPECT_EQ(c.mesh.box->cells, (std::vector<int>{8, 64}));
+}
+
+TEST(Override, ReachesIntoArrayEntriesInBothSpellings) {
+  EXPECT_EQ(read({"boundary[2].traction=[0,\"-1*t\"]"}).boundaries[2].traction->at(1).text(),
+            "-1*t");
+  EXPECT_EQ(read({"boundary.2.traction=[0,\"-1*t\"]"}).boundaries[2].traction->at(1).text(),
+            "-1*t");
+}
+
+TEST(Override, MakesTheTablesThatTheFileLacks) {
+  const Case c =
+      read_text(cube, "cube.toml",
+                {"contact.on=left", "contact.friction.bound=30", "contact.friction.law=tresca",
+                 "boundary[1].on=top", "boundary[1].potential=5"});
+  EXPECT_EQ(c.contact->friction.bound.value({}, 0), 30);
+  EXPECT_EQ(c.boundaries.at(1).potential->value({}, 0), 5);
+}
+
+TEST(Override, MakesTheFirstEntryOfAnArray) {
+  const std::string without = cube.substr(0, cube.find("[[boundary]]"));
+  const Case c = read_text(
+      without, "cube.toml",
+      {"boundary[0].on=bottom", "boundary[0].displacement=[0,0,0]", "boundary[0].potential=0"});
+  EXPECT_EQ(c.boundaries.size(), 1u);
+}
+
+TEST(Override, ABareWordIsAText) {
+  EXPECT_EQ(read({"solver.method=monolithic"}).solver.method, "monolithic");
+  EXPECT_EQ(read({"boundary[0].potential=100*sin(2*pi*t)"}).boundaries[0].potential->text(),
+            "100*sin(2*pi*t)");
+}
+
+TEST(Override, TheEqualsSignOfAFormulaBelongsToTheValue) {
+  EXPECT_EQ(read({"boundary[0].potential=\"if(t==0,1,2)\""}).boundaries[0].potential->text(),
+            "if(t==0,1,2)");
+}
+
+TEST(Override, ReplacesAWholeTable) {
+  EXPECT_EQ(read({"contact.heat={law='insulated'}"}).contact->heat.law, "insulated");
+}
+
+}  // namespace
+}  // namespace tourmaline::casefile

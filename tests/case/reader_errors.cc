@@ -1,0 +1,295 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "example.h"
+#include "tourmaline/case/reader.h"
+#include "tourmaline/error.h"
+
+namespace tourmaline::casefile {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+std::string error_of(const std::string &text, const std::vector<std::string> &overrides = {}) {
+  try {
+    read_text(text, "case.toml", overrides);
+  } catch (const CaseError &error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+// The example with one piece of its text replaced.
+std::string changed(const std::string &from, const std::string &to) {
+  std::string text = example;
+  const auto place = text.find(from);
+  EXPECT_NE(place, std::string::npos) << from;
+  return text.replace(place, from.size(), to);
+}
+
+struct Mistake {
+  std::string from, to;
+  std::vector<std::string> pieces;  ///< of the error text
+};
+
+void PrintTo(const Mistake &mistake, std::ostream *out) {
+  *out << mistake.to;
+}
+
+class MistakeInAFile : public testing::TestWithParam<Mistake> {};
+
+TEST_P(MistakeInAFile, IsNamedWithItsPlaceAndWhatIsAllowed) {
+  const std::string error = error_of(changed(GetParam().from, GetParam().to));
+  for (const std::string &piece : GetParam().pieces)
+    EXPECT_THAT(error, HasSubstr(piece));
+  EXPECT_THAT(error, testing::StartsWith("case.toml"));
+  EXPECT_THAT(error, Not(HasSubstr("\n")));
+}
+
+const Mistake syntax[] = {
+    {"[time]", "[time", {"case.toml:10:6: is not TOML"}},
+    {"end = 0.2", "end = ", {"case.toml:11:", "is not TOML"}},
+    {"steps = 20", "steps = 20\nsteps = 30", {"case.toml:13:", "cannot redefine"}},
+    {"Thermally", "Therm\xFF\xFE", {"case.toml:1:", "utf-8"}},
+    {"steps = 20", "steps = 99999999999999999999", {"case.toml:12:", "64 bits"}},
+};
+INSTANTIATE_TEST_SUITE_P(Syntax, MistakeInAFile, testing::ValuesIn(syntax));
+
+const Mistake names[] = {
+    {"[solver]", "[sovler]", {"case.toml:34:2 sovler", "unknown key", "did you mean \"solver\"?"}},
+    {"friction = ",
+     "frictoin = ",
+     {"case.toml:31:1 [contact] frictoin", "allowed: on, normal, friction, heat",
+      "did you mean \"friction\"?"}},
+    {"bound = 15",
+     "bonud = 15",
+     {"case.toml:31:", "[contact.friction] bonud = 15", "did you mean \"bound\"?"}},
+    {"potential = 0", "potental = 0", {"[boundary[0]] potental", "did you mean \"potential\"?"}},
+    {"normal = \"bilateral\"",
+     "bound = 15",
+     {"[contact] bound = 15", "one of that name in [contact.friction]"}},
+    {"pyroelectric", "pyroelectrik", {"did you mean \"pyroelectric\"?"}},
+    {"pyroelectric = [0, 1e-4]", "c66 = 43e9", {"[material] c66", "(c11 - c12)/2"}},
+    {"normal = \"bilateral\"", "charge = 1", {"[contact] charge", "not available in this version"}},
+};
+INSTANTIATE_TEST_SUITE_P(Names, MistakeInAFile, testing::ValuesIn(names));
+
+const Mistake types[] = {
+    {"\"Thermally conductive foundation\"",
+     "3",
+     {"title = 3", "is an integer, but must be a text"}},
+    {"steps = 20", "steps = 20.0", {"[time] steps = 20", "is a number, but must be an integer"}},
+    {"steps = 20", "steps = \"20\"", {"is a text, but must be an integer"}},
+    {"end = 0.2", "end = true", {"[time] end = true", "is true or false, but must be a number"}},
+    {"end = 0.2", "end = 2020-01-01", {"2020-01-01", "is a date or time, but must be a number"}},
+    {"fields = true", "fields = 1", {"[output] fields = 1", "must be true or false"}},
+    {"cells = [64, 64]", "cells = 64", {"[mesh.box] cells = 64", "must be a list of integers"}},
+    {"cells = [64, 64]", "cells = [64, \"a\"]", {"case.toml:4:", "cells[1] = \"a\"", "an integer"}},
+    {"box = {", "box = 3 # {", {"[mesh] box = 3", "must be a table: [mesh.box]"}},
+    {"displacement = [0, 0]",
+     "displacement = 0",
+     {"[boundary[0]] displacement = 0", "a list of numbers, formulas or \"free\""}},
+    {"potential = 0", "potential = [0]", {"is a list, but must be a number or a formula"}},
+    {"on = \"right\"", "on = 1", {"[boundary[0]] on = 1", "a text or a list of texts"}},
+    {"library = \"BaTiO3-Liu2014\"", "library = 1", {"[material] library = 1", "must be a text"}},
+    {"library = \"BaTiO3-Liu2014\"",
+     "permittivity = [1, 2, 3]",
+     {"permittivity[0] = 1", "must be a list of numbers"}},
+    {"box =", "file = 3 #", {"[mesh] file = 3", "must be a text"}},
+};
+INSTANTIATE_TEST_SUITE_P(Types, MistakeInAFile, testing::ValuesIn(types));
+
+const Mistake numbers[] = {
+    {"bound = 15",
+     "bound = -15",
+     {"case.toml:31:38 [contact.friction] bound = -15", "must be >= 0 N/m^2"}},
+    {"bound = 15", "bound = \"-3*5\"", {"bound = \"-3*5\"", "must be >= 0 N/m^2"}},
+    {"coefficient = 1,", "coefficient = -1,", {"must be >= 0 W/(K m^2)"}},
+    {"coefficient = 1,", "coefficient = \"1 + t\",", {"must not depend on the time t"}},
+    {"end = 0.2", "end = 0", {"[time] end = 0", "must be > 0 s"}},
+    {"end = 0.2", "end = -1.5", {"end = -1.5", "must be > 0 s"}},
+    {"end = 0.2", "end = nan", {"end = nan", "is not a finite number"}},
+    {"end = 0.2", "end = inf", {"end = inf", "is not a finite number"}},
+    {"potential = 0", "potential = nan", {"potential = nan", "is not a finite number"}},
+    {"potential = 0", "potential = -inf", {"potential = -inf", "is not a finite number"}},
+    {"[0, 1e-4]", "[0, nan]", {"pyroelectric[1] = nan", "is not a finite number"}},
+    {"steps = 20", "steps = 0", {"steps = 0", "must be >= 1"}},
+    {"steps = 20", "steps = -20", {"steps = -20", "must be >= 1"}},
+    {"steps = 20", "steps = 3000000000", {"must be at most 2147483647"}},
+    {"cells = [64, 64]", "cells = [64, 0]", {"cells[1] = 0", "must be >= 1"}},
+    {"cells = [64, 64]", "cells = [200000, 200000]", {"[mesh.box] cells", "unknowns"}},
+    {"max = [0.1, 0.1]", "max = [0.1, 0]", {"[mesh.box] max", "entry 1 must be greater"}},
+    {"max = [0.1, 0.1]", "max = [0.1, 1e-400]", {"entry 1 must be greater"}},
+    {"min = [0, 0], max = [0.1, 0.1]",
+     "min = [1e20, 0], max = [1.0000000001e20, 0.1]",
+     {"double precision"}},
+    {"every = 1", "every = 0", {"[output] every = 0", "must be >= 1"}},
+    {"method = \"condensed\"", "tolerance = 0", {"[solver] tolerance = 0", "must be > 0 and < 1"}},
+    {"method = \"condensed\"", "threads = 0", {"[solver] threads = 0", "must be >= 1 and <= 1024"}},
+    {"box =", "degree = 3\nbox =", {"[mesh] degree = 3", "must be >= 1 and <= 2"}},
+    {"pyroelectric = [0, 1e-4]", "c11 = -1", {"[material] c11 = -1", "must be > 0 Pa"}},
+    {"pyroelectric = [0, 1e-4]", "density = 0", {"density = 0", "must be > 0 kg/m^3"}},
+    {"pyroelectric = [0, 1e-4]", "poling = [0, 0]", {"poling = [0, 0]", "is no direction"}},
+    {"pyroelectric = [0, 1e-4]", "axis1 = [0, 2]", {"axis1 = [0, 2]", "parallel to the poling"}},
+    {"pyroelectric = [0, 1e-4]",
+     "pyroelectric = [0, 1e-4]\np3 = 1e-4",
+     {"[material] p3 = 0.0001", "given twice, here and in `pyroelectric`"}},
+};
+INSTANTIATE_TEST_SUITE_P(Numbers, MistakeInAFile, testing::ValuesIn(numbers));
+
+const Mistake lengths[] = {
+    {"min = [0, 0]",
+     "min = [0, 0, 0]",
+     {"[mesh.box] min = [0, 0, 0]", "has 3 entries, but needs 2", "2-dimensional"}},
+    {"cell = \"triangle\"", "cell = \"tetrahedron\"", {"has 2 entries, but needs 3"}},
+    {"displacement = [0, 0]", "displacement = [0]", {"has 1 entry, but needs 2"}},
+    {"traction = [0, \"-0.5*t\"]", "traction = [0, 0, \"-0.5*t\"]", {"has 3 entries, but needs 2"}},
+    {"[0, 1e-4]", "[1e-4]", {"has 1 entry, but needs 2 or 3", "[p1, p3]"}},
+    {"pyroelectric = [0, 1e-4]", "stiffness = [[1, 2], [3, 4]]", {"has 2 rows, but needs 6"}},
+    {"pyroelectric = [0, 1e-4]",
+     "conductivity = [[1, 2, 3], [3, 4], [5, 6, 7]]",
+     {"conductivity[1] = [3, 4]", "has 2 entries, but needs 3"}},
+};
+INSTANTIATE_TEST_SUITE_P(Lengths, MistakeInAFile, testing::ValuesIn(lengths));
+
+const Mistake missing[] = {
+    {"end = 0.2\n", "", {"case.toml:10:1 [time] end", "missing", "[s]"}},
+    {"steps = 20\n", "", {"[time] steps", "missing"}},
+    {"[time]\nend = 0.2\nsteps = 20\n", "", {"time: missing"}},
+    {"on = \"right\"\n", "", {"case.toml:14:1 [boundary[0]] on: missing"}},
+    {", bound = 15", "", {"[contact.friction] bound: missing", "[N/m^2]"}},
+    {", coefficient = 1", "", {"[contact.heat] coefficient: missing"}},
+    {", foundation_temperature = -27", "", {"[contact.heat] foundation_temperature: missing"}},
+    {"cells = [64, 64], ", "", {"[mesh.box] cells: missing"}},
+    {"box =", "#", {"case.toml:3:1 [mesh]: no mesh"}},
+    {"box =", "file = \"a.msh\"\nbox =", {"both mesh.box and mesh.file"}},
+    {"box =", "file = \"a.msh\" #", {"[mesh] file = \"a.msh\"", "not available yet"}},
+};
+INSTANTIATE_TEST_SUITE_P(Missing, MistakeInAFile, testing::ValuesIn(missing));
+
+const Mistake choices[] = {
+    {"\"tresca\"",
+     "\"tresc\"",
+     {"[contact.friction] law = \"tresc\"", "allowed: \"none\", \"tresca\"",
+      "did you mean \"tresca\"?"}},
+    {"\"tresca\"", "\"coulomb\"", {"law = \"coulomb\"", "not available in this version"}},
+    {"\"bilateral\"", "\"signorini\"", {"normal = \"signorini\"", "not available in this version"}},
+    {"\"bilateral\"", "\"normal_compliance\"", {"not available in this version"}},
+    {"\"bilateral\"", "\"bilaterl\"", {"did you mean \"bilateral\"?"}},
+    {"\"exchange\"", "\"conducting\"", {"allowed: \"insulated\", \"exchange\""}},
+    {"\"condensed\"", "\"monolitic\"", {"did you mean \"monolithic\"?"}},
+    {"\"triangle\"", "\"tri\"", {"[mesh.box] cell = \"tri\"", "did you mean \"triangle\"?"}},
+    {"on = \"left\"", "on = \"lfet\"", {"[contact] on = \"lfet\"", "did you mean \"left\"?"}},
+    {"on = \"top\"", "on = \"front\"", {"allowed: \"left\", \"right\", \"bottom\", \"top\""}},
+    {"on = \"top\"", "on = []", {"names nothing"}},
+    {"[\"bottom\", \"top\"]", "[\"top\", \"top\"]", {"names \"top\" twice"}},
+    {"law = \"tresca\"", "law = \"none\"", {"bound = 15", "only used with law = \"tresca\""}},
+    {"law = \"exchange\"", "law = \"insulated\"", {"only used with law = \"exchange\""}},
+    {"[[boundary]]\non = \"right\"",
+     "[boundary]\non = \"right\"",
+     {"case.toml:20:", "is not TOML"}},
+};
+INSTANTIATE_TEST_SUITE_P(Choices, MistakeInAFile, testing::ValuesIn(choices));
+
+const Mistake formulas[] = {
+    {"\"-0.5*t\"",
+     "\"-0.5*\"",
+     {"case.toml:26:16 [boundary[2]] traction[1] = \"-0.5*\"", "Unexpected end of expression"}},
+    {"\"-0.5*t\"", "\"-0.5*tt\"", {"\"tt\" found at position 5", "did you mean \"t\"?"}},
+    {"\"-0.5*t\"", "\"1/0\"", {"traction[1] = \"1/0\"", "is not a finite number"}},
+    {"\"-0.5*t\"", "\"\"", {"traction[1] = \"\"", "empty"}},
+    {"displacement = [0, 0]", "displacement = [0, \"Free\"]", {"did you mean \"free\"?"}},
+};
+INSTANTIATE_TEST_SUITE_P(Formulas, MistakeInAFile, testing::ValuesIn(formulas));
+
+TEST(Errors, ASingleTableForAnArrayOfTablesSaysHowToWriteIt) {
+  const std::string text = cube.substr(0, cube.find("[[")) + "[boundary]\non = \"top\"\n";
+  EXPECT_THAT(error_of(text), HasSubstr("write [[boundary]]"));
+}
+
+TEST(Errors, AnEmptyFileSaysSo) {
+  EXPECT_THAT(error_of(""), HasSubstr("case.toml: is empty"));
+  EXPECT_THAT(error_of(" \n\t\n"), HasSubstr("is empty"));
+  EXPECT_THAT(error_of("# nothing\n"), HasSubstr("mesh: missing"));
+}
+
+TEST(Errors, ABinaryFileIsNoText) {
+  EXPECT_THAT(error_of(std::string("\x7F"
+                                   "ELF\0\0",
+                                   6)),
+              HasSubstr("not a text file"));
+}
+
+TEST(Errors, ThirtyKilobytesOfAValueAreNotQuoted) {
+  const std::string error =
+      error_of(changed("\"condensed\"", "\"" + std::string(30000, 'm') + "\""));
+  EXPECT_THAT(error, HasSubstr("mmm..."));
+  EXPECT_LT(error.size(), 400u);
+}
+
+TEST(Errors, FilesThatCannotBeReadSayWhy) {
+  const auto error_of_file = [](const std::filesystem::path &file) -> std::string {
+    try {
+      read_file(file);
+    } catch (const CaseError &error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_THAT(error_of_file("no-such-file.toml"), HasSubstr("there is no such file"));
+  EXPECT_THAT(error_of_file(testing::TempDir()), HasSubstr("is a folder"));
+  EXPECT_THAT(error_of_file("/dev/null"), HasSubstr("is empty"));
+  EXPECT_THAT(error_of_file("/dev/zero"), HasSubstr("larger than 16 MiB"));
+}
+
+struct BadOverride {
+  std::string text;
+  std::string piece;
+};
+
+void PrintTo(const BadOverride &bad, std::ostream *out) {
+  *out << bad.text;
+}
+
+class BadOverrides : public testing::TestWithParam<BadOverride> {};
+
+TEST_P(BadOverrides, AreNamedAsTheirPlace) {
+  const std::string error = error_of(example, {GetParam().text});
+  EXPECT_THAT(error, testing::StartsWith("--set " + GetParam().text));
+  EXPECT_THAT(error, HasSubstr(GetParam().piece));
+}
+
+const BadOverride bad_overrides[] = {
+    {"contact.friction.bound=-3", "must be >= 0 N/m^2"},
+    {"contact.friction.bund=3", "did you mean \"bound\"?"},
+    {"solver.method=monolitic", "did you mean \"monolithic\"?"},
+    {"time.steps=abc", "is a text, but must be an integer"},
+    {"time.steps", "has no \"=\""},
+    {"time.steps=", "has no value"},
+    {"=3", "empty part"},
+    {"time..steps=3", "empty part"},
+    {"time.steps.x=3", "time.steps is a value"},
+    {"boundary[9].on=left", "boundary has 3 entries"},
+    {"boundary.first.on=left", "boundary is a list"},
+    {"mesh.box.cells=[1,", "not one of TOML's"},
+    {"time.end=1\nsteps = 3", "there are several"},
+    {"mesh.box.cells[5]=3", "has 2 entries"},
+    {"iterations=3", "unknown key"},
+    {"steps=3", "one of that name in [time]"},
+    {"time=3", "must be a table: [time]"},
+    {"output={evry=3}", "did you mean \"every\"?"},
+    {"boundary[1].on[0]=lft", "did you mean \"left\"?"},
+    {"boundary[3].potential=1", "on: missing"},
+};
+INSTANTIATE_TEST_SUITE_P(All, BadOverrides, testing::ValuesIn(bad_overrides));
+
+TEST(Errors, AVeryLongOverrideIsNotRepeatedInFull) {
+  EXPECT_LT(error_of(example, {"title=[" + std::string(50000, '1') + "]"}).size(), 500u);
+}
+
+}  // namespace
+}  // namespace tourmaline::casefile

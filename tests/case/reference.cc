@@ -1,0 +1,38 @@
+#include "tourmaline/case/reference.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+namespace tourmaline::casefile {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(ReferencePage, IsTheOneInTheDocumentation) {
+  std::ifstream in(TOURMALINE_SOURCE_DIR "/docs/case-file.md");
+  const std::string page{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_TRUE(page == reference_page())
+      << "docs/case-file.md is out of date: tourmaline reference > docs/case-file.md";
+}
+
+TEST(ReferencePage, HasEveryTable) {
+  const std::string page = reference_page();
+  for (const char *table :
+       {"[mesh]", "[mesh.box]", "[material]", "[time]", "[[boundary]]", "[contact]",
+        "[contact.friction]", "[contact.heat]", "[load]", "[initial]", "[solver]", "[output]"})
+    EXPECT_THAT(page, HasSubstr(std::string("# ") + table + "\n"));
+}
+
+TEST(ReferencePage, SaysUnitRangeAndDefault) {
+  const std::string page = reference_page();
+  EXPECT_THAT(page, HasSubstr("| `bound` | formula | N/m^2 | required |"));
+  EXPECT_THAT(page, HasSubstr(">= 0; only with `law = \"tresca\"` |"));
+  EXPECT_THAT(page, HasSubstr("| `method` | text |  | `\"condensed\"` |"));
+  EXPECT_THAT(page, HasSubstr("| `end` | number | s | required |"));
+}
+
+}  // namespace
+}  // namespace tourmaline::casefile

@@ -1,0 +1,79 @@
+#include "tourmaline/case/resolved.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "example.h"
+#include "tourmaline/case/reader.h"
+
+namespace tourmaline::casefile {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Resolved, FillsInTheDefaults) {
+  const std::string text = resolved(read_text(cube, "cube.toml"));
+  for (const char *line : {"degree = 1\n", "method = \"condensed\"\n", "tolerance = 1e-12\n",
+                           "every = 2\n", "fields = true\n", "charge = 0\n"})
+    EXPECT_THAT(text, HasSubstr(line));
+}
+
+TEST(Resolved, DoesNotInventWhatTheCaseLacks) {
+  const std::string text = resolved(read_text(cube, "cube.toml"));
+  EXPECT_THAT(text, testing::Not(HasSubstr("[contact")));
+  EXPECT_THAT(text, testing::Not(HasSubstr("file = ")));
+  EXPECT_THAT(text, testing::Not(HasSubstr("traction")));
+}
+
+TEST(Resolved, LeavesOutTheKeysThatALawDoesNotUse) {
+  const std::string text =
+      resolved(read_text(example, "case.toml", {"contact.friction={law='none'}"}));
+  EXPECT_THAT(text, testing::Not(HasSubstr("bound =")));
+}
+
+class RoundTrip : public testing::TestWithParam<std::vector<std::string>> {};
+
+TEST_P(RoundTrip, ReadingTheResolvedCaseResolvesToTheSameText) {
+  const Case first = read_text(example, "case.toml", GetParam());
+  const std::string text = resolved(first);
+  EXPECT_EQ(resolved(read_text(text, "resolved.toml")), text);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Variants, RoundTrip,
+    testing::Values(std::vector<std::string>{},
+                    std::vector<std::string>{"title=\"a \\\"quote\\\", a \\\\ and a \\n\""},
+                    std::vector<std::string>{"material.c11=166e9", "material.poling=[1,2]",
+                                             "material.permittivity=[[1,0,0],[0,1,0],[0,0,2]]"},
+                    std::vector<std::string>{"boundary[1].displacement=['free','1e-6*x']",
+                                             "boundary[2].traction=[1,0]"},
+                    std::vector<std::string>{"load.force=[1,'t']", "initial.displacement=[0,'x']"},
+                    std::vector<std::string>{"mesh.degree=2", "mesh.box.cell=quadrilateral"}));
+
+TEST(Resolved, KeepsEveryBitOfANumber) {
+  Case c = read_text(example, "case.toml");
+  for (const double number : {1.0 / 3.0, 0.1 + 0.2, 1e-300, 1e300, 5e-324, 123456789012345678.0}) {
+    c.time.end = number;
+    c.boundaries[0].potential = Formula(-number);
+    const Case again = read_text(resolved(c), "resolved.toml");
+    EXPECT_EQ(again.time.end, number);
+    EXPECT_EQ(again.boundaries[0].potential->value({}, 0), -number);
+  }
+}
+
+TEST(Resolved, KeepsEveryValueOfTheExample) {
+  const Case first = read_text(example, "case.toml");
+  const Case again = read_text(resolved(first), "resolved.toml");
+  EXPECT_EQ(again.title, first.title);
+  EXPECT_EQ(again.mesh.box->cells, first.mesh.box->cells);
+  EXPECT_EQ(again.mesh.box->max, first.mesh.box->max);
+  EXPECT_EQ(again.material.pyroelectric, first.material.pyroelectric);
+  EXPECT_EQ(again.boundaries.size(), first.boundaries.size());
+  EXPECT_EQ(again.boundaries[1].on, first.boundaries[1].on);
+  EXPECT_EQ(again.boundaries[2].traction->at(1).text(), "-0.5*t");
+  EXPECT_EQ(again.contact->friction.bound.text(), "15");
+  EXPECT_EQ(again.contact->heat.foundation_temperature.text(), "-27");
+}
+
+}  // namespace
+}  // namespace tourmaline::casefile

@@ -1,0 +1,160 @@
+#include "tourmaline/output/result_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <stdexcept>
+
+#include "small_body.h"
+#include "temporary_folder.h"
+#include "tourmaline/error.h"
+
+namespace tourmaline::output {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+using Names = std::set<std::string>;
+
+const ContactRow contact_row{};
+const std::span<const ContactRow> one_row(&contact_row, 1);
+
+HistoryRow history_row(int step) {
+  return {step, 0.1 * step, 1, 0, 1, 0, 0, {{"energy", 2}}};
+}
+
+class Results : public testing::Test {
+ protected:
+  void run_two_steps(ResultFolder &results) {
+    results.put_case("title = \"a\"\n");
+    for (int step = 1; step <= 2; ++step) {
+      results.put_fields(step, 0.1 * step, grid, points, cells);
+      results.put_contact(step, 0.1 * step, one_row);
+      results.put_history(history_row(step));
+    }
+    results.put_nodes(grid, points);
+    results.put_summary({});
+  }
+
+  TemporaryFolder folder;
+  std::filesystem::path directory = folder / "a/b";
+  Grid grid = square(2);
+  PointFields points = point_fields(grid.points.size());
+  CellFields cells = cell_fields(grid.n_cells());
+};
+
+TEST_F(Results, ARunLeavesTheFilesOfTheContract) {
+  ResultFolder results(directory, 2);
+  run_two_steps(results);
+  results.finish();
+  EXPECT_EQ(names_in(directory),
+            (Names{"resolved.toml", "result_0001.vtu", "result_0002.vtu", "result.pvd", "nodes.csv",
+                   "contact.csv", "history.csv", "summary.json"}));
+  EXPECT_EQ(content_of(directory / "resolved.toml"), "title = \"a\"\n");
+}
+
+TEST_F(Results, WithoutAContactBoundaryThereIsNoContactTable) {
+  ResultFolder results(directory, 2);
+  results.put_history(history_row(1));
+  results.finish();
+  EXPECT_EQ(names_in(directory), Names{"history.csv"});
+}
+
+TEST_F(Results, TheCollectionIsValidAfterEveryFieldFile) {
+  ResultFolder results(directory, 2);
+  for (int step : {1, 2}) {
+    results.put_fields(step, 0.1 * step, grid, points, cells);
+    const std::string pvd = content_of(directory / "result.pvd");
+    EXPECT_THAT(pvd, HasSubstr(step == 1 ? "result_0001.vtu" : "result_0002.vtu"));
+    EXPECT_TRUE(pvd.ends_with("</VTKFile>\n"));
+  }
+  EXPECT_THAT(content_of(directory / "result.pvd"), HasSubstr("result_0001.vtu"));
+}
+
+TEST_F(Results, AFailedSolveKeepsTheStepsThatWereComputed) {
+  ResultFolder results(directory, 2);
+  results.put_history(history_row(1));
+  results.put_history(history_row(2));
+  EXPECT_EQ(names_in(directory), Names{"history.csv.part"});
+  results.finish();
+  results.finish();
+  EXPECT_EQ(content_of(directory / "history.csv"),
+            "step,time,newton_iterations,residual,stick,slip,open,energy\n"
+            "1,0.10000000000000001,1,0,1,0,0,2\n"
+            "2,0.20000000000000001,1,0,1,0,0,2\n");
+}
+
+TEST_F(Results, TheSameRunLeavesTheSameBytes) {
+  const Names names{"result_0001.vtu", "result.pvd", "nodes.csv", "contact.csv", "history.csv"};
+  for (const char *name : {"first", "second"}) {
+    ResultFolder results(folder / name, 2);
+    run_two_steps(results);
+    results.finish();
+  }
+  for (const std::string &name : names)
+    EXPECT_EQ(content_of(folder / "first" / name), content_of(folder / "second" / name)) << name;
+}
+
+TEST_F(Results, AnEarlierRunsFilesAreRemovedAndNoOthers) {
+  const Names ours{"result_0001.vtu", "result_12345.vtu", "result.pvd",          "nodes.csv",
+                   "contact.csv",     "history.csv",      "summary.json",        "resolved.toml",
+                   "report.html",     "history.csv.part", "result_0007.vtu.part"};
+  const Names others{"result_mine.vtu", "result_01.vtu",  "notes.csv", "old_nodes.csv",
+                     "thesis.tex.part", "result.pvd.bak", "Nodes.csv"};
+  std::filesystem::create_directories(directory / "history.csv.d");
+  for (const Names &names : {ours, others})
+    for (const std::string &name : names)
+      std::ofstream(directory / name) << "x";
+  ResultFolder results(directory, 2);
+  Names left = others;
+  left.insert("history.csv.d");
+  EXPECT_EQ(names_in(directory), left);
+}
+
+TEST_F(Results, AFolderThatCannotBeMadeIsNamedWithTheReason) {
+  std::ofstream(folder / "a") << "a file";
+  EXPECT_THAT([&] { ResultFolder(directory, 2); },
+              ThrowsMessage<MachineError>(
+                  AllOf(HasSubstr(directory.string()), HasSubstr("Not a directory"))));
+}
+
+TEST_F(Results, AFolderThatCannotBeWrittenToKeepsItsFiles) {
+  if (::geteuid() == 0)
+    GTEST_SKIP() << "root may write everywhere";
+  std::filesystem::create_directories(directory);
+  std::ofstream(directory / "nodes.csv") << "old";
+  std::filesystem::permissions(
+      directory, std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+  EXPECT_THAT([&] { ResultFolder(directory, 2); },
+              ThrowsMessage<MachineError>(HasSubstr("Permission denied")));
+  EXPECT_EQ(names_in(directory), Names{"nodes.csv"});
+  std::filesystem::permissions(directory, std::filesystem::perms::owner_all);
+}
+
+TEST_F(Results, AFileSystemThatTakesNoFilesIsReportedAtTheStart) {
+  if (!std::filesystem::is_directory("/proc/self"))
+    GTEST_SKIP() << "no /proc here";
+  EXPECT_THROW(ResultFolder("/proc/self", 2), MachineError);
+}
+
+TEST_F(Results, EveryRowOfTheHistoryHasTheColumnsOfTheFirst) {
+  ResultFolder results(directory, 2);
+  results.put_history(history_row(1));
+  HistoryRow other = history_row(2);
+  other.quantities.front().first = "work";
+  EXPECT_THROW(results.put_history(other), std::invalid_argument);
+}
+
+TEST_F(Results, FieldsOfAnotherGridAreRefused) {
+  ResultFolder results(directory, 2);
+  results.put_fields(1, 0.1, grid, points, cells);
+  const Grid finer = square(3);
+  EXPECT_THROW(results.put_fields(2, 0.2, finer, point_fields(finer.points.size()),
+                                  cell_fields(finer.n_cells())),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace tourmaline::output
