@@ -100,6 +100,7 @@ void check_command(const CLI::App &app, int argc, char **argv) {
                               "; see tourmaline --help");
 }
 
+/// Throws what the commands throw; of the errors on the command line, CLI11's are reported here.
 int obey(int argc, char **argv) {
   Asked asked;
   CLI::App app("Frictional contact of thermo-piezoelectric bodies.", "tourmaline");

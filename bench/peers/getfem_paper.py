@@ -28,9 +28,9 @@ def process_age():
 
 AGE = process_age()
 
-# Before the libraries are loaded: one thread, and the AVX-512 kernels where OpenBLAS does not know the processor
-# (unless the environment says which).
-for variable in ('OPENBLAS_NUM_THREADS', 'OMP_NUM_THREADS'):
+# Before the libraries are loaded: one thread (Scotch, MUMPS' ordering, would take every core), and the AVX-512 kernels
+# where OpenBLAS does not know the processor, unless the environment says which.
+for variable in ('OPENBLAS_NUM_THREADS', 'OMP_NUM_THREADS', 'SCOTCH_PTHREAD_NUMBER'):
     os.environ[variable] = '1'
 with open('/proc/cpuinfo') as cpuinfo:
     text = cpuinfo.read()

@@ -34,7 +34,7 @@ Admissible<dim> bilateral(const Eigen::Matrix<double, dim, 1> &normal,
       free_directions.push_back(direction.normalized());
   }
   Admissible<dim> admissible{base, {}};
-  admissible.directions.resize(dim, static_cast<Eigen::Index>(free_directions.size()));
+  admissible.directions.setZero(dim, static_cast<Eigen::Index>(free_directions.size()));
   for (std::size_t k = 0; k < free_directions.size(); ++k)
     admissible.directions.col(static_cast<Eigen::Index>(k)) = free_directions[k];
   return admissible;

@@ -1,6 +1,7 @@
 #include "tourmaline/solve/interface_newton.h"
 
 #include <cmath>
+#include <limits>
 
 namespace tourmaline::solve {
 
@@ -29,8 +30,9 @@ class Iteration {
   }
 
   void sweep(bool backwards);
-  /// Solves one linear system; the length of the step taken, 1 when the whole step went.
-  double newton_step();
+  /// Solves one linear system; true when points came to stick on the way, so that the step after it is
+  /// another one.
+  bool newton_step();
   void update_residual_force() { force_.noalias() = programme_.force - programme_.stiffness * d_; }
 
   /// Natural residual |lambda - P(lambda + r d)| of a point, as a nodal force.
@@ -46,7 +48,10 @@ class Iteration {
   Tangent friction_force(std::size_t i) const;
   std::vector<std::size_t> smooth_points() const;
   double dissipation(const VectorXd &d) const;
-  VectorXd truncated(const VectorXd &step, double length) const;
+  VectorXd newton_direction(const std::vector<std::size_t> &smooth) const;
+  double length_to_kink(const ContactPoint &p, const VectorXd &direction) const;
+  VectorXd truncated(const VectorXd &direction, double length) const;
+  bool descends(const VectorXd &next) const;
 
   const InterfaceProgramme &programme_;
   VectorXd d_;      // slip increments
@@ -111,22 +116,27 @@ double Iteration::dissipation(const VectorXd &d) const {
   return sum;
 }
 
-// d + length * step, but a point on a line that would pass through zero stops there: beyond the kink the
+// The length of `direction` at which a point's slip has no component left along its present one: there, on
+// a line exactly and on a disc nearly, it meets the kink of the law. Infinite where there is no kink.
+double Iteration::length_to_kink(const ContactPoint &p, const VectorXd &direction) const {
+  const Tangent d = d_.segment(p.offset, p.size);
+  const double backwards = -d.dot(direction.segment(p.offset, p.size));
+  const bool kink = !with_law(p, [&](const auto &law) { return law.is_smooth_at(Tangent::Zero(p.size)); });
+  return kink && backwards > 0 ? d.squaredNorm() / backwards : std::numeric_limits<double>::infinity();
+}
+
+// d + length * direction, but a point that comes to its kink stops there, at exactly zero: beyond it the
 // Newton model does not hold.
-VectorXd Iteration::truncated(const VectorXd &step, double length) const {
-  VectorXd next = d_ + length * step;
-  for (const ContactPoint &p : programme_.points) {
-    const Tangent before = d_.segment(p.offset, p.size);
-    const bool kink = !with_law(p, [&](const auto &law) { return law.is_smooth_at(Tangent::Zero(p.size)); });
-    if (p.size == 1 && kink && before[0] * next[p.offset] < 0)
-      next[p.offset] = 0;
-  }
+VectorXd Iteration::truncated(const VectorXd &direction, double length) const {
+  VectorXd next = d_ + length * direction;
+  for (const ContactPoint &p : programme_.points)
+    if (p.size > 0 && length >= length_to_kink(p, direction))
+      next.segment(p.offset, p.size).setZero();
   return next;
 }
 
-double Iteration::newton_step() {
+VectorXd Iteration::newton_direction(const std::vector<std::size_t> &smooth) const {
   std::vector<Index> entries;
-  std::vector<std::size_t> smooth = smooth_points();
   for (const std::size_t i : smooth)
     for (Index c = 0; c < programme_.points[i].size; ++c)
       entries.push_back(programme_.points[i].offset + c);
@@ -142,25 +152,40 @@ double Iteration::newton_step() {
     });
     row += p.size;
   }
-  VectorXd step = VectorXd::Zero(d_.size());
   const VectorXd solved = hessian.llt().solve(descent);
-  step(entries) = solved;
+  VectorXd direction = VectorXd::Zero(d_.size());
+  direction(entries) = solved;
+  return direction;
+}
 
-  const double dissipated = dissipation(d_);
-  for (double length = 1; length > 1e-10; length /= 2) {
-    const VectorXd next = truncated(step, length);
-    const VectorXd change = next - d_;
-    const VectorXd resisted = programme_.stiffness * change;
-    const double growth = change.dot(resisted) / 2 - force_.dot(change) + dissipation(next) - dissipated;
-    // Round-off of the sum above: near the minimum the whole step must not be refused for it.
-    const double noise = 1e-14 * (std::abs(force_.dot(change)) + dissipated);
-    if (growth <= noise) {
-      d_ = next;
-      update_residual_force();
-      return length;
+// Whether the programme's value is not larger at `next`, up to the round-off of its own sum: near the
+// minimum the whole step must not be refused for that.
+bool Iteration::descends(const VectorXd &next) const {
+  const VectorXd change = next - d_;
+  const VectorXd resisted = programme_.stiffness * change;
+  const double dissipated = dissipation(d_), work = force_.dot(change);
+  return change.dot(resisted) / 2 - work + dissipation(next) - dissipated <=
+         1e-14 * (std::abs(work) + dissipated);
+}
+
+bool Iteration::newton_step() {
+  const std::vector<std::size_t> smooth = smooth_points();
+  const VectorXd direction = newton_direction(smooth);
+  double length = 1;
+  VectorXd next = truncated(direction, length);
+  if (!descends(next)) {
+    // Up to the first kink the value falls where points slip on lines; discs need damping as well.
+    for (const ContactPoint &p : programme_.points)
+      length = std::min(length, length_to_kink(p, direction));
+    next = truncated(direction, length);
+    while (length > 1e-12 && !descends(next)) {
+      length /= 2;
+      next = truncated(direction, length);
     }
   }
-  return 0;
+  d_ = next;
+  update_residual_force();
+  return smooth_points().size() < smooth.size();
 }
 
 double Iteration::residual(std::size_t i) const {
@@ -198,8 +223,22 @@ InterfaceSolution Iteration::solution() const {
 
 }  // namespace
 
+namespace {
+
+// Every point is held in all directions: no unknowns, nothing to solve.
+InterfaceSolution nothing_to_slip(const InterfaceProgramme &programme) {
+  InterfaceSolution solution;
+  solution.status.assign(programme.points.size(), output::ContactStatus::stick);
+  solution.converged = true;
+  return solution;
+}
+
+}  // namespace
+
 InterfaceSolution minimise(const InterfaceProgramme &programme, VectorXd start,
                            const InterfaceSettings &settings) {
+  if (programme.force.size() == 0)
+    return nothing_to_slip(programme);
   Iteration iteration(programme, std::move(start));
   int solved = 0;
   bool converged = false;
@@ -210,8 +249,11 @@ InterfaceSolution minimise(const InterfaceProgramme &programme, VectorXd start,
       break;
     for (int k = 0; k < sweeps_per_iteration; ++k)
       iteration.sweep(k % 2 == 1);
-    iteration.newton_step();
-    ++solved;
+    bool more = true;
+    while (more && solved < settings.max_iterations) {
+      more = iteration.newton_step();
+      ++solved;
+    }
   }
   InterfaceSolution solution = iteration.solution();
   solution.iterations = solved;

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "example.h"
 #include "tourmaline/case/reader.h"
 #include "tourmaline/error.h"

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "read_table.h"
+#include "tourmaline/case/reader.h"
+#include "tourmaline/solve/simulation.h"
+
+namespace tourmaline::testing {
+
+/// A case of the repository, run with overrides into a folder that goes away with the object.
+class RunCase {
+ public:
+  RunCase(const std::string &file, std::vector<std::string> overrides = {}) {
+    overrides.push_back("output.fields=false");
+    run(casefile::read_file(std::filesystem::path(TOURMALINE_SOURCE_DIR) / file, overrides));
+  }
+  RunCase(const casefile::Case &asked) { run(asked); }
+  ~RunCase() { std::filesystem::remove_all(folder_); }
+  RunCase(const RunCase &) = delete;
+  RunCase &operator=(const RunCase &) = delete;
+
+  Table nodes() const { return read_table(folder_ / "nodes.csv"); }
+  Table contact() const { return read_table(folder_ / "contact.csv"); }
+  Table history() const { return read_table(folder_ / "history.csv"); }
+  nlohmann::json summary() const {
+    std::ifstream in(folder_ / "summary.json");
+    return nlohmann::json::parse(in);
+  }
+  const std::filesystem::path &folder() const { return folder_; }
+
+ private:
+  void run(const casefile::Case &asked) {
+    std::string pattern = std::filesystem::temp_directory_path() / "tourmaline-case-XXXXXX";
+    folder_ = mkdtemp(pattern.data());
+    solve::simulate(asked, folder_, true);
+  }
+
+  std::filesystem::path folder_;
+};
+
+}  // namespace tourmaline::testing

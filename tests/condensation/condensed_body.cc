@@ -1,0 +1,138 @@
+#include "tourmaline/condensation/condensed_body.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tourmaline/error.h"
+#include "tourmaline/material/orientation.h"
+
+namespace tourmaline::condensation {
+namespace {
+
+using body::Fields;
+using body::unknown;
+using casefile::CellShape;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double step = 0.01;
+
+template <int dim>
+struct Block {
+  Block(CellShape shape, int n, double size = 0.1) : body(box(shape, n, size)), op(body, constants()) {
+    casefile::BoundaryCase clamp;
+    clamp.on = {"right"};
+    clamp.displacement = std::vector<std::optional<casefile::Formula>>(dim, casefile::Formula(0.));
+    clamp.potential = casefile::Formula(0.);
+    prescribed = body::prescribed_unknowns(body, {clamp});
+    contact = body.nodes_on({"left"});
+  }
+
+  static body::Discretisation<dim> box(CellShape shape, int n, double size) {
+    casefile::MeshCase mesh;
+    mesh.box = casefile::Box{std::vector<double>(dim, 0.), std::vector<double>(dim, size), std::vector<int>(dim, n), shape};
+    return {mesh::build<dim>(mesh), 1};
+  }
+
+  static material::BodyConstants<dim> constants() {
+    casefile::MaterialCase asked;
+    asked.library = "BaTiO3-Liu2014";
+    return material::restricted<dim>(
+        material::rotated(material::constants_of(asked), material::crystal_axes(asked, dim)));
+  }
+
+  CondensedBody<dim> condense() const { return {op, step, prescribed, contact, 1}; }
+
+  body::Discretisation<dim> body;
+  body::Operator<dim> op;
+  std::vector<body::Prescribed> prescribed;
+  std::vector<body::Node> contact;
+};
+
+template <int dim>
+void expect_inertia_and_definiteness(CellShape shape, int n, double size = 0.1) {
+  const Block<dim> block(shape, n, size);
+  const CondensedBody<dim> condensed = block.condense();
+  EXPECT_EQ(condensed.statistics().negative_pivots, static_cast<int>(condensed.n_electric_and_thermal()));
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> spectrum(condensed.stiffness());
+  EXPECT_GT(spectrum.eigenvalues()(0), 1e-6 * spectrum.eigenvalues().tail(1)(0));
+  const double asymmetry = (condensed.stiffness() - condensed.stiffness().transpose()).cwiseAbs().maxCoeff();
+  EXPECT_EQ(asymmetry, 0);
+}
+
+TEST(CondensedBody, HasAsManyNegativePivotsAsElectricAndThermalUnknownsAndAPositiveDefiniteStiffness) {
+  expect_inertia_and_definiteness<2>(CellShape::triangle, 12);
+  expect_inertia_and_definiteness<2>(CellShape::quadrilateral, 7);
+  expect_inertia_and_definiteness<2>(CellShape::triangle, 12, 100);   // metres
+  expect_inertia_and_definiteness<2>(CellShape::triangle, 12, 1e-6);  // micrometres
+  expect_inertia_and_definiteness<3>(CellShape::tetrahedron, 3);
+  expect_inertia_and_definiteness<3>(CellShape::hexahedron, 3);
+}
+
+// The same Schur complement by dense algebra in the unscaled unknowns.
+TEST(CondensedBody, IsTheSchurComplementOfTheOperator) {
+  const Block<2> block(CellShape::triangle, 3);
+  const CondensedBody<2> condensed = block.condense();
+  const std::size_t n = block.body.n_nodes() * 4;
+  MatrixXd k(n, n);
+  for (std::size_t j = 0; j < n; ++j) {
+    std::vector<double> unit(n, 0.), column(n);
+    unit[j] = 1;
+    block.op.multiply(step, unit, column);
+    k.col(j) = Eigen::Map<VectorXd>(column.data(), n);
+  }
+  std::vector<bool> taken(n, false);
+  for (const auto &p : block.prescribed)
+    taken[p.unknown] = true;
+  std::vector<int> interface, interior;
+  for (const body::Node node : block.contact)
+    for (int c = 0; c < 2; ++c) {
+      interface.push_back(static_cast<int>(unknown<2>(node, c)));
+      taken[interface.back()] = true;
+    }
+  for (std::size_t i = 0; i < n; ++i)
+    if (!taken[i])
+      interior.push_back(static_cast<int>(i));
+  const MatrixXd kii = k(interior, interior), kic = k(interior, interface);
+  const MatrixXd schur = MatrixXd(k(interface, interface)) - kic.transpose() * kii.partialPivLu().solve(kic);
+  EXPECT_LT((schur - condensed.stiffness()).cwiseAbs().maxCoeff(), 1e-8 * schur.cwiseAbs().maxCoeff());
+}
+
+TEST(CondensedBody, ReducedAndExpandedStatesSolveTheWholeSystemToRoundOff) {
+  const Block<2> block(CellShape::triangle, 10);
+  CondensedBody<2> condensed = block.condense();
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  std::vector<double> b(block.body.n_nodes() * 4), x(b.size(), 0.);
+  for (std::size_t i = 0; i < b.size(); ++i)
+    b[i] = normal(random) * (i % 4 < 2 ? 1 : 1e-9);
+  for (const auto &p : block.prescribed)
+    x[p.unknown] = p.unknown % 4 == 2 ? 3. : 1e-10;  // lifted, not zero
+  for (int repeat = 0; repeat < 2; ++repeat) {
+    const VectorXd s = condensed.reduce(b, x);
+    const VectorXd c = condensed.stiffness().llt().solve(s);
+    condensed.expand(c, x);
+    const VectorXd no_contact_forces = VectorXd::Zero(c.size());
+    EXPECT_LT(condensed.backward_error(b, x, no_contact_forces), 1e-12);
+    // A held contact: the difference between S c and s is the force it takes.
+    const VectorXd held = VectorXd::Zero(c.size()), again = condensed.reduce(b, x);
+    condensed.expand(held, x);
+    EXPECT_LT(condensed.backward_error(b, x, condensed.stiffness() * held - again), 1e-12);
+  }
+}
+
+TEST(CondensedBody, WithoutContactReduceAndExpandSolveTheBody) {
+  Block<2> block(CellShape::triangle, 6);
+  block.contact.clear();
+  CondensedBody<2> condensed = block.condense();
+  std::vector<double> b(block.body.n_nodes() * 4, 0.), x(b.size(), 0.);
+  b[unknown<2>(0, 1)] = 1;
+  condensed.reduce(b, x);
+  condensed.expand(VectorXd(), x);
+  EXPECT_LT(condensed.backward_error(b, x, VectorXd()), 1e-12);
+  EXPECT_GT(x[unknown<2>(0, 1)], 0);
+}
+
+}  // namespace
+}  // namespace tourmaline::condensation
