@@ -5,8 +5,8 @@
 
 namespace tourmaline {
 
-/// What the user asked for is wrong: exit status 2. The text is one paragraph: where, what was given,
-/// what is allowed.
+/// What the user asked for is wrong: exit status 2. The text is one paragraph: where, what was
+/// given, what is allowed.
 struct CaseError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -5,8 +5,8 @@
 namespace tourmaline::body {
 
 template <int dim>
-std::vector<Prescribed> prescribed_unknowns(
-    const Discretisation<dim> &body, const std::vector<casefile::BoundaryCase> &boundaries) {
+std::vector<Prescribed> prescribed_unknowns(const Discretisation<dim> &body,
+                                            const std::vector<casefile::BoundaryCase> &boundaries) {
   std::map<std::size_t, Prescribed> by_unknown;
   const auto prescribe = [&](Node node, int component, const casefile::Formula &value) {
     const std::size_t i = unknown<dim>(node, component);

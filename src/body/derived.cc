@@ -51,7 +51,9 @@ output::SymmetricTensor in_file_order(const material::Voigt &v, double shear) {
   return {v[0], v[1], v[2], shear * v[5], shear * v[3], shear * v[4]};
 }
 
-output::Vector plain(const Eigen::Vector3d &v) { return {v[0], v[1], v[2]}; }
+output::Vector plain(const Eigen::Vector3d &v) {
+  return {v[0], v[1], v[2]};
+}
 
 }  // namespace
 
@@ -84,10 +86,8 @@ output::CellFields derived_fields(const Discretisation<dim> &body, const materia
 }
 
 template output::CellFields derived_fields<2>(const Discretisation<2> &,
-                                              const material::Constants &,
-                                              std::span<const double>);
+                                              const material::Constants &, std::span<const double>);
 template output::CellFields derived_fields<3>(const Discretisation<3> &,
-                                              const material::Constants &,
-                                              std::span<const double>);
+                                              const material::Constants &, std::span<const double>);
 
 }  // namespace tourmaline::body

@@ -229,8 +229,8 @@ VtkCell vtk_cell(int dim, bool simplices, unsigned int degree) {
                   : (degree == 1 ? VtkCell::hexahedron : VtkCell::quadratic_hexahedron);
 }
 
-// deal.II's local node of each of VTK's. Simplices agree but for the edges of the tetrahedron; deal.II's
-// tensor-product cells run x fastest and list vertices, lines, faces, interior.
+// deal.II's local node of each of VTK's. Simplices agree but for the edges of the tetrahedron;
+// deal.II's tensor-product cells run x fastest and list vertices, lines, faces, interior.
 std::vector<unsigned int> vtk_order(VtkCell cell) {
   switch (cell) {
     case VtkCell::triangle:

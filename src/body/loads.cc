@@ -63,8 +63,7 @@ Loads<dim>::Loads(const Discretisation<dim> &body, const casefile::Case &asked, 
 }
 
 template <int dim>
-void Loads<dim>::add_volume_loads(const Discretisation<dim> &body,
-                                  const casefile::LoadCase &load) {
+void Loads<dim>::add_volume_loads(const Discretisation<dim> &body, const casefile::LoadCase &load) {
   const auto over_cells = [&](const casefile::Formula &density, double factor, int component) {
     if (density.is_zero())
       return;

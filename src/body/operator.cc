@@ -33,11 +33,11 @@ struct Trial {
   double value;
   Vector<dim> gradient;
   Strains<dim> strain;
-  Strains<dim> stress;                    // F B
+  Strains<dim> stress;                     // F B
   Eigen::Matrix<double, dim, dim> charge;  // E B
-  Vector<dim> electric;                   // beta g
-  Eigen::Matrix<double, 1, dim> heat;     // M^T B
-  double pyroelectric;                    // P . g
+  Vector<dim> electric;                    // beta g
+  Eigen::Matrix<double, 1, dim> heat;      // M^T B
+  double pyroelectric;                     // P . g
 };
 
 template <int dim>
@@ -71,7 +71,9 @@ void add_block(const Trial<dim> &a, const Trial<dim> &b, double heat_capacity, d
   block(theta, theta) -= jxw * heat_capacity * a.value * b.value;
 }
 
-constexpr int field_of(int component, int dim) { return std::max(0, component - dim + 1); }
+constexpr int field_of(int component, int dim) {
+  return std::max(0, component - dim + 1);
+}
 
 }  // namespace
 
@@ -184,7 +186,8 @@ FieldForms Operator<dim>::forms(std::span<const double> x, std::span<const doubl
   for (Node i = 0; i < graph_.n_nodes(); ++i) {
     Block sum = Block::Zero();  // column c: block column c times component c of y
     for (std::size_t e = graph_.row[i]; e < graph_.row[i + 1]; ++e)
-      sum += storage_[e] * Eigen::Map<const Vector<n>>(&y[unknown<dim>(graph_.column[e], 0)]).asDiagonal();
+      sum += storage_[e] *
+             Eigen::Map<const Vector<n>>(&y[unknown<dim>(graph_.column[e], 0)]).asDiagonal();
     for (int a = 0; a < n; ++a)
       for (int b = 0; b < n; ++b)
         forms[field_of(a, dim)][field_of(b, dim)] += x[unknown<dim>(i, a)] * sum(a, b);

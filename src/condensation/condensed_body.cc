@@ -71,8 +71,8 @@ SymmetricMatrix CondensedBody<dim>::matrix() const {
   const body::NodeGraph &graph = operator_.graph();
   SymmetricMatrix matrix;
   matrix.size = static_cast<int>(unknown_of_.size());
-  const std::size_t entries = (graph.column.size() + graph.n_nodes()) / 2 *
-                              Fields<dim>::count * Fields<dim>::count;
+  const std::size_t entries =
+      (graph.column.size() + graph.n_nodes()) / 2 * Fields<dim>::count * Fields<dim>::count;
   matrix.row.reserve(entries);
   matrix.column.reserve(entries);
   matrix.value.reserve(entries);

@@ -72,12 +72,12 @@ void Factorisation::Instance::check() const {
 void Factorisation::Instance::set_controls(int threads) {
   for (const int stream : {1, 2, 3})
     icntl(stream) = -1;
-  icntl(4) = 0;         // silent
-  icntl(6) = 0;         // no permutation to the diagonal,
-  icntl(8) = 0;         // no scaling: the unknowns are scaled already
-  icntl(7) = 1;         // our ordering
-  icntl(13) = 1;        // no ScaLAPACK at the root, which would take the matrix for positive definite
-  icntl(14) = 40;       // per cent of spare memory
+  icntl(4) = 0;    // silent
+  icntl(6) = 0;    // no permutation to the diagonal,
+  icntl(8) = 0;    // no scaling: the unknowns are scaled already
+  icntl(7) = 1;    // our ordering
+  icntl(13) = 1;   // no ScaLAPACK at the root, which would take the matrix for positive definite
+  icntl(14) = 40;  // per cent of spare memory
   icntl(16) = threads;  // OpenMP
   icntl(10) = 0;        // no iterative refinement: it needs the matrix and two more substitutions
 }
@@ -151,7 +151,9 @@ const std::vector<double> &Factorisation::schur_complement() const {
   return instance_->schur_complement;
 }
 
-const FactorisationStatistics &Factorisation::statistics() const { return instance_->statistics; }
+const FactorisationStatistics &Factorisation::statistics() const {
+  return instance_->statistics;
+}
 
 std::vector<double> Factorisation::reduce(std::vector<double> &right_side) {
   Instance &in = *instance_;

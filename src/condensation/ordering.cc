@@ -6,8 +6,7 @@
 
 namespace tourmaline::condensation {
 
-std::vector<int> nested_dissection(const body::NodeGraph &graph,
-                                   const std::vector<int> &unknowns) {
+std::vector<int> nested_dissection(const body::NodeGraph &graph, const std::vector<int> &unknowns) {
   static_assert(sizeof(idx_t) == sizeof(int));
   idx_t n = static_cast<idx_t>(graph.n_nodes());
   std::vector<idx_t> start{0}, neighbour, weight(unknowns), order(n), position(n);

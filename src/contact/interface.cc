@@ -50,10 +50,11 @@ std::vector<InterfaceNode<dim>> interface_nodes(const body::Discretisation<dim> 
   for (const auto &[node, integrals] : integrate(body, boundaries)) {
     const output::Vector &point = body.points()[node];
     if (!(integrals.weight > 1e-9 * integrals.size))
-      throw CaseError(fmt::format(
-          "[contact] the node at ({:g}, {:g}, {:g}) has no positive weight in the nodal quadrature; "
-          "contact on tetrahedra needs mesh.degree = 1",
-          point[0], point[1], point[2]));
+      throw CaseError(
+          fmt::format("[contact] the node at ({:g}, {:g}, {:g}) has no positive weight in the "
+                      "nodal quadrature; "
+                      "contact on tetrahedra needs mesh.degree = 1",
+                      point[0], point[1], point[2]));
     nodes.push_back({node, point, integrals.weight, integrals.normal.normalized()});
   }
   return nodes;

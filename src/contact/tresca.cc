@@ -11,7 +11,9 @@ TangentMatrix across(const Tangent &x) {
 
 }  // namespace
 
-double Tresca::dissipation(const Tangent &d) const { return bound * d.norm(); }
+double Tresca::dissipation(const Tangent &d) const {
+  return bound * d.norm();
+}
 
 Tangent Tresca::traction(const Tangent &trial) const {
   const double size = trial.norm();
@@ -29,7 +31,9 @@ output::ContactStatus Tresca::status(const Tangent &trial) const {
   return trial.norm() <= bound ? output::ContactStatus::stick : output::ContactStatus::slip;
 }
 
-bool Tresca::is_smooth_at(const Tangent &d) const { return bound == 0 || !d.isZero(0); }
+bool Tresca::is_smooth_at(const Tangent &d) const {
+  return bound == 0 || !d.isZero(0);
+}
 
 Tangent Tresca::gradient(const Tangent &d) const {
   return bound == 0 ? Tangent(Tangent::Zero(d.size())) : Tangent(bound * d.normalized());

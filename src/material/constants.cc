@@ -16,9 +16,10 @@ using Named = std::map<std::string, double>;
 double need(const Named &named, const char *constant) {
   const auto found = named.find(constant);
   if (found == named.end())
-    throw CaseError(fmt::format("[material] {} is missing: give it, or a library entry that has it "
-                                "(`tourmaline materials` lists them)",
-                                constant));
+    throw CaseError(
+        fmt::format("[material] {} is missing: give it, or a library entry that has it "
+                    "(`tourmaline materials` lists them)",
+                    constant));
   return found->second;
 }
 
@@ -86,10 +87,11 @@ void need_positive(const Matrix &matrix, const char *name) {
     throw CaseError(fmt::format("[material] {} is not symmetric", name));
   const Eigen::SelfAdjointEigenSolver<Matrix> spectrum(matrix);
   if (spectrum.eigenvalues()(0) <= 0)
-    throw CaseError(fmt::format(
-        "[material] {} is not positive definite: its smallest eigenvalue is {:.6g}; a stored energy "
-        "must be positive for every state",
-        name, spectrum.eigenvalues()(0)));
+    throw CaseError(
+        fmt::format("[material] {} is not positive definite: its smallest eigenvalue is {:.6g}; a "
+                    "stored energy "
+                    "must be positive for every state",
+                    name, spectrum.eigenvalues()(0)));
 }
 
 }  // namespace
@@ -133,7 +135,9 @@ void check_stored_energy(const Constants &constants) {
   energy.topRightCorner<3, 1>() = constants.pyroelectric * volt * kelvin;
   energy.bottomLeftCorner<1, 3>() = energy.topRightCorner<3, 1>().transpose();
   energy(3, 3) = 1;
-  need_positive(energy, "the electro-thermal energy [permittivity pyroelectric; pyroelectric^T rho c_v / theta_ref]");
+  need_positive(
+      energy,
+      "the electro-thermal energy [permittivity pyroelectric; pyroelectric^T rho c_v / theta_ref]");
 }
 
 }  // namespace tourmaline::material

@@ -13,14 +13,29 @@ namespace tourmaline::material {
 const std::vector<Entry> &library() {
   static const std::vector<Entry> entries{
       {"BaTiO3-Liu2014",
-       "P. Liu et al., Int. J. Solids Struct. 51 (2014) 2167-2182, as used by Ouafik (2020), section 4. The "
-       "pyroelectric constant is p3 = -1e-4 as printed; see docs/paper-notes.md for the sign that the "
+       "P. Liu et al., Int. J. Solids Struct. 51 (2014) 2167-2182, as used by Ouafik (2020), "
+       "section 4. The "
+       "pyroelectric constant is p3 = -1e-4 as printed; see docs/paper-notes.md for the sign that "
+       "the "
        "paper's figures need. c12 = 77 GPa completes the set in three dimensions.",
-       {{"c11", 166e9},     {"c12", 77e9},       {"c13", 78e9},     {"c33", 162e9},
-        {"c44", 43e9},      {"e31", -4.4},       {"e33", 18.6},     {"e15", 11.6},
-        {"beta11", 11.2e-9}, {"beta33", 12.6e-9}, {"m11", 2.24e6},   {"m33", 1.89e6},
-        {"p3", -1e-4},      {"k11", 50},         {"k33", 75},       {"density", 5500},
-        {"specific_heat", 420}, {"reference_temperature", 293}}}};
+       {{"c11", 166e9},
+        {"c12", 77e9},
+        {"c13", 78e9},
+        {"c33", 162e9},
+        {"c44", 43e9},
+        {"e31", -4.4},
+        {"e33", 18.6},
+        {"e15", 11.6},
+        {"beta11", 11.2e-9},
+        {"beta33", 12.6e-9},
+        {"m11", 2.24e6},
+        {"m33", 1.89e6},
+        {"p3", -1e-4},
+        {"k11", 50},
+        {"k33", 75},
+        {"density", 5500},
+        {"specific_heat", 420},
+        {"reference_temperature", 293}}}};
   return entries;
 }
 
@@ -31,9 +46,10 @@ const Entry &find(const std::string &name) {
       return entry;
     names.push_back(entry.name);
   }
-  throw CaseError(fmt::format("[material] library = \"{}\": no such material; did you mean \"{}\"? "
-                              "`tourmaline materials` lists them",
-                              name, casefile::nearest(name, names).value_or(names.front())));
+  throw CaseError(
+      fmt::format("[material] library = \"{}\": no such material; did you mean \"{}\"? "
+                  "`tourmaline materials` lists them",
+                  name, casefile::nearest(name, names).value_or(names.front())));
 }
 
 std::string describe_library() {

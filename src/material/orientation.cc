@@ -13,8 +13,8 @@ Vector direction(const std::vector<double> &given, const Vector &otherwise, cons
   if (given.empty())
     return otherwise;
   if (static_cast<int>(given.size()) != dimension)
-    throw CaseError(fmt::format("[material] {} has {} entries; a direction in {} dimensions has {}", key,
-                                given.size(), dimension, dimension));
+    throw CaseError(fmt::format("[material] {} has {} entries; a direction in {} dimensions has {}",
+                                key, given.size(), dimension, dimension));
   Vector v = Vector::Zero();
   std::copy(given.begin(), given.end(), v.data());
   if (!(v.norm() > 0))

@@ -8,8 +8,8 @@ namespace tourmaline::material {
 
 namespace {
 
-// Voigt places of xx, yy, xy and of the strains that plane strain sets to zero although the plane could
-// drive them: yz, xz.
+// Voigt places of xx, yy, xy and of the strains that plane strain sets to zero although the plane
+// could drive them: yz, xz.
 const std::array<int, 3> in_plane{0, 1, 5};
 const std::array<int, 2> out_of_plane{3, 4};
 
@@ -27,7 +27,8 @@ void check_plane(const Constants &c) {
   }
   if (couples)
     throw CaseError(
-        "[material] in this orientation fields in the plane drive a displacement out of it, so plane "
+        "[material] in this orientation fields in the plane drive a displacement out of it, so "
+        "plane "
         "strain is no solution; turn poling into the plane, or model the body in three dimensions");
 }
 

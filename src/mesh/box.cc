@@ -10,8 +10,8 @@ namespace tourmaline::mesh {
 
 namespace {
 
-// Sides in the order of deal.II's boundary ids of a box: both ends of the first axis, of the second, ...
-// The last axis points up in two and three dimensions, as the default poling does.
+// Sides in the order of deal.II's boundary ids of a box: both ends of the first axis, of the
+// second, ... The last axis points up in two and three dimensions, as the default poling does.
 template <int dim>
 constexpr std::array<const char *, 2 * dim> side_names();
 template <>
@@ -53,8 +53,8 @@ Mesh<dim> box(const casefile::Box &asked) {
   }
   Mesh<dim> mesh;
   mesh.cells = std::make_unique<dealii::Triangulation<dim>>();
-  mesh.simplices = asked.cell == casefile::CellShape::triangle ||
-                   asked.cell == casefile::CellShape::tetrahedron;
+  mesh.simplices =
+      asked.cell == casefile::CellShape::triangle || asked.cell == casefile::CellShape::tetrahedron;
   if (mesh.simplices)
     dealii::GridGenerator::subdivided_hyper_rectangle_with_simplices(*mesh.cells, cells, min, max);
   else

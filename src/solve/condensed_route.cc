@@ -49,7 +49,7 @@ class CondensedRoute : public Route {
   std::vector<bool> is_prescribed_;
   condensation::CondensedBody<dim> condensed_;
   Eigen::SparseMatrix<double> directions_;  // T: admissible slips of all nodes, block diagonal
-  MatrixXd slip_stiffness_;  // T^T S T
+  MatrixXd slip_stiffness_;                 // T^T S T
   std::vector<ContactPoint> points_;
   VectorXd last_increment_;
   double backward_error_ = 0, condense_seconds_ = 0;
@@ -106,8 +106,7 @@ VectorXd CondensedRoute<dim>::contact_displacements(std::span<const double> stat
   VectorXd c(dim * static_cast<Index>(model_.interface.size()));
   for (std::size_t i = 0; i < model_.interface.size(); ++i)
     for (int k = 0; k < dim; ++k)
-      c[dim * static_cast<Index>(i) + k] =
-          state[body::unknown<dim>(model_.interface[i].node, k)];
+      c[dim * static_cast<Index>(i) + k] = state[body::unknown<dim>(model_.interface[i].node, k)];
   return c;
 }
 
@@ -145,12 +144,14 @@ void CondensedRoute<dim>::give_up(double time, const InterfaceSolution &solution
     const output::Vector &p = model_.interface[solution.unsettled[i]].point;
     places += fmt::format(" ({:g}, {:g}, {:g})", p[0], p[1], p[2]);
   }
-  throw SolveError(fmt::format(
-      "the contact iteration did not converge at t = {:g} s: residual {:.3g} of the largest force after "
-      "{} iterations, wanted {:.3g}; {} points are unsettled, among them{}; raise solver.max_iterations or "
-      "solver.tolerance, or take smaller time steps",
-      time, solution.residual, solution.iterations, model_.asked.solver.tolerance,
-      solution.unsettled.size(), places));
+  throw SolveError(
+      fmt::format("the contact iteration did not converge at t = {:g} s: residual {:.3g} of the "
+                  "largest force after "
+                  "{} iterations, wanted {:.3g}; {} points are unsettled, among them{}; raise "
+                  "solver.max_iterations or "
+                  "solver.tolerance, or take smaller time steps",
+                  time, solution.residual, solution.iterations, model_.asked.solver.tolerance,
+                  solution.unsettled.size(), places));
 }
 
 template <int dim>
@@ -164,7 +165,8 @@ StepOutcome CondensedRoute<dim>::advance(double time, std::span<const double> ri
     const VectorXd c_before = contact_displacements(before);
     const InterfaceSolution solution = solve_contact(time, s, held, c_before);
     last_increment_ = solution.increment;
-    // Adding the increment to the very values of the last step keeps a sticking point in its place exactly.
+    // Adding the increment to the very values of the last step keeps a sticking point in its place
+    // exactly.
     const VectorXd slips = directions_.transpose() * c_before + solution.increment;
     c = held + directions_ * slips;
     outcome.contact_forces = condensed_.stiffness() * c - s;

@@ -30,8 +30,8 @@ class Iteration {
   }
 
   void sweep(bool backwards);
-  /// Solves one linear system; true when points came to stick on the way, so that the step after it is
-  /// another one.
+  /// Solves one linear system; true when points came to stick on the way, so that the step after it
+  /// is another one.
   bool newton_step();
   void update_residual_force() { force_.noalias() = programme_.force - programme_.stiffness * d_; }
 
@@ -63,12 +63,15 @@ double Iteration::largest_eigenvalue(const ContactPoint &p) const {
   const TangentMatrix block = programme_.stiffness.block(p.offset, p.offset, p.size, p.size);
   if (p.size == 1)
     return block(0, 0);
-  return p.size == 0 ? 0 : Eigen::SelfAdjointEigenSolver<TangentMatrix>(block).eigenvalues()(p.size - 1);
+  return p.size == 0
+             ? 0
+             : Eigen::SelfAdjointEigenSolver<TangentMatrix>(block).eigenvalues()(p.size - 1);
 }
 
 Tangent Iteration::trial(std::size_t i) const {
   const ContactPoint &p = programme_.points[i];
-  return (force_.segment(p.offset, p.size) + curvature_[i] * d_.segment(p.offset, p.size)) / p.weight;
+  return (force_.segment(p.offset, p.size) + curvature_[i] * d_.segment(p.offset, p.size)) /
+         p.weight;
 }
 
 Tangent Iteration::friction_force(std::size_t i) const {
@@ -76,8 +79,8 @@ Tangent Iteration::friction_force(std::size_t i) const {
   return p.weight * with_law(p, [&](const auto &law) { return law.traction(trial(i)); });
 }
 
-// The point's own problem with all others held, its block of A replaced by its largest eigenvalue: exact
-// in one dimension, a descent step in two. A point inside the ball comes out as exactly zero.
+// The point's own problem with all others held, its block of A replaced by its largest eigenvalue:
+// exact in one dimension, a descent step in two. A point inside the ball comes out as exactly zero.
 void Iteration::sweep(bool backwards) {
   const std::size_t n = programme_.points.size();
   for (std::size_t k = 0; k < n; ++k) {
@@ -116,17 +119,20 @@ double Iteration::dissipation(const VectorXd &d) const {
   return sum;
 }
 
-// The length of `direction` at which a point's slip has no component left along its present one: there, on
-// a line exactly and on a disc nearly, it meets the kink of the law. Infinite where there is no kink.
+// The length of `direction` at which a point's slip has no component left along its present one:
+// there, on a line exactly and on a disc nearly, it meets the kink of the law. Infinite where there
+// is no kink.
 double Iteration::length_to_kink(const ContactPoint &p, const VectorXd &direction) const {
   const Tangent d = d_.segment(p.offset, p.size);
   const double backwards = -d.dot(direction.segment(p.offset, p.size));
-  const bool kink = !with_law(p, [&](const auto &law) { return law.is_smooth_at(Tangent::Zero(p.size)); });
-  return kink && backwards > 0 ? d.squaredNorm() / backwards : std::numeric_limits<double>::infinity();
+  const bool kink =
+      !with_law(p, [&](const auto &law) { return law.is_smooth_at(Tangent::Zero(p.size)); });
+  return kink && backwards > 0 ? d.squaredNorm() / backwards
+                               : std::numeric_limits<double>::infinity();
 }
 
-// d + length * direction, but a point that comes to its kink stops there, at exactly zero: beyond it the
-// Newton model does not hold.
+// d + length * direction, but a point that comes to its kink stops there, at exactly zero: beyond
+// it the Newton model does not hold.
 VectorXd Iteration::truncated(const VectorXd &direction, double length) const {
   VectorXd next = d_ + length * direction;
   for (const ContactPoint &p : programme_.points)
@@ -158,8 +164,8 @@ VectorXd Iteration::newton_direction(const std::vector<std::size_t> &smooth) con
   return direction;
 }
 
-// Whether the programme's value is not larger at `next`, up to the round-off of its own sum: near the
-// minimum the whole step must not be refused for that.
+// Whether the programme's value is not larger at `next`, up to the round-off of its own sum: near
+// the minimum the whole step must not be refused for that.
 bool Iteration::descends(const VectorXd &next) const {
   const VectorXd change = next - d_;
   const VectorXd resisted = programme_.stiffness * change;

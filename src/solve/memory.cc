@@ -50,9 +50,10 @@ double available_memory() {
 void require_memory(const casefile::Case &asked) {
   const double needed = estimated_memory(asked), available = available_memory();
   if (needed > available)
-    throw CaseError(fmt::format(
-        "{}: [mesh] this mesh needs about {:.3g} GiB of memory, {:.3g} GiB are available; take fewer cells",
-        asked.source, needed / (1 << 30), available / (1 << 30)));
+    throw CaseError(
+        fmt::format("{}: [mesh] this mesh needs about {:.3g} GiB of memory, {:.3g} GiB are "
+                    "available; take fewer cells",
+                    asked.source, needed / (1 << 30), available / (1 << 30)));
 }
 
 }  // namespace tourmaline::solve

@@ -54,7 +54,8 @@ output::HistoryRow Recorder<dim>::step(int n, const StepOutcome &outcome,
   row.time = time;
   row.newton_iterations = outcome.newton_iterations;
   row.residual = outcome.residual;
-  row.stick = std::count(outcome.status.begin(), outcome.status.end(), output::ContactStatus::stick);
+  row.stick =
+      std::count(outcome.status.begin(), outcome.status.end(), output::ContactStatus::stick);
   row.slip = std::count(outcome.status.begin(), outcome.status.end(), output::ContactStatus::slip);
   row.open = std::count(outcome.status.begin(), outcome.status.end(), output::ContactStatus::open);
   if (model_.asked.contact) {
@@ -123,12 +124,13 @@ std::vector<output::ContactRow> Recorder<dim>::contact_rows(int n, const StepOut
     const Vector<dim> change = u - displacement<dim>(before, at.node);
     const double theta = state[body::unknown<dim>(at.node, body::Fields<dim>::temperature)];
     const double k_c = heat_coefficient(at.point);
-    rows.push_back({at.point, traction.dot(at.normal),
-                    in_space<dim>(tangential<dim>(traction, at.normal)), u.dot(at.normal),
-                    in_space<dim>(tangential<dim>(u, at.normal)),
-                    tangential<dim>(change, at.normal).norm() / model_.step, outcome.status[i],
-                    theta, state[body::unknown<dim>(at.node, body::Fields<dim>::potential)],
-                    k_c == 0 ? 0 : k_c * (theta - heat.foundation_temperature.value(at.point, model_.time(n)))});
+    rows.push_back(
+        {at.point, traction.dot(at.normal), in_space<dim>(tangential<dim>(traction, at.normal)),
+         u.dot(at.normal), in_space<dim>(tangential<dim>(u, at.normal)),
+         tangential<dim>(change, at.normal).norm() / model_.step, outcome.status[i], theta,
+         state[body::unknown<dim>(at.node, body::Fields<dim>::potential)],
+         k_c == 0 ? 0
+                  : k_c * (theta - heat.foundation_temperature.value(at.point, model_.time(n)))});
   }
   return rows;
 }

@@ -52,8 +52,9 @@ std::unique_ptr<Route> make_route(const Model<dim> &model) {
   return condensed_route(model);
 }
 
-// Evaluates the case's formulas once before anything is written: a formula that is undefined somewhere
-// should not leave a folder behind. Then opens the folder, which may fail, before the factorisation.
+// Evaluates the case's formulas once before anything is written: a formula that is undefined
+// somewhere should not leave a folder behind. Then opens the folder, which may fail, before the
+// factorisation.
 template <int dim>
 Simulation<dim>::Simulation(const casefile::Case &asked, const std::filesystem::path &directory,
                             bool quiet)
@@ -142,8 +143,9 @@ output::Summary Simulation<dim>::summary() const {
                    {"contact_nodes", model_.interface.size()},
                    {"factor_entries", report.factor_entries},
                    {"steps", model_.asked.time.steps}};
-  summary.iterations = {
-      {"newton_total", newton_total_}, {"newton_max", newton_max_}, {"newton_first", newton_first_}};
+  summary.iterations = {{"newton_total", newton_total_},
+                        {"newton_max", newton_max_},
+                        {"newton_first", newton_first_}};
   summary.factorisations = report.factorisations;
   if (report.negative_pivots >= 0)
     summary.negative_pivots = report.negative_pivots;

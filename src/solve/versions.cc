@@ -10,7 +10,9 @@ extern "C" char *openblas_get_corename();
 
 namespace tourmaline::solve {
 
-std::string program_version() { return TOURMALINE_VERSION; }
+std::string program_version() {
+  return TOURMALINE_VERSION;
+}
 
 std::map<std::string, std::string> component_versions() {
   return {{"deal.II", DEAL_II_PACKAGE_VERSION},

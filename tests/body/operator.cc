@@ -21,13 +21,15 @@ casefile::MaterialCase material_case() {
 }
 
 material::Constants constants(int dimension) {
-  return material::rotated(material::constants_of(material_case()), material::crystal_axes(material_case(), dimension));
+  return material::rotated(material::constants_of(material_case()),
+                           material::crystal_axes(material_case(), dimension));
 }
 
 template <int dim>
 Discretisation<dim> box(CellShape shape, int degree, int n = 3) {
   casefile::MeshCase mesh;
-  mesh.box = casefile::Box{std::vector<double>(dim, 0.), std::vector<double>(dim, 0.1), std::vector<int>(dim, n), shape};
+  mesh.box = casefile::Box{std::vector<double>(dim, 0.), std::vector<double>(dim, 0.1),
+                           std::vector<int>(dim, n), shape};
   return {mesh::build<dim>(mesh), degree};
 }
 
@@ -85,7 +87,8 @@ TEST(Operator, IsSymmetricOnEveryShapeOfCellAndDegree) {
   }
 }
 
-// The forms of a uniform state are the energies by hand: volume times the quadratic forms of (1), (2), (6).
+// The forms of a uniform state are the energies by hand: volume times the quadratic forms of (1),
+// (2), (6).
 template <int dim>
 void expect_energies_by_hand(CellShape shape, int degree) {
   const auto body = box<dim>(shape, degree);
@@ -165,7 +168,8 @@ TEST(Operator, TheExchangeTermIsTheBoundaryMassOfThatSide) {
   auto with = assemble(body);
   const auto without = assemble(body);
   with.add_exchange(body, {"left"}, 3.);
-  const std::vector<double> one = uniform_state<2>(body, Eigen::Matrix3d::Zero(), Eigen::Vector3d::Zero(), 1);
+  const std::vector<double> one =
+      uniform_state<2>(body, Eigen::Matrix3d::Zero(), Eigen::Vector3d::Zero(), 1);
   std::vector<double> a(one.size()), b(one.size());
   with.multiply(1, one, a);
   without.multiply(1, one, b);
@@ -194,8 +198,9 @@ TEST(Loads, AddUpToTheirResultants) {
   const double area = 0.01, side = 0.1;
   EXPECT_NEAR(sum[0], 4 * 0.05 * area + 2 * 0.05 * side, 1e-15);
   EXPECT_NEAR(sum[1], 3 * area - 1 * side, 1e-15);
-  EXPECT_NEAR(sum[2], -2 * area + 4 * 0.05 * side, 1e-15);     // electric rows times -1
-  EXPECT_NEAR(sum[3], -0.01 / 293 * (7 * area - 5 * side), 1e-18);  // heat rows times -k / theta_ref
+  EXPECT_NEAR(sum[2], -2 * area + 4 * 0.05 * side, 1e-15);  // electric rows times -1
+  EXPECT_NEAR(sum[3], -0.01 / 293 * (7 * area - 5 * side),
+              1e-18);  // heat rows times -k / theta_ref
 }
 
 TEST(DerivedFields, OfAUniformStateFollowTheConstitutiveLaw) {
@@ -207,12 +212,15 @@ TEST(DerivedFields, OfAUniformStateFollowTheConstitutiveLaw) {
   const auto fields = derived_fields(body, c, uniform_state(body, h, field, 0.5));
   ASSERT_EQ(fields.stress.size(), 18u);
   const output::SymmetricTensor &s = fields.stress[5];
-  EXPECT_NEAR(s[0], 166e9 * 1e-6 - 78e9 * 3e-6 - (-4.4) * -3 - 2.24e6 * 0.5, 1e-5);  // xx: crystal 11
-  EXPECT_NEAR(s[1], 78e9 * 1e-6 - 162e9 * 3e-6 - 18.6 * -3 - 1.89e6 * 0.5, 1e-5);    // yy: crystal 33
-  EXPECT_NEAR(s[2], 77e9 * 1e-6 - 78e9 * 3e-6 - (-4.4) * -3 - 2.24e6 * 0.5, 1e-5);   // zz: plane strain
+  EXPECT_NEAR(s[0], 166e9 * 1e-6 - 78e9 * 3e-6 - (-4.4) * -3 - 2.24e6 * 0.5,
+              1e-5);                                                               // xx: crystal 11
+  EXPECT_NEAR(s[1], 78e9 * 1e-6 - 162e9 * 3e-6 - 18.6 * -3 - 1.89e6 * 0.5, 1e-5);  // yy: crystal 33
+  EXPECT_NEAR(s[2], 77e9 * 1e-6 - 78e9 * 3e-6 - (-4.4) * -3 - 2.24e6 * 0.5,
+              1e-5);  // zz: plane strain
   EXPECT_NEAR(s[3], 43e9 * 6e-6 - 11.6 * 2, 1e-5);
   EXPECT_NEAR(fields.electric_displacement[5][0], 11.6 * 6e-6 + 11.2e-9 * 2, 1e-15);
-  EXPECT_NEAR(fields.electric_displacement[5][1], -4.4 * 1e-6 - 18.6 * 3e-6 + 12.6e-9 * -3 - 1e-4 * 0.5, 1e-15);
+  EXPECT_NEAR(fields.electric_displacement[5][1],
+              -4.4 * 1e-6 - 18.6 * 3e-6 + 12.6e-9 * -3 - 1e-4 * 0.5, 1e-15);
   EXPECT_NEAR(fields.strain[5][3], 3e-6, 1e-18);
 }
 

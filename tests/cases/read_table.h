@@ -57,7 +57,8 @@ inline double largest(const std::vector<double> &values) {
 }
 
 /// Largest difference of a column over `size`, or over the second table's largest value.
-inline double difference(const Table &ours, const Table &theirs, const std::string &column, double size = 0) {
+inline double difference(const Table &ours, const Table &theirs, const std::string &column,
+                         double size = 0) {
   const std::vector<double> a = ours.numbers(column), b = theirs.numbers(column);
   EXPECT_EQ(a.size(), b.size()) << column;
   double worst = 0;

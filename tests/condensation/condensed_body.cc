@@ -20,7 +20,8 @@ constexpr double step = 0.01;
 
 template <int dim>
 struct Block {
-  Block(CellShape shape, int n, double size = 0.1) : body(box(shape, n, size)), op(body, constants()) {
+  Block(CellShape shape, int n, double size = 0.1)
+      : body(box(shape, n, size)), op(body, constants()) {
     casefile::BoundaryCase clamp;
     clamp.on = {"right"};
     clamp.displacement = std::vector<std::optional<casefile::Formula>>(dim, casefile::Formula(0.));
@@ -31,7 +32,8 @@ struct Block {
 
   static body::Discretisation<dim> box(CellShape shape, int n, double size) {
     casefile::MeshCase mesh;
-    mesh.box = casefile::Box{std::vector<double>(dim, 0.), std::vector<double>(dim, size), std::vector<int>(dim, n), shape};
+    mesh.box = casefile::Box{std::vector<double>(dim, 0.), std::vector<double>(dim, size),
+                             std::vector<int>(dim, n), shape};
     return {mesh::build<dim>(mesh), 1};
   }
 
@@ -54,14 +56,17 @@ template <int dim>
 void expect_inertia_and_definiteness(CellShape shape, int n, double size = 0.1) {
   const Block<dim> block(shape, n, size);
   const CondensedBody<dim> condensed = block.condense();
-  EXPECT_EQ(condensed.statistics().negative_pivots, static_cast<int>(condensed.n_electric_and_thermal()));
+  EXPECT_EQ(condensed.statistics().negative_pivots,
+            static_cast<int>(condensed.n_electric_and_thermal()));
   const Eigen::SelfAdjointEigenSolver<MatrixXd> spectrum(condensed.stiffness());
   EXPECT_GT(spectrum.eigenvalues()(0), 1e-6 * spectrum.eigenvalues().tail(1)(0));
-  const double asymmetry = (condensed.stiffness() - condensed.stiffness().transpose()).cwiseAbs().maxCoeff();
+  const double asymmetry =
+      (condensed.stiffness() - condensed.stiffness().transpose()).cwiseAbs().maxCoeff();
   EXPECT_EQ(asymmetry, 0);
 }
 
-TEST(CondensedBody, HasAsManyNegativePivotsAsElectricAndThermalUnknownsAndAPositiveDefiniteStiffness) {
+TEST(CondensedBody,
+     HasAsManyNegativePivotsAsElectricAndThermalUnknownsAndAPositiveDefiniteStiffness) {
   expect_inertia_and_definiteness<2>(CellShape::triangle, 12);
   expect_inertia_and_definiteness<2>(CellShape::quadrilateral, 7);
   expect_inertia_and_definiteness<2>(CellShape::triangle, 12, 100);   // metres
@@ -95,8 +100,10 @@ TEST(CondensedBody, IsTheSchurComplementOfTheOperator) {
     if (!taken[i])
       interior.push_back(static_cast<int>(i));
   const MatrixXd kii = k(interior, interior), kic = k(interior, interface);
-  const MatrixXd schur = MatrixXd(k(interface, interface)) - kic.transpose() * kii.partialPivLu().solve(kic);
-  EXPECT_LT((schur - condensed.stiffness()).cwiseAbs().maxCoeff(), 1e-8 * schur.cwiseAbs().maxCoeff());
+  const MatrixXd schur =
+      MatrixXd(k(interface, interface)) - kic.transpose() * kii.partialPivLu().solve(kic);
+  EXPECT_LT((schur - condensed.stiffness()).cwiseAbs().maxCoeff(),
+            1e-8 * schur.cwiseAbs().maxCoeff());
 }
 
 TEST(CondensedBody, ReducedAndExpandedStatesSolveTheWholeSystemToRoundOff) {

@@ -34,20 +34,25 @@ TEST(Interface, WeightsAddUpToTheAreaOnEveryShapeOfCell) {
     return sum;
   };
   using casefile::CellShape;
-  EXPECT_NEAR(area(interface_nodes(box<2>(CellShape::quadrilateral, {3, 4}, 2), {"top"})), 2, 1e-14);
-  EXPECT_NEAR(area(interface_nodes(box<3>(CellShape::tetrahedron, {2, 3, 2}, 1), {"bottom"})), 6, 1e-13);
-  EXPECT_NEAR(area(interface_nodes(box<3>(CellShape::hexahedron, {2, 3, 2}, 2), {"left"})), 15, 1e-13);
+  EXPECT_NEAR(area(interface_nodes(box<2>(CellShape::quadrilateral, {3, 4}, 2), {"top"})), 2,
+              1e-14);
+  EXPECT_NEAR(area(interface_nodes(box<3>(CellShape::tetrahedron, {2, 3, 2}, 1), {"bottom"})), 6,
+              1e-13);
+  EXPECT_NEAR(area(interface_nodes(box<3>(CellShape::hexahedron, {2, 3, 2}, 2), {"left"})), 15,
+              1e-13);
 }
 
 TEST(Interface, InThreeDimensionsBottomAndTopAreTheEndsOfTheLastAxis) {
-  for (const auto &node : interface_nodes(box<3>(casefile::CellShape::tetrahedron, {2, 2, 2}, 1), {"top"})) {
+  for (const auto &node :
+       interface_nodes(box<3>(casefile::CellShape::tetrahedron, {2, 2, 2}, 1), {"top"})) {
     EXPECT_DOUBLE_EQ(node.point[2], 5);
     EXPECT_LT((node.normal - Eigen::Vector3d(0, 0, 1)).norm(), 1e-14);
   }
 }
 
 TEST(Interface, QuadraticTetrahedraAreRefusedBecauseTheirCornersHaveNoWeight) {
-  EXPECT_THROW(interface_nodes(box<3>(casefile::CellShape::tetrahedron, {1, 1, 1}, 2), {"left"}), CaseError);
+  EXPECT_THROW(interface_nodes(box<3>(casefile::CellShape::tetrahedron, {1, 1, 1}, 2), {"left"}),
+               CaseError);
 }
 
 TEST(Interface, AnUnknownBoundaryIsNamed) {

@@ -9,7 +9,9 @@ namespace {
 
 using output::ContactStatus;
 
-Tangent along(double x) { return Tangent::Constant(1, x); }
+Tangent along(double x) {
+  return Tangent::Constant(1, x);
+}
 Tangent plane(double x, double y) {
   Tangent t(2);
   t << x, y;

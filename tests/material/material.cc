@@ -41,7 +41,8 @@ TEST(Material, TheLibraryHoldsThePapersConstants) {
 
 TEST(Material, InTwoDimensionsThePlaneIsTheCrystals13Plane) {
   // The printed matrix of section 4.
-  const BodyConstants<2> c = restricted<2>(rotated(constants_of(batio3()), crystal_axes(batio3(), 2)));
+  const BodyConstants<2> c =
+      restricted<2>(rotated(constants_of(batio3()), crystal_axes(batio3(), 2)));
   Eigen::Matrix3d stiffness;
   stiffness << 166e9, 78e9, 0, 78e9, 162e9, 0, 0, 0, 43e9;
   EXPECT_LT((c.stiffness - stiffness).norm(), 1e-3);
@@ -65,7 +66,8 @@ TEST(Material, RotatingTheCrystalAndTheStateLeavesEveryEnergyAsItWas) {
   const Voigt in_crystal = strain_voigt(strain), in_body = strain_voigt(r * strain * r.transpose());
   const auto close = [](double a, double b) { EXPECT_NEAR(a, b, 1e-12 * std::abs(a)); };
   close(in_crystal.dot(crystal.stiffness * in_crystal), in_body.dot(body.stiffness * in_body));
-  close(field.dot(crystal.piezoelectric * in_crystal), (r * field).dot(body.piezoelectric * in_body));
+  close(field.dot(crystal.piezoelectric * in_crystal),
+        (r * field).dot(body.piezoelectric * in_body));
   close(crystal.thermal_stress.dot(in_crystal), body.thermal_stress.dot(in_body));
   close(field.dot(crystal.permittivity * field), (r * field).dot(body.permittivity * (r * field)));
   close(crystal.pyroelectric.dot(field), body.pyroelectric.dot(r * field));

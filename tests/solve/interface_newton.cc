@@ -22,15 +22,15 @@ struct Problem {
   }
 };
 
-// The conditions that characterise the only minimiser, written out without the solver's own functions: the
-// nodal force f - A d lies in the ball where d = 0, and is bound * d / |d| elsewhere. Relative to the size
-// of the sums that make the force.
+// The conditions that characterise the only minimiser, written out without the solver's own
+// functions: the nodal force f - A d lies in the ball where d = 0, and is bound * d / |d|
+// elsewhere. Relative to the size of the sums that make the force.
 double violation(const Problem &p, const VectorXd &d) {
   if (d.size() == 0)
     return 0;
   const VectorXd force = p.force - p.stiffness * d;
-  const double size = std::max(p.force.cwiseAbs().maxCoeff(),
-                               (p.stiffness.cwiseAbs() * d.cwiseAbs()).maxCoeff());
+  const double size =
+      std::max(p.force.cwiseAbs().maxCoeff(), (p.stiffness.cwiseAbs() * d.cwiseAbs()).maxCoeff());
   double worst = 0;
   for (std::size_t i = 0; i < p.points.size(); ++i) {
     const VectorXd di = d.segment(p.points[i].offset, p.points[i].size);
@@ -59,7 +59,8 @@ class RandomProblems {
       n += size;
     }
     p.stiffness = spd(n);
-    p.force = VectorXd::NullaryExpr(n, [&] { return normal_(random_) * std::pow(10., uniform(-2, 1)); });
+    p.force =
+        VectorXd::NullaryExpr(n, [&] { return normal_(random_) * std::pow(10., uniform(-2, 1)); });
     return p;
   }
 
@@ -68,7 +69,9 @@ class RandomProblems {
   }
 
  private:
-  double uniform(double a, double b) { return std::uniform_real_distribution<double>(a, b)(random_); }
+  double uniform(double a, double b) {
+    return std::uniform_real_distribution<double>(a, b)(random_);
+  }
 
   // Zero, ordinary and practically infinite bounds.
   double bound() {
@@ -76,15 +79,23 @@ class RandomProblems {
     return which < 0.15 ? 0 : which > 0.9 ? 1e6 : std::pow(10., uniform(-3, 1));
   }
 
-  // Q diag Q^T with condition numbers up to 1e8, or a dense kernel like that of a condensed half-space.
+  // Q diag Q^T with condition numbers up to 1e8, or a dense kernel like that of a condensed
+  // half-space.
   MatrixXd spd(Eigen::Index n) {
     if (uniform(0, 1) < 0.5)
-      return MatrixXd::NullaryExpr(n, n, [&](Eigen::Index i, Eigen::Index j) {
-        return i == j ? 2.5 + 0.1 * double(n) / (1 + double(i)) : -1 / (1 + std::pow(double(i - j), 2));
-      }).eval() + MatrixXd::Identity(n, n) * 1.2;
-    const MatrixXd q = Eigen::HouseholderQR<MatrixXd>(MatrixXd::NullaryExpr(n, n, [&] { return normal_(random_); })).householderQ();
+      return MatrixXd::NullaryExpr(n, n,
+                                   [&](Eigen::Index i, Eigen::Index j) {
+                                     return i == j ? 2.5 + 0.1 * double(n) / (1 + double(i))
+                                                   : -1 / (1 + std::pow(double(i - j), 2));
+                                   })
+                 .eval() +
+             MatrixXd::Identity(n, n) * 1.2;
+    const MatrixXd q = Eigen::HouseholderQR<MatrixXd>(MatrixXd::NullaryExpr(n, n, [&] {
+                         return normal_(random_);
+                       })).householderQ();
     const double decades = uniform(0, 8);
-    const VectorXd spectrum = VectorXd::NullaryExpr(n, [&] { return std::pow(10., uniform(-decades, 0)); });
+    const VectorXd spectrum =
+        VectorXd::NullaryExpr(n, [&] { return std::pow(10., uniform(-decades, 0)); });
     const MatrixXd a = q * spectrum.asDiagonal() * q.transpose();
     return (a + a.transpose()) / 2;
   }
@@ -98,11 +109,12 @@ TEST(InterfaceNewton, FindsTheOnlyMinimiserOfTwoThousandRandomProgrammesFromAnyS
   int most = 0;
   for (int k = 0; k < 2000; ++k) {
     const Problem p = problems.next();
-    const VectorXd start = k % 2 ? problems.vector(p.force.size()) : VectorXd(VectorXd::Zero(p.force.size()));
+    const VectorXd start =
+        k % 2 ? problems.vector(p.force.size()) : VectorXd(VectorXd::Zero(p.force.size()));
     const InterfaceSolution s = p.solve(start);
     ASSERT_TRUE(s.converged) << "programme " << k << ", residual " << s.residual;
-    // The solver's verdict (1e-12) is on the projection; the written-out conditions may be worse by the ratio
-    // of curvatures, so 1e-9 here.
+    // The solver's verdict (1e-12) is on the projection; the written-out conditions may be worse by
+    // the ratio of curvatures, so 1e-9 here.
     ASSERT_LT(violation(p, s.increment), 1e-9) << "programme " << k;
     most = std::max(most, s.iterations);
   }
@@ -111,7 +123,10 @@ TEST(InterfaceNewton, FindsTheOnlyMinimiserOfTwoThousandRandomProgrammesFromAnyS
 
 TEST(InterfaceNewton, APointAloneGivesTheHandCalculation) {
   // A = 4 N/m, f = 10 N, bound 2 N: slips by (10 - 2) / 4 m.
-  Problem p{MatrixXd::Constant(1, 1, 4), VectorXd::Constant(1, 10), {{0, 1, 0.5, contact::Tresca{4}}}, {2}};
+  Problem p{MatrixXd::Constant(1, 1, 4),
+            VectorXd::Constant(1, 10),
+            {{0, 1, 0.5, contact::Tresca{4}}},
+            {2}};
   const InterfaceSolution s = p.solve(VectorXd::Zero(1));
   EXPECT_DOUBLE_EQ(s.increment[0], 2);
   EXPECT_DOUBLE_EQ(s.force[0], 2);
@@ -119,7 +134,10 @@ TEST(InterfaceNewton, APointAloneGivesTheHandCalculation) {
 }
 
 TEST(InterfaceNewton, BelowTheBoundNothingMovesAndTheForceIsCarried) {
-  Problem p{MatrixXd::Constant(1, 1, 4), VectorXd::Constant(1, 1.5), {{0, 1, 1, contact::Tresca{2}}}, {2}};
+  Problem p{MatrixXd::Constant(1, 1, 4),
+            VectorXd::Constant(1, 1.5),
+            {{0, 1, 1, contact::Tresca{2}}},
+            {2}};
   const InterfaceSolution s = p.solve(VectorXd::Zero(1));
   EXPECT_EQ(s.increment[0], 0);
   EXPECT_EQ(s.force[0], 1.5);

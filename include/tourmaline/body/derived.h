@@ -7,8 +7,9 @@
 
 namespace tourmaline::body {
 
-/// Means over each cell of strain, stress (1), D (2), q (3) and the von Mises stress of the mean stress,
-/// in the order of `Discretisation::grid`. In 2D sigma_zz follows from plane strain and enters von Mises.
+/// Means over each cell of strain, stress (1), D (2), q (3) and the von Mises stress of the mean
+/// stress, in the order of `Discretisation::grid`. In 2D sigma_zz follows from plane strain and
+/// enters von Mises.
 template <int dim>
 output::CellFields derived_fields(const Discretisation<dim> &body,
                                   const material::Constants &body_axes,

@@ -42,10 +42,10 @@ struct NodeGraph {
   std::size_t n_nodes() const { return row.size() - 1; }
 };
 
-/// One Lagrange space of degree 1 or 2 (28)-(30), shared by all components of u, by phi and by theta: a
-/// node carries dim + 2 unknowns. Nodes are numbered by x, then y, then z, whatever the mesh's own order is,
-/// so every table lists them alike. This is the only place that asks deal.II for shape functions; the rest
-/// of the body sees plain numbers.
+/// One Lagrange space of degree 1 or 2 (28)-(30), shared by all components of u, by phi and by
+/// theta: a node carries dim + 2 unknowns. Nodes are numbered by x, then y, then z, whatever the
+/// mesh's own order is, so every table lists them alike. This is the only place that asks deal.II
+/// for shape functions; the rest of the body sees plain numbers.
 template <int dim>
 class Discretisation {
  public:

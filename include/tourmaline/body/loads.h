@@ -9,8 +9,8 @@
 namespace tourmaline::body {
 
 /// The integral of a density against the shape functions, (density(t), v), for one component of the
-/// unknowns. What does not change is integrated once: a density without t wholly, one without x, y, z up
-/// to its factor in time.
+/// unknowns. What does not change is integrated once: a density without t wholly, one without x, y,
+/// z up to its factor in time.
 class Load {
  public:
   /// One quadrature point's share: density at `point` times `weights[a]` goes to node `nodes[a]`.
@@ -37,8 +37,8 @@ class Load {
   std::vector<double> uniform_;  // by node, of any other: density(t) or 1 times this
 };
 
-/// Right-hand sides (19)-(21), (18) in the signs of `Operator`: the electric part times -1, the heat
-/// part times -k / theta_ref.
+/// Right-hand sides (19)-(21), (18) in the signs of `Operator`: the electric part times -1, the
+/// heat part times -k / theta_ref.
 template <int dim>
 class Loads {
  public:

@@ -22,20 +22,23 @@ constexpr std::size_t unknown(Node node, int component) {
   return std::size_t{node} * Fields<dim>::count + component;
 }
 
-/// Power-conjugate sums x_a . K_ab y_b of the storage operator by field: mechanical, electric, thermal.
+/// Power-conjugate sums x_a . K_ab y_b of the storage operator by field: mechanical, electric,
+/// thermal.
 using FieldForms = std::array<std::array<double, 3>, 3>;
 
-/// The operator of the body without boundary conditions, in SI units. With the electric rows multiplied
-/// by -1 and the heat rows by -k / theta_ref it is symmetric (design: operator of a step):
+/// The operator of the body without boundary conditions, in SI units. With the electric rows
+/// multiplied by -1 and the heat rows by -k / theta_ref it is symmetric (design: operator of a
+/// step):
 ///
 ///     storage    [  A     E^T   -M  ]     A = (F eps(v), eps(v))     H0 = (alpha eta, eta)
 ///                [  E    -B      P  ]     B = (beta grad psi, grad psi)
 ///                [ -M^T   P^T   -H0 ]     E, M, P the couplings of (1), (2), (6)
 ///
-///     conduction G = (K grad eta, grad eta) + (k_c eta, eta) on Gamma_C, rows and columns of theta only
+///     conduction G = (K grad eta, grad eta) + (k_c eta, eta) on Gamma_C, rows and columns of theta
+///     only
 ///
-/// so that the step of (31)-(33) has the operator storage - (k / theta_ref) G, and its heat rows see the
-/// state before through the heat rows of `storage`.
+/// so that the step of (31)-(33) has the operator storage - (k / theta_ref) G, and its heat rows
+/// see the state before through the heat rows of `storage`.
 template <int dim>
 class Operator {
  public:
@@ -44,7 +47,8 @@ class Operator {
 
   Operator(const Discretisation<dim> &body, const material::BodyConstants<dim> &material);
 
-  /// Adds (k_c theta, eta) on the named boundaries (18); `coefficient` is k_c [W/(K m^2)], by place.
+  /// Adds (k_c theta, eta) on the named boundaries (18); `coefficient` is k_c [W/(K m^2)], by
+  /// place.
   void add_exchange(const Discretisation<dim> &body, const std::vector<std::string> &boundaries,
                     const casefile::Formula &coefficient);
 
@@ -57,7 +61,8 @@ class Operator {
   /// y = (storage - step / theta_ref G) x.
   void multiply(double step, std::span<const double> x, std::span<double> y) const;
 
-  /// Adds the heat rows of storage x to y: what a step remembers of the state x before it (6), (33).
+  /// Adds the heat rows of storage x to y: what a step remembers of the state x before it (6),
+  /// (33).
   void add_history(std::span<const double> x, std::span<double> y) const;
 
   /// Row `row` of (storage - step / theta_ref G) times x.

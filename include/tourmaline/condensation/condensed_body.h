@@ -13,16 +13,16 @@
 namespace tourmaline::condensation {
 
 /// The body of one step size, factorised once and condensed onto the displacements c of the contact
-/// nodes: S c = s + q, with q the nodal forces of the contact on the body [N], S [N/m] symmetric and,
-/// once the body is held, positive definite.
+/// nodes: S c = s + q, with q the nodal forces of the contact on the body [N], S [N/m] symmetric
+/// and, once the body is held, positive definite.
 ///
 /// Inside, the unknowns of each field are scaled by the square root of the field's largest diagonal
 /// entry, so that the factorised matrix is balanced in any units; all arguments here are SI.
 template <int dim>
 class CondensedBody {
  public:
-  /// `prescribed` unknowns are taken out of the matrix, but for those at contact nodes' displacements:
-  /// these stay in c and the interface prescribes them.
+  /// `prescribed` unknowns are taken out of the matrix, but for those at contact nodes'
+  /// displacements: these stay in c and the interface prescribes them.
   CondensedBody(const body::Operator<dim> &op, double step,
                 const std::vector<body::Prescribed> &prescribed,
                 const std::vector<body::Node> &contact_nodes, int threads);
@@ -56,9 +56,9 @@ class CondensedBody {
 
   const body::Operator<dim> &operator_;
   double step_;
-  std::vector<int> variable_of_;          // by unknown of the body; -1: prescribed
-  std::vector<std::size_t> unknown_of_;   // by variable of the matrix
-  std::vector<std::size_t> prescribed_;   // unknowns taken out
+  std::vector<int> variable_of_;         // by unknown of the body; -1: prescribed
+  std::vector<std::size_t> unknown_of_;  // by variable of the matrix
+  std::vector<std::size_t> prescribed_;  // unknowns taken out
   std::vector<int> contact_variables_;
   std::array<double, body::Fields<dim>::count> scale_{};
   std::size_t n_electric_and_thermal_ = 0;

@@ -7,8 +7,8 @@
 
 namespace tourmaline::condensation {
 
-/// The lower triangle of a symmetric matrix by entries, numbered from 1 as MUMPS wants it; each entry
-/// once.
+/// The lower triangle of a symmetric matrix by entries, numbered from 1 as MUMPS wants it; each
+/// entry once.
 struct SymmetricMatrix {
   int size = 0;
   std::vector<int> row, column;
@@ -28,13 +28,13 @@ struct FactorisationStatistics {
 ///
 ///     K = [K_ii K_ic; K_ci K_cc],   S = K_cc - K_ci K_ii^-1 K_ic
 ///
-/// `reduce` is the forward substitution, s = b_c - K_ci K_ii^-1 b_i; `expand` the backward one, x_i from
-/// x_c. Every `expand` belongs to the `reduce` before it. Needs MPI to be initialised.
+/// `reduce` is the forward substitution, s = b_c - K_ci K_ii^-1 b_i; `expand` the backward one, x_i
+/// from x_c. Every `expand` belongs to the `reduce` before it. Needs MPI to be initialised.
 class Factorisation {
  public:
   /// `position[v]`: place of variable v (from 0) in the order of elimination; the variables `schur`
-  /// (from 0) must come last, in this order. Throws SolveError when a pivot vanishes, MachineError when
-  /// the memory does not suffice.
+  /// (from 0) must come last, in this order. Throws SolveError when a pivot vanishes, MachineError
+  /// when the memory does not suffice.
   Factorisation(SymmetricMatrix matrix, const std::vector<int> &position,
                 const std::vector<int> &schur, int threads);
   ~Factorisation();

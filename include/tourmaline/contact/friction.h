@@ -7,8 +7,9 @@
 
 namespace tourmaline::contact {
 
-/// The friction laws there are. A new law is its file, its place here, and its line in `friction_at`.
-/// A law is convex in the slip increment and offers what Tresca offers; no friction is the bound zero.
+/// The friction laws there are. A new law is its file, its place here, and its line in
+/// `friction_at`. A law is convex in the slip increment and offers what Tresca offers; no friction
+/// is the bound zero.
 using Friction = std::variant<Tresca>;
 
 /// The law at one point and time. Throws CaseError for a negative bound.

@@ -8,8 +8,8 @@
 
 namespace tourmaline::contact {
 
-/// A node of Gamma_C with its lumped weight, the integral of its shape function over Gamma_C [m^(dim-1)],
-/// and the outward normal nu, the mean of the facets' normals with the same weights.
+/// A node of Gamma_C with its lumped weight, the integral of its shape function over Gamma_C
+/// [m^(dim-1)], and the outward normal nu, the mean of the facets' normals with the same weights.
 template <int dim>
 struct InterfaceNode {
   body::Node node;

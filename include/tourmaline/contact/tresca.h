@@ -5,7 +5,8 @@
 
 namespace tourmaline::contact {
 
-/// Tresca's law of dry friction (9): |sigma_tau| <= S, and sigma_tau = -S du / |du| where the point slips.
+/// Tresca's law of dry friction (9): |sigma_tau| <= S, and sigma_tau = -S du / |du| where the point
+/// slips.
 ///
 /// With lambda = -sigma_tau and the slip increment d over the step it reads, for any r > 0 (35),
 ///
@@ -19,14 +20,14 @@ struct Tresca {
   double dissipation(const Tangent &d) const;
   /// lambda for the trial value lambda + r d [N/m^2].
   Tangent traction(const Tangent &trial) const;
-  /// Derivative of `traction`: the identity inside the ball and on it (a point at the bound without slip
-  /// sticks), outside S / |x| (I - x x^T / |x|^2).
+  /// Derivative of `traction`: the identity inside the ball and on it (a point at the bound without
+  /// slip sticks), outside S / |x| (I - x x^T / |x|^2).
   TangentMatrix traction_derivative(const Tangent &trial) const;
   /// slip where the trial value lies outside the ball.
   output::ContactStatus status(const Tangent &trial) const;
 
-  /// Where the dissipation is smooth: d != 0, or S = 0. There follow its gradient [N/m^2] and Hessian
-  /// [N/m^3].
+  /// Where the dissipation is smooth: d != 0, or S = 0. There follow its gradient [N/m^2] and
+  /// Hessian [N/m^3].
   bool is_smooth_at(const Tangent &d) const;
   Tangent gradient(const Tangent &d) const;
   TangentMatrix hessian(const Tangent &d) const;

@@ -15,7 +15,8 @@ using Vector = Eigen::Vector3d;
 using Tensor = Eigen::Matrix3d;
 
 /// The tensors of (1)-(3) in stress-charge form, constants at constant strain, in three dimensions:
-///     sigma = F eps(u) - E^T E(phi) - M theta,   D = E eps(u) + beta E(phi) + P theta,   q = -K grad theta.
+///     sigma = F eps(u) - E^T E(phi) - M theta,   D = E eps(u) + beta E(phi) + P theta,   q = -K
+///     grad theta.
 struct Constants {
   Stiffness stiffness = Stiffness::Zero();              ///< F [Pa]
   Piezoelectric piezoelectric = Piezoelectric::Zero();  ///< E, e_{i,jk} [C/m^2]
@@ -31,13 +32,14 @@ struct Constants {
   double heat_capacity() const { return density * specific_heat / reference_temperature; }
 };
 
-/// The constants that a case asks for, in crystal axes: the library's entry, then what the case gives.
-/// Throws CaseError for an unknown entry, a missing constant, or a stored energy that is not positive.
+/// The constants that a case asks for, in crystal axes: the library's entry, then what the case
+/// gives. Throws CaseError for an unknown entry, a missing constant, or a stored energy that is not
+/// positive.
 Constants constants_of(const casefile::MaterialCase &asked);
 
 /// Throws CaseError unless elasticity, conductivity and the electro-thermal energy
-/// [beta P; P^T alpha] are symmetric and positive definite: the operator of a step is then symmetric
-/// quasi-definite, and a step has exactly one solution.
+/// [beta P; P^T alpha] are symmetric and positive definite: the operator of a step is then
+/// symmetric quasi-definite, and a step has exactly one solution.
 void check_stored_energy(const Constants &constants);
 
 }  // namespace tourmaline::material

@@ -8,7 +8,8 @@
 
 namespace tourmaline::material {
 
-/// A built-in material of class 6mm (isotropic about axis 3): named constants in SI units with source.
+/// A built-in material of class 6mm (isotropic about axis 3): named constants in SI units with
+/// source.
 struct Entry {
   std::string name, source;
   std::map<std::string, double> constants;

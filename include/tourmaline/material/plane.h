@@ -6,7 +6,7 @@ namespace tourmaline::material {
 
 /// Components of a symmetric tensor in `dim` dimensions: xx, yy, xy or all six of Voigt.
 template <int dim>
-inline constexpr int n_strains = dim * (dim + 1) / 2;
+inline constexpr int n_strains = dim *(dim + 1) / 2;
 
 /// The constants that a body of `dim` dimensions sees, in its own axes. In 2D: plane strain,
 /// eps_zz = eps_yz = eps_xz = 0 and E_z = 0.
@@ -23,8 +23,8 @@ struct BodyConstants {
   double reference_temperature = 0;  ///< theta_ref [K]
 };
 
-/// Throws CaseError in 2D when the plane's fields would drive a displacement out of the plane or a field
-/// E_z: plane strain is then no solution of (1)-(6).
+/// Throws CaseError in 2D when the plane's fields would drive a displacement out of the plane or a
+/// field E_z: plane strain is then no solution of (1)-(6).
 template <int dim>
 BodyConstants<dim> restricted(const Constants &body_axes);
 

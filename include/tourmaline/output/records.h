@@ -59,19 +59,19 @@ const char *name_of(ContactStatus status);
 /// One contact node in one step; traction is sigma nu on the body.
 struct ContactRow {
   Vector point;
-  double normal_traction;       // N/m^2
-  Vector tangential_traction;   // N/m^2
-  double normal_displacement;   // m
-  Vector slip;                  // u_tau [m]
-  double slip_rate;             // |u_tau(n) - u_tau(n-1)| / k [m/s]
+  double normal_traction;      // N/m^2
+  Vector tangential_traction;  // N/m^2
+  double normal_displacement;  // m
+  Vector slip;                 // u_tau [m]
+  double slip_rate;            // |u_tau(n) - u_tau(n-1)| / k [m/s]
   ContactStatus status;
   double temperature;  // K
   double potential;    // V
   double heat_flux;    // q.nu = k_c (theta - theta_f), positive leaves the body [W/m^2]
 };
 
-/// One line of history.csv. `quantities` are the named columns behind the fixed ones; every step of a
-/// run has the same names in the same order.
+/// One line of history.csv. `quantities` are the named columns behind the fixed ones; every step of
+/// a run has the same names in the same order.
 struct HistoryRow {
   int step = 0;
   double time = 0;

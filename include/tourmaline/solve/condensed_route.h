@@ -7,8 +7,8 @@
 
 namespace tourmaline::solve {
 
-/// The program's own route: one factorisation for the run; in a step one forward substitution, the contact
-/// problem on the condensed stiffness, one backward substitution.
+/// The program's own route: one factorisation for the run; in a step one forward substitution, the
+/// contact problem on the condensed stiffness, one backward substitution.
 template <int dim>
 std::unique_ptr<Route> condensed_route(const Model<dim> &model);
 

@@ -7,8 +7,8 @@
 
 namespace tourmaline::solve {
 
-/// A contact point's place in the interface unknowns: `size` entries from `offset` on; `weight` [m^(dim-1)]
-/// makes nodal forces of the law's tractions.
+/// A contact point's place in the interface unknowns: `size` entries from `offset` on; `weight`
+/// [m^(dim-1)] makes nodal forces of the law's tractions.
 struct ContactPoint {
   Eigen::Index offset = 0, size = 0;
   double weight = 0;
@@ -19,12 +19,12 @@ struct ContactPoint {
 ///
 ///     minimise  d.A d / 2 - f.d + sum_i w_i j_i(d_i)
 ///
-/// with A symmetric positive definite and j_i the convex dissipation of the law at point i. Its nodal
-/// friction forces are f - A d, w_i times an element of the subdifferential of j_i.
+/// with A symmetric positive definite and j_i the convex dissipation of the law at point i. Its
+/// nodal friction forces are f - A d, w_i times an element of the subdifferential of j_i.
 struct InterfaceProgramme {
-  const Eigen::MatrixXd &stiffness;          ///< A [N/m]
-  const Eigen::VectorXd &force;              ///< f [N]
-  const std::vector<ContactPoint> &points;   ///< disjoint, all entries covered
+  const Eigen::MatrixXd &stiffness;         ///< A [N/m]
+  const Eigen::VectorXd &force;             ///< f [N]
+  const std::vector<ContactPoint> &points;  ///< disjoint, all entries covered
   double force_scale = 0;  ///< size of the terms that f was summed from [N]: bounds its round-off
 };
 
@@ -34,19 +34,20 @@ struct InterfaceSettings {
 };
 
 struct InterfaceSolution {
-  Eigen::VectorXd increment;                    ///< d [m]
-  Eigen::VectorXd force;                        ///< nodal friction forces w lambda [N]
-  std::vector<output::ContactStatus> status;    ///< by point
-  int iterations = 0;                           ///< linear systems solved
-  double residual = 0;                          ///< natural residual over the size of the forces
+  Eigen::VectorXd increment;                  ///< d [m]
+  Eigen::VectorXd force;                      ///< nodal friction forces w lambda [N]
+  std::vector<output::ContactStatus> status;  ///< by point
+  int iterations = 0;                         ///< linear systems solved
+  double residual = 0;                        ///< natural residual over the size of the forces
   bool converged = false;
-  std::vector<std::size_t> unsettled;           ///< points that carry the residual, if not converged
+  std::vector<std::size_t> unsettled;  ///< points that carry the residual, if not converged
 };
 
-/// Truncated nonsmooth Newton iteration: block Gauss-Seidel sweeps, which alone converge from any start
-/// because the programme is strictly convex and its nonsmooth part separates by points, then a Newton step
-/// in the points where the law is smooth, damped so that the programme's value never grows. (C. Graeser and
-/// R. Kornhuber, J. Comput. Math. 27 (2009) 1-44.) `start` is the first guess of d.
+/// Truncated nonsmooth Newton iteration: block Gauss-Seidel sweeps, which alone converge from any
+/// start because the programme is strictly convex and its nonsmooth part separates by points, then
+/// a Newton step in the points where the law is smooth, damped so that the programme's value never
+/// grows. (C. Graeser and R. Kornhuber, J. Comput. Math. 27 (2009) 1-44.) `start` is the first
+/// guess of d.
 InterfaceSolution minimise(const InterfaceProgramme &programme, Eigen::VectorXd start,
                            const InterfaceSettings &settings);
 

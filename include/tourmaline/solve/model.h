@@ -15,8 +15,8 @@ struct Model {
   explicit Model(const casefile::Case &asked_for);
 
   casefile::Case asked;
-  double step;                             ///< k [s]
-  material::Constants material;            ///< in the axes of the body
+  double step;                   ///< k [s]
+  material::Constants material;  ///< in the axes of the body
   body::Discretisation<dim> body;
   body::Operator<dim> op;
   std::vector<body::Prescribed> prescribed;

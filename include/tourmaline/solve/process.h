@@ -2,8 +2,9 @@
 
 namespace tourmaline::solve {
 
-/// MPI for as long as it lives, and the number of threads of OpenBLAS and deal.II. MUMPS needs MPI even on
-/// one rank. Throws CaseError under `mpirun` with several ranks, which are not available yet.
+/// MPI for as long as it lives, and the number of threads of OpenBLAS and deal.II. MUMPS needs MPI
+/// even on one rank. Throws CaseError under `mpirun` with several ranks, which are not available
+/// yet.
 class Process {
  public:
   explicit Process(int threads);

@@ -8,8 +8,8 @@
 
 namespace tourmaline::solve {
 
-/// Turns states into what the files hold: fields every so many steps, contact rows and a line of history
-/// every step, nodes and extremes at the end.
+/// Turns states into what the files hold: fields every so many steps, contact rows and a line of
+/// history every step, nodes and extremes at the end.
 template <int dim>
 class Recorder {
  public:

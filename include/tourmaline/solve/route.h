@@ -23,7 +23,7 @@ struct RouteReport {
   double analyse_seconds = 0, factorise_seconds = 0, condense_seconds = 0;
   std::size_t unknowns = 0, electric_and_thermal_unknowns = 0;
   long long factor_entries = 0;
-  int negative_pivots = -1;  ///< -1: not known to this route
+  int negative_pivots = -1;   ///< -1: not known to this route
   double backward_error = 0;  ///< largest over the steps in which it was measured
 };
 
@@ -32,9 +32,9 @@ class Route {
  public:
   virtual ~Route() = default;
 
-  /// From the state of the last step and the right-hand side of this one (loads and history) to the new
-  /// state at `time`. `state` holds the prescribed values already and is filled; `before` is the state of
-  /// the last step. Throws SolveError when the iteration does not converge.
+  /// From the state of the last step and the right-hand side of this one (loads and history) to the
+  /// new state at `time`. `state` holds the prescribed values already and is filled; `before` is
+  /// the state of the last step. Throws SolveError when the iteration does not converge.
   virtual StepOutcome advance(double time, std::span<const double> right_side,
                               std::span<const double> before, std::span<double> state) = 0;
 
