@@ -8,20 +8,21 @@ template <int dim>
 std::vector<Prescribed> prescribed_unknowns(const Discretisation<dim> &body,
                                             const std::vector<casefile::BoundaryCase> &boundaries) {
   std::map<std::size_t, Prescribed> by_unknown;
-  const auto prescribe = [&](Node node, int component, const casefile::Formula &value) {
-    const std::size_t i = unknown<dim>(node, component);
-    by_unknown.try_emplace(i, Prescribed{i, body.points()[node], value});
-  };
   for (const casefile::BoundaryCase &boundary : boundaries)
-    for (const Node node : body.nodes_on(boundary.on)) {
-      for (int c = 0; boundary.displacement && c < dim; ++c)
-        if (const auto &component = (*boundary.displacement)[c])
-          prescribe(node, c, *component);
-      if (boundary.potential)
-        prescribe(node, Fields<dim>::potential, *boundary.potential);
-      if (boundary.temperature)
-        prescribe(node, Fields<dim>::temperature, *boundary.temperature);
-    }
+    for (const std::string &name : boundary.on)
+      for (const Node node : body.nodes_on({name})) {
+        const auto prescribe = [&](int component, const casefile::Formula &value) {
+          const std::size_t i = unknown<dim>(node, component);
+          by_unknown.try_emplace(i, Prescribed{i, body.points()[node], value, name});
+        };
+        for (int c = 0; boundary.displacement && c < dim; ++c)
+          if (const auto &component = (*boundary.displacement)[c])
+            prescribe(c, *component);
+        if (boundary.potential)
+          prescribe(Fields<dim>::potential, *boundary.potential);
+        if (boundary.temperature)
+          prescribe(Fields<dim>::temperature, *boundary.temperature);
+      }
   std::vector<Prescribed> all;
   for (auto &[i, prescribed] : by_unknown)
     all.push_back(std::move(prescribed));

@@ -1,9 +1,15 @@
 #include "tourmaline/body/loads.h"
 
+#include <numeric>
+
 namespace tourmaline::body {
 
-Load::Load(casefile::Formula density, double factor, int stride, int component)
-    : density_(std::move(density)), factor_(factor), stride_(stride), component_(component) {}
+Load::Load(LoadKind kind, casefile::Formula density, double factor, int stride, int component)
+    : kind_(std::move(kind)),
+      density_(std::move(density)),
+      factor_(factor),
+      stride_(stride),
+      component_(component) {}
 
 void Load::add(Share share) {
   if (density_.depends_on_place() && density_.depends_on_time()) {
@@ -20,13 +26,24 @@ void Load::add(Share share) {
     }
 }
 
+double Load::factor_in_time(double t) const {
+  return density_.depends_on_time() && !density_.depends_on_place() ? density_.value({}, t) : 1;
+}
+
 void Load::integrate(double t, std::vector<double> &right_side) const {
-  const double density =
-      density_.depends_on_time() && !density_.depends_on_place() ? density_.value({}, t) : 1;
+  const double density = factor_in_time(t);
   for (std::size_t node = 0; node < uniform_.size(); ++node)
     right_side[node * stride_ + component_] += density * uniform_[node];
   for (const Share &share : shares_)
     add_to(right_side, density_.value(share.point, t), share);
+}
+
+double Load::resultant(double t) const {
+  double sum = factor_in_time(t) / factor_ * std::accumulate(uniform_.begin(), uniform_.end(), 0.);
+  for (const Share &share : shares_)
+    sum += density_.value(share.point, t) *
+           std::accumulate(share.weights.begin(), share.weights.end(), 0.);
+  return sum;
 }
 
 void Load::add_to(std::vector<double> &right_side, double density, const Share &share) const {
@@ -64,46 +81,53 @@ Loads<dim>::Loads(const Discretisation<dim> &body, const casefile::Case &asked, 
 
 template <int dim>
 void Loads<dim>::add_volume_loads(const Discretisation<dim> &body, const casefile::LoadCase &load) {
-  const auto over_cells = [&](const casefile::Formula &density, double factor, int component) {
+  const auto over_cells = [&](LoadKind kind, const casefile::Formula &density, double factor,
+                              int component) {
     if (density.is_zero())
       return;
-    Load &added = loads_.emplace_back(density, factor, Fields<dim>::count, component);
+    Load &added = loads_.emplace_back(kind, density, factor, Fields<dim>::count, component);
     body.for_each_cell([&](const Quadrature<dim> &cell) { add_shares(cell, 1., added); });
   };
-  for (std::size_t c = 0; c < load.force.size(); ++c)
-    over_cells(load.force[c], 1, static_cast<int>(c));
-  over_cells(load.charge, -1, Fields<dim>::potential);
-  over_cells(load.heat, heat_factor_, Fields<dim>::temperature);
+  for (int c = 0; c < static_cast<int>(load.force.size()); ++c)
+    over_cells({LoadKind::force, "", c}, load.force[c], 1, c);
+  over_cells({LoadKind::charge, ""}, load.charge, -1, Fields<dim>::potential);
+  over_cells({LoadKind::heat, ""}, load.heat, heat_factor_, Fields<dim>::temperature);
+}
+
+template <int dim>
+void Loads<dim>::add_over_facets(const Discretisation<dim> &body, LoadKind kind,
+                                 const casefile::Formula &density, const casefile::Formula &weight,
+                                 double factor, int component) {
+  if (density.is_zero())
+    return;
+  const std::vector<std::string> boundary{kind.boundary};
+  Load &added =
+      loads_.emplace_back(std::move(kind), density, factor, Fields<dim>::count, component);
+  body.for_each_facet(boundary,
+                      [&](const Quadrature<dim> &facet) { add_shares(facet, weight, added); });
 }
 
 template <int dim>
 void Loads<dim>::add_surface_loads(const Discretisation<dim> &body,
                                    const casefile::BoundaryCase &boundary) {
-  const auto over_facets = [&](const casefile::Formula &density, double factor, int component) {
-    if (density.is_zero())
-      return;
-    Load &added = loads_.emplace_back(density, factor, Fields<dim>::count, component);
-    body.for_each_facet(boundary.on,
-                        [&](const Quadrature<dim> &facet) { add_shares(facet, 1., added); });
-  };
-  for (int c = 0; boundary.traction && c < dim; ++c)
-    over_facets((*boundary.traction)[c], 1, c);
-  if (boundary.surface_charge)
-    over_facets(*boundary.surface_charge, 1, Fields<dim>::potential);
-  if (boundary.heat_flux)  // leaves the body, so it takes from the heat rows
-    over_facets(*boundary.heat_flux, -heat_factor_, Fields<dim>::temperature);
+  for (const std::string &name : boundary.on) {
+    for (int c = 0; boundary.traction && c < dim; ++c)
+      add_over_facets(body, {LoadKind::traction, name, c}, (*boundary.traction)[c], 1., 1, c);
+    if (boundary.surface_charge)
+      add_over_facets(body, {LoadKind::surface_charge, name}, *boundary.surface_charge, 1., 1,
+                      Fields<dim>::potential);
+    if (boundary.heat_flux)  // leaves the body, so it takes from the heat rows
+      add_over_facets(body, {LoadKind::heat_flux, name}, *boundary.heat_flux, 1., -heat_factor_,
+                      Fields<dim>::temperature);
+  }
 }
 
 template <int dim>
 void Loads<dim>::add_foundation_heat(const Discretisation<dim> &body,
                                      const casefile::ContactCase &contact) {
-  if (contact.heat.foundation_temperature.is_zero())
-    return;
-  Load &added = loads_.emplace_back(contact.heat.foundation_temperature, heat_factor_,
-                                    Fields<dim>::count, Fields<dim>::temperature);
-  body.for_each_facet(contact.on, [&](const Quadrature<dim> &facet) {
-    add_shares(facet, contact.heat.coefficient, added);
-  });
+  for (const std::string &name : contact.on)
+    add_over_facets(body, {LoadKind::foundation_heat, name}, contact.heat.foundation_temperature,
+                    contact.heat.coefficient, heat_factor_, Fields<dim>::temperature);
 }
 
 template <int dim>

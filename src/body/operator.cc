@@ -181,18 +181,30 @@ void Operator<dim>::subtract_column(std::size_t column, double step, double valu
 }
 
 template <int dim>
-FieldForms Operator<dim>::forms(std::span<const double> x, std::span<const double> y) const {
-  FieldForms forms{};
+void Operator<dim>::multiply_by_field(std::span<const double> x, FieldProducts &products) const {
+  for (std::vector<double> &product : products.of)
+    product.resize(x.size());
   for (Node i = 0; i < graph_.n_nodes(); ++i) {
-    Block sum = Block::Zero();  // column c: block column c times component c of y
-    for (std::size_t e = graph_.row[i]; e < graph_.row[i + 1]; ++e)
-      sum += storage_[e] *
-             Eigen::Map<const Vector<n>>(&y[unknown<dim>(graph_.column[e], 0)]).asDiagonal();
-    for (int a = 0; a < n; ++a)
-      for (int b = 0; b < n; ++b)
-        forms[field_of(a, dim)][field_of(b, dim)] += x[unknown<dim>(i, a)] * sum(a, b);
+    Vector<n> u = Vector<n>::Zero(), phi = Vector<n>::Zero(), theta = Vector<n>::Zero();
+    for (std::size_t e = graph_.row[i]; e < graph_.row[i + 1]; ++e) {
+      const Eigen::Map<const Vector<n>> xj(&x[unknown<dim>(graph_.column[e], 0)]);
+      u.noalias() += storage_[e].template leftCols<dim>() * xj.template head<dim>();
+      phi += storage_[e].col(Fields<dim>::potential) * xj[Fields<dim>::potential];
+      theta += storage_[e].col(Fields<dim>::temperature) * xj[Fields<dim>::temperature];
+    }
+    std::copy(u.begin(), u.end(), &products.of[0][unknown<dim>(i, 0)]);
+    std::copy(phi.begin(), phi.end(), &products.of[1][unknown<dim>(i, 0)]);
+    std::copy(theta.begin(), theta.end(), &products.of[2][unknown<dim>(i, 0)]);
   }
-  return forms;
+}
+
+template <int dim>
+std::vector<double> Operator<dim>::conducted(std::span<const double> x) const {
+  std::vector<double> taken(graph_.n_nodes(), 0.);
+  for (Node i = 0; i < graph_.n_nodes(); ++i)
+    for (std::size_t e = graph_.row[i]; e < graph_.row[i + 1]; ++e)
+      taken[i] += conduction_[e] * x[unknown<dim>(graph_.column[e], Fields<dim>::temperature)];
+  return taken;
 }
 
 template class Operator<2>;

@@ -266,6 +266,39 @@ void declare(Visitor &v, ContactCase &contact, int dimension) {
           [&](Visitor &inner) { declare(inner, contact.heat); });
 }
 
+void declare_augmented_lagrangian(Visitor &v, SolverCase &solver) {
+  const bool monolithic = solver.method == "monolithic";
+  const std::string used_with = "method = \"monolithic\"";
+  const std::string from_stiffness =
+      "the stiffness of the body at each contact point, which only changes the number of "
+      "iterations";
+  v.key({.name = "multiplier",
+         .description = "where the contact multipliers live; nodal: at the contact nodes, with "
+                        "lumped weights; piecewise-constant: on the facets (section 3.1), with "
+                        "the facet means of u_nu and du_tau",
+         .choices = {"nodal", "piecewise-constant"},
+         .used = monolithic,
+         .used_with = used_with},
+        &solver.multiplier);
+  v.optional({.name = "r_normal",
+              .description = "r_nu of the augmented Lagrangian (40)",
+              .unit = "N/m^3",
+              .range = positive(),
+              .default_words = from_stiffness,
+              .used = monolithic,
+              .used_with = used_with},
+             solver.r_normal);
+  v.optional({.name = "r_tangential",
+              .description = "r_tau of the augmented Lagrangian (41), which multiplies the slip "
+                             "rate du_tau / k",
+              .unit = "N s/m^3",
+              .range = positive(),
+              .default_words = from_stiffness,
+              .used = monolithic,
+              .used_with = used_with},
+             solver.r_tangential);
+}
+
 void declare(Visitor &v, SolverCase &solver) {
   v.key(
       {.name = "method",
@@ -284,6 +317,7 @@ void declare(Visitor &v, SolverCase &solver) {
         &solver.max_iterations);
   v.key({.name = "threads", .description = "of OpenBLAS and OpenMP", .range = from_to(1, 1024)},
         &solver.threads);
+  declare_augmented_lagrangian(v, solver);
 }
 
 void declare(Visitor &v, OutputCase &output) {

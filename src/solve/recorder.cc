@@ -39,12 +39,14 @@ Recorder<dim>::Recorder(const Model<dim> &model, output::ResultFolder &folder)
 template <int dim>
 void Recorder<dim>::initial(std::span<const double> state) {
   Stopwatch watch;
+  balance_.emplace(model_, state);
   put_fields(0, state);
   seconds_ += watch.lap();
 }
 
 template <int dim>
 output::HistoryRow Recorder<dim>::step(int n, const StepOutcome &outcome,
+                                       std::span<const double> loads,
                                        std::span<const double> before,
                                        std::span<const double> state) {
   Stopwatch watch;
@@ -62,10 +64,7 @@ output::HistoryRow Recorder<dim>::step(int n, const StepOutcome &outcome,
     const std::vector<output::ContactRow> rows = contact_rows(n, outcome, before, state);
     folder_.put_contact(n, time, rows);
   }
-  const body::FieldForms forms = model_.op.forms(state, state);
-  row.quantities = {{"elastic_energy", forms[0][0] / 2},
-                    {"electric_energy", -forms[1][1] / 2},
-                    {"thermal_energy", -forms[2][2] / 2}};
+  row.quantities = balance_->step(time, loads, outcome.contact_forces, state);
   for (const output::Extreme &e : extremes(state)) {
     row.quantities.emplace_back("min_" + e.field, e.minimum);
     row.quantities.emplace_back("max_" + e.field, e.maximum);

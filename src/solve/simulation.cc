@@ -11,6 +11,7 @@
 #include "tourmaline/output/progress.h"
 #include "tourmaline/solve/condensed_route.h"
 #include "tourmaline/solve/memory.h"
+#include "tourmaline/solve/monolithic_route.h"
 #include "tourmaline/solve/process.h"
 #include "tourmaline/solve/recorder.h"
 #include "tourmaline/solve/stopwatch.h"
@@ -28,14 +29,14 @@ class Simulation {
 
  private:
   void prescribe(double time, std::vector<double> &state) const;
-  void right_side(double time, std::vector<double> &b) const;
+  void sum_loads(double time);
   void step(int n);
   void keep_what_there_is();
   output::Summary summary() const;
 
   output::Progress progress_;
   Model<dim> model_;
-  std::vector<double> state_, before_, right_side_;
+  std::vector<double> state_, before_, loads_, right_side_;
   std::optional<output::ResultFolder> folder_;
   std::optional<Recorder<dim>> recorder_;
   std::unique_ptr<Route> route_;
@@ -47,8 +48,7 @@ class Simulation {
 template <int dim>
 std::unique_ptr<Route> make_route(const Model<dim> &model) {
   if (model.asked.solver.method == "monolithic")
-    throw CaseError(model.asked.source +
-                    ": [solver] method = \"monolithic\" is not available yet; use \"condensed\"");
+    return monolithic_route(model);
   return condensed_route(model);
 }
 
@@ -62,7 +62,7 @@ Simulation<dim>::Simulation(const casefile::Case &asked, const std::filesystem::
   state_ = body::initial_state(model_.body, asked.initial);
   std::vector<double> trial = state_;
   prescribe(model_.time(1), trial);
-  right_side(model_.time(1), right_side_);
+  sum_loads(model_.time(1));
   for (const auto &node : model_.interface)
     contact::friction_at(asked.contact->friction, node.point, model_.time(1));
   folder_.emplace(directory, dim);
@@ -79,16 +79,17 @@ void Simulation<dim>::prescribe(double time, std::vector<double> &state) const {
 }
 
 template <int dim>
-void Simulation<dim>::right_side(double time, std::vector<double> &b) const {
-  b.assign(model_.n_unknowns(), 0.);
-  model_.loads.integrate(time, b);
-  model_.op.add_history(state_, b);
+void Simulation<dim>::sum_loads(double time) {
+  loads_.assign(model_.n_unknowns(), 0.);
+  model_.loads.integrate(time, loads_);
 }
 
 template <int dim>
 void Simulation<dim>::step(int n) {
   Stopwatch watch;
-  right_side(model_.time(n), right_side_);
+  sum_loads(model_.time(n));
+  right_side_ = loads_;
+  model_.op.add_history(state_, right_side_);
   before_ = state_;
   prescribe(model_.time(n), state_);
   const StepOutcome outcome = route_->advance(model_.time(n), right_side_, before_, state_);
@@ -97,7 +98,7 @@ void Simulation<dim>::step(int n) {
   if (n == 1)
     newton_first_ = outcome.newton_iterations;
   step_seconds_ += watch.lap();
-  progress_.step(recorder_->step(n, outcome, before_, state_));
+  progress_.step(recorder_->step(n, outcome, loads_, before_, state_));
 }
 
 template <int dim>

@@ -1,4 +1,5 @@
-// What the paper claims of its example (section 4), and what design and notes make of it (docs/paper-notes.md).
+// What the paper claims of its example (section 4), and what design and notes make of it
+// (docs/paper-notes.md).
 
 #include <fmt/format.h>
 
@@ -28,12 +29,14 @@ const char *const insulated = "cases/ouafik-2020/insulated.toml";
 std::size_t count(const Table &contact, const std::string &status, int step) {
   std::size_t n = 0;
   for (std::size_t i = 0; i < contact.n_rows(); ++i)
-    n += contact.columns.at("status")[i] == status && contact.columns.at("step")[i] == std::to_string(step);
+    n += contact.columns.at("status")[i] == status &&
+         contact.columns.at("step")[i] == std::to_string(step);
   return n;
 }
 
 // Node with the largest value of a column: its place.
-std::pair<double, double> place_of_largest(const Table &nodes, const std::string &column, double sign = 1) {
+std::pair<double, double> place_of_largest(const Table &nodes, const std::string &column,
+                                           double sign = 1) {
   const std::vector<double> values = nodes.numbers(column);
   std::size_t best = 0;
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -48,7 +51,8 @@ TEST_P(Paper, OnAnInsulatedFoundationEveryNodeSticksInEveryStep) {
     ASSERT_EQ(status, "stick");
 }
 
-TEST_P(Paper, OnAnInsulatedFoundationThePotentialIsNegativeAndLargestOnTopAndAtTheTopEndOfTheContact) {
+TEST_P(Paper,
+       OnAnInsulatedFoundationThePotentialIsNegativeAndLargestOnTopAndAtTheTopEndOfTheContact) {
   const Table nodes = RunCase(insulated, cells()).nodes();
   const auto [x, y] = place_of_largest(nodes, "potential", -1);
   EXPECT_DOUBLE_EQ(y, 0.1);
@@ -201,23 +205,27 @@ heat = { law = "exchange", coefficient = 1, foundation_temperature = -27 }
 [output]
 fields = false
 )";
-  const auto with = [](std::string text, const std::string &displacement, const std::string &traction) {
+  const auto with = [](std::string text, const std::string &displacement,
+                       const std::string &traction) {
     text.replace(text.find("DISPLACEMENT"), 12, displacement);
     text.replace(text.find("TRACTION"), 8, traction);
     return text;
   };
   const RunCase plane(casefile::read_text(
-      "[mesh]\nbox = { min = [0,0], max = [0.1,0.1], cells = [6,6], cell = \"quadrilateral\" }" + material +
-          "[0, 1e-4]" + with(conditions, "[0,0]", "[0, \"-0.5*t\"]"),
+      "[mesh]\nbox = { min = [0,0], max = [0.1,0.1], cells = [6,6], cell = \"quadrilateral\" }" +
+          material + "[0, 1e-4]" + with(conditions, "[0,0]", "[0, \"-0.5*t\"]"),
       "plane"));
   const RunCase solid(casefile::read_text(
-      "[mesh]\nbox = { min = [0,0,0], max = [0.1,0.03,0.1], cells = [6,2,6], cell = \"hexahedron\" }" +
+      "[mesh]\nbox = { min = [0,0,0], max = [0.1,0.03,0.1], cells = [6,2,6], cell = \"hexahedron\" "
+      "}" +
           material + "[0, 0, 1e-4]" + with(conditions, "[0,0,0]", "[0, 0, \"-0.5*t\"]") +
           "[[boundary]]\non = [\"front\", \"back\"]\ndisplacement = [\"free\", 0, \"free\"]\n",
       "solid"));
   const Table flat = plane.nodes(), thick = solid.nodes();
   std::map<std::pair<long, long>, std::size_t> at;
-  const auto key = [](double x, double y) { return std::make_pair(std::lround(x * 1e6), std::lround(y * 1e6)); };
+  const auto key = [](double x, double y) {
+    return std::make_pair(std::lround(x * 1e6), std::lround(y * 1e6));
+  };
   for (std::size_t i = 0; i < flat.n_rows(); ++i)
     at[key(flat.numbers("x")[i], flat.numbers("y")[i])] = i;
   const std::vector<std::pair<std::string, std::string>> columns{
@@ -257,7 +265,8 @@ fields = false
   const Table contact = run.contact();
   const std::vector<double> tx = contact.numbers("tangential_traction_x"),
                             ty = contact.numbers("tangential_traction_y"),
-                            normal = contact.numbers("normal_displacement"), rate = contact.numbers("slip_rate");
+                            normal = contact.numbers("normal_displacement"),
+                            rate = contact.numbers("slip_rate");
   std::size_t slipping = 0;
   for (std::size_t i = 0; i < tx.size(); ++i) {
     const double size = std::hypot(tx[i], ty[i]);

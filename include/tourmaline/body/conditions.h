@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "tourmaline/body/operator.h"
@@ -7,11 +8,13 @@
 
 namespace tourmaline::body {
 
-/// A prescribed unknown (7), (10), (12), its value in time and place.
+/// A prescribed unknown (7), (10), (12), its value in time and place, and the boundary that
+/// prescribes it.
 struct Prescribed {
   std::size_t unknown;
   output::Vector point;
   casefile::Formula value;
+  std::string boundary;
 };
 
 /// Prescribed unknowns of all [[boundary]] entries, ascending. Where two boundaries meet and both

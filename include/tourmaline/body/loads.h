@@ -8,6 +8,13 @@
 
 namespace tourmaline::body {
 
+/// What a load is, and the boundary it acts on; none for volume loads.
+struct LoadKind {
+  enum Kind { force, charge, heat, traction, surface_charge, heat_flux, foundation_heat } kind;
+  std::string boundary;
+  int component = 0;  ///< of force and traction
+};
+
 /// The integral of a density against the shape functions, (density(t), v), for one component of the
 /// unknowns. What does not change is integrated once: a density without t wholly, one without x, y,
 /// z up to its factor in time.
@@ -21,15 +28,21 @@ class Load {
   };
 
   /// `factor` multiplies the density; `stride` unknowns a node, this load in component `component`.
-  Load(casefile::Formula density, double factor, int stride, int component);
+  Load(LoadKind kind, casefile::Formula density, double factor, int stride, int component);
 
+  const LoadKind &kind() const { return kind_; }
   void add(Share share);
   /// Adds the load at time t to `right_side`.
   void integrate(double t, std::vector<double> &right_side) const;
+  /// The integral of the density itself, without `factor`: a resultant force [N], charge [C], heat
+  /// flow [W].
+  double resultant(double t) const;
 
  private:
+  double factor_in_time(double t) const;
   void add_to(std::vector<double> &right_side, double density, const Share &share) const;
 
+  LoadKind kind_;
   casefile::Formula density_;
   double factor_;
   int stride_, component_;
@@ -49,10 +62,15 @@ class Loads {
   /// Adds all loads at time t; one entry for each unknown of the body.
   void integrate(double t, std::vector<double> &right_side) const;
 
+  const std::vector<Load> &each() const { return loads_; }
+
  private:
   void add_volume_loads(const Discretisation<dim> &body, const casefile::LoadCase &load);
   void add_surface_loads(const Discretisation<dim> &body, const casefile::BoundaryCase &boundary);
   void add_foundation_heat(const Discretisation<dim> &body, const casefile::ContactCase &contact);
+  void add_over_facets(const Discretisation<dim> &body, LoadKind kind,
+                       const casefile::Formula &density, const casefile::Formula &weight,
+                       double factor, int component);
 
   double heat_factor_;
   std::vector<Load> loads_;

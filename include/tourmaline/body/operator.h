@@ -22,9 +22,14 @@ constexpr std::size_t unknown(Node node, int component) {
   return std::size_t{node} * Fields<dim>::count + component;
 }
 
-/// Power-conjugate sums x_a . K_ab y_b of the storage operator by field: mechanical, electric,
-/// thermal.
-using FieldForms = std::array<std::array<double, 3>, 3>;
+/// Products of the storage operator with one field of a state at a time: `of[f]` has an entry for
+/// each unknown, f = 0 for u, 1 for phi, 2 for theta. Their sum is the operator's product with the
+/// state.
+struct FieldProducts {
+  std::array<std::vector<double>, 3> of;
+
+  double sum(std::size_t unknown) const { return of[0][unknown] + of[1][unknown] + of[2][unknown]; }
+};
 
 /// The operator of the body without boundary conditions, in SI units. With the electric rows
 /// multiplied by -1 and the heat rows by -k / theta_ref it is symmetric (design: operator of a
@@ -71,8 +76,11 @@ class Operator {
   /// Column `column` times `value`, subtracted from y (the operator is symmetric).
   void subtract_column(std::size_t column, double step, double value, std::span<double> y) const;
 
-  /// Forms of the storage operator between x and y, by field.
-  FieldForms forms(std::span<const double> x, std::span<const double> y) const;
+  /// storage x, field by field; `products` is overwritten.
+  void multiply_by_field(std::span<const double> x, FieldProducts &products) const;
+
+  /// G theta by node [W], what conduction and exchange take from each node.
+  std::vector<double> conducted(std::span<const double> x) const;
 
  private:
   std::size_t entry_of(Node row, Node column) const;

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <map>
+#include <optional>
 
 #include "tourmaline/output/result_folder.h"
+#include "tourmaline/solve/balance.h"
 #include "tourmaline/solve/model.h"
 #include "tourmaline/solve/route.h"
 
@@ -16,9 +17,10 @@ class Recorder {
   Recorder(const Model<dim> &model, output::ResultFolder &folder);
 
   void initial(std::span<const double> state);
-  /// Writes step n; returns its line of history.
-  output::HistoryRow step(int n, const StepOutcome &outcome, std::span<const double> before,
-                          std::span<const double> state);
+  /// Writes step n; returns its line of history. `loads` is the step's right-hand side without
+  /// history.
+  output::HistoryRow step(int n, const StepOutcome &outcome, std::span<const double> loads,
+                          std::span<const double> before, std::span<const double> state);
   /// The last state's nodes, and the tables into place.
   void finish(std::span<const double> state);
 
@@ -36,7 +38,8 @@ class Recorder {
   const Model<dim> &model_;
   output::ResultFolder &folder_;
   output::Grid grid_;
-  double seconds_ = 0, friction_work_ = 0;
+  std::optional<Balance<dim>> balance_;
+  double seconds_ = 0;
 };
 
 }  // namespace tourmaline::solve

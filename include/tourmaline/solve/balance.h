@@ -1,0 +1,58 @@
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tourmaline/solve/model.h"
+
+namespace tourmaline::solve {
+
+/// The balances of a step: forces, charges, heat and energy, from reactions (residuals of the whole
+/// operator at prescribed unknowns), loads and contact forces. The stored energy is
+///
+///     W = u.A u / 2 + phi.B phi / 2 + theta.H0 theta / 2 - phi.P theta,
+///
+/// and with backward differences over a step, d = x_n - x_(n-1), it obeys exactly
+///
+///     W_n - W_(n-1) + W(d) = load + electric + thermal work - friction dissipation - conduction
+///     loss,
+///
+/// where W(d) >= 0 is what the Euler step loses (docs/theory.md). Every balance is reported with
+/// its imbalance relative to the sum of the sizes of its terms.
+template <int dim>
+class Balance {
+ public:
+  using Columns = std::vector<std::pair<std::string, double>>;
+
+  Balance(const Model<dim> &model, std::span<const double> initial);
+
+  /// Columns of history.csv for the step that ends at `time` with `state`. `loads` is the
+  /// right-hand side without history, `contact_forces` [N] has dim entries for each interface node.
+  Columns step(double time, std::span<const double> loads, const Eigen::VectorXd &contact_forces,
+               std::span<const double> state);
+
+ private:
+  /// One step's numbers, shared by the four balances.
+  struct Step;
+
+  void add_forces(const Step &step, Columns &columns) const;
+  void add_charges(const Step &step, Columns &columns) const;
+  void add_heat(const Step &step, Columns &columns) const;
+  void add_energy(const Step &step, Columns &columns);
+  double exchanged(const std::string &boundary, const Step &step) const;
+
+  const Model<dim> &model_;
+  std::vector<double> state_;        // of the step before
+  body::FieldProducts products_;     // of that state
+  std::vector<double> charges_;      // electric right-hand side of that state, reactions included
+  double stored_ = 0;                // energy of that state [J]
+  std::vector<bool> is_prescribed_;  // by unknown
+  std::vector<std::string> heat_boundaries_, charge_boundaries_;
+  std::map<std::string, std::vector<std::pair<body::Node, double>>>
+      exchange_;  // integral of k_c N_i
+};
+
+}  // namespace tourmaline::solve

@@ -1,0 +1,60 @@
+#include "tourmaline/contact/augmented_lagrangian.h"
+
+namespace tourmaline::contact {
+
+Tangent AugmentedLagrangian::tangential(const Local &components) const {
+  return components.tail(components.size() - n_normal());
+}
+
+Tangent AugmentedLagrangian::trial(const Local &displacement, const Local &multiplier) const {
+  return tangential(multiplier) + r_slip * tangential(displacement);
+}
+
+Tangent AugmentedLagrangian::friction_traction(const Local &displacement,
+                                               const Local &multiplier) const {
+  const Tangent x = trial(displacement, multiplier);
+  return std::visit([&](const auto &law) { return law.traction(x); }, friction);
+}
+
+AugmentedLagrangian::Gradient AugmentedLagrangian::gradient(const Local &displacement,
+                                                            const Local &multiplier) const {
+  const Eigen::Index n = multiplier.size(), n_slip = n - n_normal();
+  Gradient g{Local::Zero(n), Local::Zero(n)};
+  if (has_normal) {
+    g.traction[0] = multiplier[0] + r_normal * displacement[0];
+    g.condition[0] = displacement[0];
+  }
+  const Tangent projected = friction_traction(displacement, multiplier);
+  g.traction.tail(n_slip) = projected;
+  if (!friction_held)
+    g.condition.tail(n_slip) = (projected - tangential(multiplier)) / r_slip;
+  return g;
+}
+
+AugmentedLagrangian::Hessian AugmentedLagrangian::hessian(const Local &displacement,
+                                                          const Local &multiplier) const {
+  const Eigen::Index n = multiplier.size(), n_slip = n - n_normal();
+  Hessian h{LocalMatrix::Zero(n, n), LocalMatrix::Zero(n, n), LocalMatrix::Zero(n, n)};
+  if (has_normal) {
+    h.displacement(0, 0) = r_normal;
+    h.mixed(0, 0) = 1;
+  }
+  const Tangent x = trial(displacement, multiplier);
+  const TangentMatrix derivative =
+      std::visit([&](const auto &law) { return law.traction_derivative(x); }, friction);
+  const TangentMatrix known =
+      friction_held ? TangentMatrix(TangentMatrix::Zero(n_slip, n_slip)) : derivative;
+  h.displacement.bottomRightCorner(n_slip, n_slip) = r_slip * derivative;
+  h.mixed.bottomRightCorner(n_slip, n_slip) = known;
+  h.multiplier.bottomRightCorner(n_slip, n_slip) =
+      (known - TangentMatrix::Identity(n_slip, n_slip)) / r_slip;
+  return h;
+}
+
+output::ContactStatus AugmentedLagrangian::status(const Local &displacement,
+                                                  const Local &multiplier) const {
+  const Tangent x = trial(displacement, multiplier);
+  return std::visit([&](const auto &law) { return law.status(x); }, friction);
+}
+
+}  // namespace tourmaline::contact

@@ -1,0 +1,317 @@
+#include "tourmaline/solve/balance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace tourmaline::solve {
+
+using body::Fields;
+using body::LoadKind;
+
+namespace {
+
+// A sum with the sum of the sizes of its terms, by which an imbalance is measured.
+struct Sum {
+  double value = 0, size = 0;
+  void add(double term) {
+    value += term;
+    size += std::abs(term);
+  }
+  double relative() const { return size > 0 ? value / size : 0; }
+};
+
+bool add_once(std::vector<std::string> &names, const std::string &name) {
+  if (std::find(names.begin(), names.end(), name) != names.end())
+    return false;
+  names.push_back(name);
+  return true;
+}
+
+const char *const axes[] = {"x", "y", "z"};
+
+// The stored energy's parts for the increment or state x with products y.
+struct Energy {
+  double elastic = 0, electric = 0, thermal = 0, coupling = 0;
+  double sum() const { return elastic + electric + thermal + coupling; }
+};
+
+}  // namespace
+
+template <int dim>
+struct Balance<dim>::Step {
+  double time;
+  std::span<const double> loads, state, before;
+  const body::FieldProducts &products, &products_before;
+  std::vector<double> conducted;  // by node [W]
+  std::vector<double> contact;    // by unknown [N]
+  std::vector<double> charges, charges_before;
+  std::vector<double> heat_supplied;  // by node, at prescribed temperatures [W]
+
+  double change(std::size_t i) const { return state[i] - before[i]; }
+  double product_change(int field, std::size_t i) const {
+    return products.of[field][i] - products_before.of[field][i];
+  }
+  Energy energy() const;
+  Energy energy_of_change() const;
+};
+
+namespace {
+
+template <int dim, class Value, class Product>
+Energy energy_of(std::size_t n, const Value &value, const Product &product) {
+  Energy energy;
+  for (std::size_t i = 0; i < n; ++i) {
+    const int component = static_cast<int>(i % Fields<dim>::count);
+    if (component < dim) {
+      energy.elastic += value(i) * product(0, i) / 2;
+    } else if (component == Fields<dim>::potential) {
+      energy.electric -= value(i) * product(1, i) / 2;
+      energy.coupling -= value(i) * product(2, i);
+    } else {
+      energy.thermal -= value(i) * product(2, i) / 2;
+    }
+  }
+  return energy;
+}
+
+}  // namespace
+
+template <int dim>
+Energy Balance<dim>::Step::energy() const {
+  return energy_of<dim>(
+      state.size(), [&](std::size_t i) { return state[i]; },
+      [&](int field, std::size_t i) { return products.of[field][i]; });
+}
+
+template <int dim>
+Energy Balance<dim>::Step::energy_of_change() const {
+  return energy_of<dim>(
+      state.size(), [&](std::size_t i) { return change(i); },
+      [&](int field, std::size_t i) { return product_change(field, i); });
+}
+
+template <int dim>
+Balance<dim>::Balance(const Model<dim> &model, std::span<const double> initial)
+    : model_(model), state_(initial.begin(), initial.end()), is_prescribed_(initial.size(), false) {
+  model.op.multiply_by_field(initial, products_);
+  stored_ = energy_of<dim>(
+                initial.size(), [&](std::size_t i) { return initial[i]; },
+                [&](int field, std::size_t i) { return products_.of[field][i]; })
+                .sum();
+  charges_.assign(initial.size(), 0.);
+  for (std::size_t i = Fields<dim>::potential; i < initial.size(); i += Fields<dim>::count)
+    charges_[i] = products_.sum(i);
+  for (const body::Prescribed &p : model.prescribed) {
+    is_prescribed_[p.unknown] = true;
+    const int component = static_cast<int>(p.unknown % Fields<dim>::count);
+    if (component == Fields<dim>::temperature)
+      add_once(heat_boundaries_, p.boundary);
+    else if (component == Fields<dim>::potential)
+      add_once(charge_boundaries_, p.boundary);
+  }
+  for (const body::Load &load : model.loads.each())
+    if (load.kind().kind == LoadKind::heat_flux)
+      add_once(heat_boundaries_, load.kind().boundary);
+    else if (load.kind().kind == LoadKind::surface_charge)
+      add_once(charge_boundaries_, load.kind().boundary);
+  if (!model.asked.contact || model.asked.contact->heat.law != "exchange")
+    return;
+  for (const std::string &name : model.asked.contact->on) {
+    add_once(heat_boundaries_, name);
+    std::map<body::Node, double> weights;
+    model.body.for_each_facet({name}, [&](const body::Quadrature<dim> &facet) {
+      for (std::size_t q = 0; q < facet.jxw.size(); ++q)
+        for (std::size_t a = 0; a < facet.nodes.size(); ++a)
+          weights[facet.nodes[a]] +=
+              model.asked.contact->heat.coefficient.value(facet.points[q], 0) * facet.jxw[q] *
+              facet.value(q, a);
+    });
+    exchange_[name].assign(weights.begin(), weights.end());
+  }
+}
+
+template <int dim>
+typename Balance<dim>::Columns Balance<dim>::step(double time, std::span<const double> loads,
+                                                  const Eigen::VectorXd &contact_forces,
+                                                  std::span<const double> state) {
+  body::FieldProducts products;
+  model_.op.multiply_by_field(state, products);
+  Step step{time, loads, state,    state_, products, products_, model_.op.conducted(state),
+            {},   {},    charges_, {}};
+  step.contact.assign(state.size(), 0.);
+  for (std::size_t i = 0; i < model_.interface.size(); ++i)
+    for (int c = 0; c < dim; ++c)
+      step.contact[body::unknown<dim>(model_.interface[i].node, c)] =
+          contact_forces[dim * static_cast<Eigen::Index>(i) + c];
+  step.charges.assign(state.size(), 0.);
+  for (std::size_t i = Fields<dim>::potential; i < state.size(); i += Fields<dim>::count)
+    step.charges[i] = is_prescribed_[i] ? products.sum(i) : loads[i];
+  // The heat rows are scaled by -k / theta_ref; what they lack at prescribed temperatures was
+  // supplied.
+  const double per_watt = -model_.step / model_.op.reference_temperature();
+  step.heat_supplied.assign(model_.body.n_nodes(), 0.);
+  for (body::Node node = 0; node < model_.body.n_nodes(); ++node) {
+    const std::size_t i = body::unknown<dim>(node, Fields<dim>::temperature);
+    if (is_prescribed_[i])
+      step.heat_supplied[node] =
+          (products.sum(i) - products_.sum(i) - loads[i]) / per_watt + step.conducted[node];
+  }
+  Columns columns;
+  add_energy(step, columns);
+  add_forces(step, columns);
+  add_charges(step, columns);
+  add_heat(step, columns);
+  state_.assign(state.begin(), state.end());
+  charges_ = std::move(step.charges);
+  std::swap(products_, products);
+  return columns;
+}
+
+template <int dim>
+void Balance<dim>::add_energy(const Step &step, Columns &columns) {
+  const double per_watt = -model_.step / model_.op.reference_temperature();
+  double load = 0, friction = 0, electric = 0, thermal = 0, conduction = 0;
+  for (std::size_t i = 0; i < step.state.size(); ++i) {
+    const int component = static_cast<int>(i % Fields<dim>::count);
+    if (component < dim) {
+      // What moves a prescribed displacement does work as a load does.
+      const double moving = is_prescribed_[i] ? step.products.sum(i) : step.loads[i];
+      load += moving * step.change(i);
+      if (!is_prescribed_[i])
+        friction -= step.contact[i] * step.change(i);
+    } else if (component == Fields<dim>::potential) {
+      electric -= step.state[i] * (step.charges[i] - step.charges_before[i]);
+    } else {
+      const std::size_t node = i / Fields<dim>::count;
+      thermal += step.state[i] * (-step.loads[i] - per_watt * step.heat_supplied[node]);
+      conduction -= per_watt * step.state[i] * step.conducted[node];
+    }
+  }
+  const Energy energy = step.energy();
+  const double lost = step.energy_of_change().sum();
+  const double before = std::exchange(stored_, energy.sum());
+  Sum imbalance;
+  for (const double term :
+       {energy.sum(), -before, lost, -load, -electric, -thermal, friction, conduction})
+    imbalance.add(term);
+  const double k = model_.step;
+  columns.insert(columns.end(), {{"elastic_energy", energy.elastic},
+                                 {"electric_energy", energy.electric},
+                                 {"thermal_energy", energy.thermal},
+                                 {"coupling_energy", energy.coupling},
+                                 {"stored_energy_rate", (energy.sum() - before) / k},
+                                 {"load_power", load / k},
+                                 {"electric_power", electric / k},
+                                 {"thermal_power", thermal / k},
+                                 {"friction_dissipation", friction / k},
+                                 {"conduction_loss", conduction / k},
+                                 {"time_step_loss", lost / k},
+                                 {"energy_imbalance", imbalance.relative()}});
+}
+
+// Global equilibrium: loads, reactions and contact forces add up to zero in every direction.
+template <int dim>
+void Balance<dim>::add_forces(const Step &step, Columns &columns) const {
+  std::array<Sum, dim> load, reaction, contact;
+  for (std::size_t i = 0; i < step.state.size(); ++i) {
+    const std::size_t c = i % Fields<dim>::count;
+    if (c >= dim)
+      continue;
+    load[c].add(step.loads[i]);
+    contact[c].add(step.contact[i]);
+    if (is_prescribed_[i])
+      reaction[c].add(step.products.sum(i) - step.loads[i] - step.contact[i]);
+  }
+  double worst = 0, size = 0;
+  for (int c = 0; c < dim; ++c) {
+    columns.emplace_back(std::string("load_") + axes[c], load[c].value);
+    columns.emplace_back(std::string("reaction_") + axes[c], reaction[c].value);
+    columns.emplace_back(std::string("contact_force_") + axes[c], contact[c].value);
+    worst = std::max(worst, std::abs(load[c].value + reaction[c].value + contact[c].value));
+    size += load[c].size + reaction[c].size + contact[c].size;
+  }
+  columns.emplace_back("force_imbalance", size > 0 ? worst / size : 0);
+}
+
+// Gauss's law for the whole body: the integral of D.nu over all boundaries is the charge inside.
+template <int dim>
+void Balance<dim>::add_charges(const Step &step, Columns &columns) const {
+  std::map<std::string, double> through;
+  Sum imbalance;
+  for (const body::Prescribed &p : model_.prescribed)
+    if (p.unknown % Fields<dim>::count == Fields<dim>::potential) {
+      const double charge = step.charges[p.unknown] - step.loads[p.unknown];
+      through[p.boundary] += charge;
+      imbalance.add(charge);
+    }
+  double inside = 0;
+  for (const body::Load &load : model_.loads.each())
+    if (load.kind().kind == LoadKind::surface_charge)
+      through[load.kind().boundary] += load.resultant(step.time);
+    else if (load.kind().kind == LoadKind::charge)
+      inside += load.resultant(step.time);
+  for (const std::string &name : charge_boundaries_)
+    columns.emplace_back("charge_" + name, through[name]);
+  double total = -inside;
+  for (const auto &[name, charge] : through)
+    total += charge;
+  const double size = imbalance.size + std::abs(inside);
+  columns.emplace_back("charge_imbalance", size > 0 ? total / size : 0);
+}
+
+template <int dim>
+double Balance<dim>::exchanged(const std::string &boundary, const Step &step) const {
+  double flow = 0;
+  if (const auto found = exchange_.find(boundary); found != exchange_.end())
+    for (const auto &[node, weight] : found->second)
+      flow += weight * step.state[body::unknown<dim>(node, Fields<dim>::temperature)];
+  return flow;
+}
+
+// Heat: what is stored comes from sources and has not left through the boundaries.
+template <int dim>
+void Balance<dim>::add_heat(const Step &step, Columns &columns) const {
+  std::map<std::string, double> out;
+  Sum imbalance;
+  for (const body::Prescribed &p : model_.prescribed)
+    if (p.unknown % Fields<dim>::count == Fields<dim>::temperature) {
+      const double supplied = step.heat_supplied[p.unknown / Fields<dim>::count];
+      out[p.boundary] -= supplied;
+      imbalance.size += std::abs(supplied);
+    }
+  double source = 0;
+  for (const body::Load &load : model_.loads.each())
+    switch (const double resultant = load.resultant(step.time); load.kind().kind) {
+      case LoadKind::heat:
+        source += resultant;
+        break;
+      case LoadKind::heat_flux:
+        out[load.kind().boundary] += resultant;
+        break;
+      case LoadKind::foundation_heat:
+        out[load.kind().boundary] -= resultant;
+        break;
+      default:
+        break;
+    }
+  for (const std::string &name : heat_boundaries_) {
+    out[name] += exchanged(name, step);
+    columns.emplace_back("heat_" + name, out[name]);
+    imbalance.add(out[name]);
+  }
+  double stored = 0;
+  const double per_watt = -model_.step / model_.op.reference_temperature();
+  for (std::size_t i = Fields<dim>::temperature; i < step.state.size(); i += Fields<dim>::count)
+    stored += (step.products.sum(i) - step.products_before.sum(i)) / per_watt;
+  imbalance.add(stored);
+  imbalance.add(-source);
+  columns.emplace_back("stored_heat_rate", stored);
+  columns.emplace_back("heat_source", source);
+  columns.emplace_back("heat_imbalance", imbalance.relative());
+}
+
+template class Balance<2>;
+template class Balance<3>;
+
+}  // namespace tourmaline::solve

@@ -1,0 +1,59 @@
+#include "run_case.h"
+
+namespace tourmaline::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> all_cases() {
+  std::vector<std::string> files{"cases/ouafik-2020/conductive.toml",
+                                 "cases/ouafik-2020/insulated.toml"};
+  const fs::path root = TOURMALINE_SOURCE_DIR;
+  for (const auto &entry : fs::directory_iterator(root / "tests" / "reference" / "third"))
+    if (entry.is_directory())
+      files.push_back(fs::relative(entry.path() / "case.toml", root));
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+class Balances : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Balances, OfEnergyForcesChargeAndHeatCloseInEveryStep) {
+  const Table history = RunCase(GetParam(), {}).history();
+  for (const char *column :
+       {"energy_imbalance", "force_imbalance", "charge_imbalance", "heat_imbalance"})
+    EXPECT_LT(largest(history.numbers(column)), 1e-9) << column;
+}
+
+TEST_P(Balances, FrictionAndTheEulerStepOnlyTakeEnergy) {
+  const Table history = RunCase(GetParam(), {}).history();
+  for (const double dissipated : history.numbers("friction_dissipation"))
+    EXPECT_GE(dissipated, 0);
+  for (const double lost : history.numbers("time_step_loss"))
+    EXPECT_GE(lost, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, Balances, ::testing::ValuesIn(all_cases()));
+
+TEST(Balances, TheFrictionDissipationIsTheBoundTimesTheSlipRateOfEverySlippingNode) {
+  const RunCase run("cases/ouafik-2020/conductive.toml", {"mesh.box.cells=[16,16]"});
+  const Table contact = run.contact();
+  const std::vector<double> dissipated = run.history().numbers("friction_dissipation"),
+                            rate = contact.numbers("slip_rate");
+  for (std::size_t n = 0; n < dissipated.size(); ++n) {
+    double by_hand = 0;
+    for (std::size_t i = 0; i < 17; ++i)
+      by_hand += 15 * rate[17 * n + i] * (i == 0 || i == 16 ? 0.5 : 1) * 0.1 / 16;
+    EXPECT_NEAR(dissipated[n], by_hand, 1e-9 * by_hand);
+  }
+}
+
+TEST(Balances, NothingCrossesTheContactAtCoefficientZero) {
+  const Table history = RunCase("cases/ouafik-2020/conductive.toml",
+                                {"mesh.box.cells=[8,8]", "contact.heat.coefficient=0"})
+                            .history();
+  EXPECT_EQ(largest(history.numbers("heat_left")), 0);
+}
+
+}  // namespace
+}  // namespace tourmaline::testing
