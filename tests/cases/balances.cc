@@ -35,7 +35,7 @@ TEST_P(Balances, FrictionAndTheEulerStepOnlyTakeEnergy) {
 
 INSTANTIATE_TEST_SUITE_P(Cases, Balances, ::testing::ValuesIn(all_cases()));
 
-TEST(Balances, TheFrictionDissipationIsTheBoundTimesTheSlipRateOfEverySlippingNode) {
+TEST(Dissipation, OfFrictionIsTheBoundTimesTheSlipRateOfEverySlippingNode) {
   const RunCase run("cases/ouafik-2020/conductive.toml", {"mesh.box.cells=[16,16]"});
   const Table contact = run.contact();
   const std::vector<double> dissipated = run.history().numbers("friction_dissipation"),
@@ -48,7 +48,7 @@ TEST(Balances, TheFrictionDissipationIsTheBoundTimesTheSlipRateOfEverySlippingNo
   }
 }
 
-TEST(Balances, NothingCrossesTheContactAtCoefficientZero) {
+TEST(Heat, NothingCrossesTheContactAtCoefficientZero) {
   const Table history = RunCase("cases/ouafik-2020/conductive.toml",
                                 {"mesh.box.cells=[8,8]", "contact.heat.coefficient=0"})
                             .history();
