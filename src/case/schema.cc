@@ -87,6 +87,39 @@ std::string cells_complaint(const Box &box, int degree) {
                      std::numeric_limits<int>::max());
 }
 
+// Nodes that are closer than 1e-9 of the largest extent count as one place; graded_line makes no
+// cell smaller than a uniform one over the grading.
+std::string grading_complaint(const Box &box) {
+  double extent = 0;
+  for (std::size_t i = 0; i < box.max.size(); ++i)
+    extent = std::max(extent, box.max[i] - box.min[i]);
+  for (const Side &side : sides(static_cast<int>(box.max.size())))
+    if (const auto given = box.grading.find(side.name); given != box.grading.end()) {
+      const double uniform = (box.max[side.axis] - box.min[side.axis]) / box.cells[side.axis];
+      if (uniform / given->second < 1e-8 * extent)
+        return fmt::format(
+            "{} = {} makes cells too small to tell their corners apart; at most {:.3g}", side.name,
+            given->second, std::max(1., 1e8 * uniform / extent));
+    }
+  return "";
+}
+
+void declare_grading(Visitor &v, Box &box) {
+  for (const Side &side : sides(dimension_of(box.cell))) {
+    std::optional<double> value;
+    if (const auto given = box.grading.find(side.name); given != box.grading.end())
+      value = given->second;
+    v.optional({.name = side.name,
+                .description = "size of the largest cells along this axis over that at the " +
+                               side.name + " side",
+                .range = at_least(1),
+                .default_words = "1"},
+               value);
+    if (value)
+      box.grading[side.name] = *value;
+  }
+}
+
 void declare(Visitor &v, Box &box, int degree) {
   std::string cell = name_of(box.cell);
   v.key({.name = "cell",
@@ -114,8 +147,18 @@ void declare(Visitor &v, Box &box, int degree) {
          .range = at_least(1),
          .length = axes},
         &box.cells);
+  v.table({.name = "grading",
+           .description =
+               "Makes the cells smaller towards sides, smoothly; in 3D there are front and back "
+               "too. A number says how many times smaller cells are at that side than where they "
+               "are largest along the same axis, as `cells` grows; 1 is uniform. Opposite sides "
+               "may both be named. The vertices are the images of equidistant points under a map "
+               "that does not depend on `cells`, so doubling `cells` keeps them and divides every "
+               "interval in two"},
+          [&](Visitor &inner) { declare_grading(inner, box); });
   v.check("max", [&] { return corners_complaint(box); });
   v.check("cells", [&] { return cells_complaint(box, degree); });
+  v.check("grading", [&] { return grading_complaint(box); });
 }
 
 void declare(Visitor &v, MeshCase &mesh) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tourmaline/error.h"
+#include "tourmaline/mesh/grading.h"
 #include "tourmaline/mesh/mesh.h"
 
 namespace tourmaline::mesh {
@@ -60,6 +61,7 @@ Mesh<dim> box(const casefile::Box &asked) {
   else
     dealii::GridGenerator::subdivided_hyper_rectangle(*mesh.cells, cells, min, max);
   name_sides(*mesh.cells, min, max);
+  grade(*mesh.cells, asked);
   for (unsigned int side = 0; side < 2 * dim; ++side)
     mesh.boundaries[side_names<dim>()[side]] = side;
   return mesh;

@@ -48,7 +48,10 @@ Json seconds_json(const Seconds &seconds) {
           {"factorise", number(seconds.factorise)},
           {"condense", number(seconds.condense)},
           {"step",
-           {{"total", number(seconds.step.total)}, {"per_step", number(seconds.step.per_step)}}},
+           {{"total", number(seconds.step.total)},
+            {"per_step", number(seconds.step.per_step)},
+            {"substitutions", number(seconds.step.substitutions)},
+            {"contact", number(seconds.step.contact)}}},
           {"output", number(seconds.output)},
           {"total", number(seconds.total)}};
 }

@@ -53,6 +53,7 @@ class CondensedRoute : public Route {
   std::vector<ContactPoint> points_;
   VectorXd last_increment_;
   double backward_error_ = 0, condense_seconds_ = 0;
+  double substitution_seconds_ = 0, contact_seconds_ = 0;
   bool measured_ = false;
 };
 
@@ -157,7 +158,9 @@ void CondensedRoute<dim>::give_up(double time, const InterfaceSolution &solution
 template <int dim>
 StepOutcome CondensedRoute<dim>::advance(double time, std::span<const double> right_side,
                                          std::span<const double> before, std::span<double> state) {
+  Stopwatch watch;
   const VectorXd s = condensed_.reduce(right_side, state);
+  substitution_seconds_ += watch.lap();
   StepOutcome outcome;
   VectorXd c = s;
   if (!model_.interface.empty()) {
@@ -177,7 +180,9 @@ StepOutcome CondensedRoute<dim>::advance(double time, std::span<const double> ri
     outcome.newton_iterations = solution.iterations;
     outcome.residual = solution.residual;
   }
+  contact_seconds_ += watch.lap();
   condensed_.expand(c, state);
+  substitution_seconds_ += watch.lap();
   if (!measured_) {
     backward_error_ = condensed_.backward_error(right_side, state, outcome.contact_forces);
     measured_ = true;
@@ -193,6 +198,9 @@ RouteReport CondensedRoute<dim>::report() const {
   report.analyse_seconds = statistics.analyse_seconds;
   report.factorise_seconds = statistics.factorise_seconds;
   report.condense_seconds = condense_seconds_;
+  report.substitution_seconds = substitution_seconds_;
+  report.contact_seconds = contact_seconds_;
+  report.factor_flops = statistics.flops;
   report.unknowns = condensed_.n_unknowns();
   report.electric_and_thermal_unknowns = condensed_.n_electric_and_thermal();
   report.factor_entries = statistics.factor_entries;

@@ -1,5 +1,7 @@
 #include "tourmaline/solve/model.h"
 
+#include <functional>
+
 #include "tourmaline/material/orientation.h"
 #include "tourmaline/solve/stopwatch.h"
 
@@ -12,29 +14,25 @@ material::Constants body_material(const casefile::Case &asked) {
 
 template <int dim>
 struct Model<dim>::Built {
+  Built(const casefile::Case &asked, const std::function<mesh::Mesh<dim>()> &make_mesh)
+      : material(body_material(asked)),
+        body(make_mesh(), asked.mesh.degree),
+        mesh_seconds(watch.lap()) {}
+
+  Stopwatch watch;
   material::Constants material;
   body::Discretisation<dim> body;
   double mesh_seconds;
   Stopwatch since_mesh;
 };
 
-namespace {
-
-template <int dim>
-body::Discretisation<dim> discretise(const casefile::MeshCase &asked) {
-  return {mesh::build<dim>(asked), asked.degree};
-}
-
-}  // namespace
-
 template <int dim>
 Model<dim>::Model(const casefile::Case &asked_for)
-    : Model(asked_for, [&] {
-        Stopwatch watch;
-        material::Constants constants = body_material(asked_for);
-        body::Discretisation<dim> discretised = discretise<dim>(asked_for.mesh);
-        return Built{constants, std::move(discretised), watch.lap(), Stopwatch()};
-      }()) {}
+    : Model(asked_for, Built(asked_for, [&] { return mesh::build<dim>(asked_for.mesh); })) {}
+
+template <int dim>
+Model<dim>::Model(const casefile::Case &asked_for, mesh::Mesh<dim> mesh)
+    : Model(asked_for, Built(asked_for, [&] { return std::move(mesh); })) {}
 
 template <int dim>
 Model<dim>::Model(const casefile::Case &asked_for, Built built)

@@ -19,9 +19,9 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 // Newton iterations without a smaller residual after which the iteration counts as unsettled.
-constexpr int patience = 10;
+const int patience = getenv("PAT") ? atoi(getenv("PAT")) : 3;
 // The method of multipliers uses so many times the default r: the larger, the fewer its steps.
-constexpr double stronger = 100;
+const double stronger = getenv("STR") ? atof(getenv("STR")) : 10;
 
 // Residuals of the blocks of (37), each over its own size: the body's rows by their largest sum of
 // terms, u_nu by the largest displacement, and the law, w |lambda_tau - P(lambda_tau + r d)| with
@@ -80,7 +80,7 @@ class MonolithicRoute : public Route {
   void multiplier_step();
   void hold_friction(bool held);
   double length(const SaddlePoint &residual, const SaddlePoint &direction) const;
-  void correct(const SaddlePoint &increment, double factor);
+  void correct(const SaddlePoint &increment, double length);
   double law_residual(std::size_t point) const;
   Verdict judge() const;
   [[noreturn]] void give_up(double time) const;
@@ -119,10 +119,11 @@ MonolithicRoute<dim>::MonolithicRoute(const Model<dim> &model)
 template <int dim>
 void MonolithicRoute<dim>::set_laws() {
   const casefile::SolverCase &solver = model_.asked.solver;
+  const double ff = getenv("RF") ? atof(getenv("RF")) : 1, fn = getenv("RN") ? atof(getenv("RN")) : ff;
   for (std::size_t p = 0; p < laws_.size(); ++p) {
     laws_[p].has_normal = system_.points()[p].has_normal;
-    laws_[p].r_normal = solver.r_normal.value_or(default_r_[p]);
-    laws_[p].r_slip = solver.r_tangential ? *solver.r_tangential / model_.step : default_r_[p];
+    laws_[p].r_normal = solver.r_normal.value_or(fn * default_r_[p]);
+    laws_[p].r_slip = solver.r_tangential ? *solver.r_tangential / model_.step : ff * default_r_[p];
     laws_[p].friction_held = false;
   }
 }
@@ -189,10 +190,10 @@ void MonolithicRoute<dim>::newton_step() {
 }
 
 template <int dim>
-void MonolithicRoute<dim>::correct(const SaddlePoint &increment, double factor) {
+void MonolithicRoute<dim>::correct(const SaddlePoint &increment, double length) {
   for (std::size_t i = 0; i < x_.body.size(); ++i)
-    x_.body[i] += factor * increment.body[i];
-  x_.multipliers += factor * increment.multipliers;
+    x_.body[i] += length * increment.body[i];
+  x_.multipliers += increment.multipliers;
 }
 
 // Minimises the augmented Lagrangian, as a function of the displacement a convex one with a

@@ -2,8 +2,13 @@
 
 #include <deal.II/base/multithread_info.h>
 #include <mpi.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <string>
 
 #include "tourmaline/error.h"
 
@@ -13,8 +18,8 @@ namespace tourmaline::solve {
 
 namespace {
 
-// Started alone there is no other process to talk to: Open MPI need not fork a daemon for processes spawned
-// later (0.1 s), nor look for networks (0.2 s).
+// Started alone there is no other process to talk to: Open MPI need not fork a daemon for processes
+// spawned later (0.1 s), nor look for networks (0.2 s).
 void start_mpi() {
   if (!std::getenv("OMPI_COMM_WORLD_SIZE")) {
     setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
@@ -42,6 +47,21 @@ Process::Process(int threads) {
       MPI_Finalize();
     throw CaseError("several MPI ranks are not available yet; start the program without mpirun");
   }
+}
+
+double process_age() {
+  std::ifstream stat("/proc/self/stat"), uptime("/proc/uptime");
+  std::string text;
+  std::getline(stat, text);
+  // Field 22, counted after the program's name, which may hold spaces: the start in clock ticks
+  // since boot.
+  std::istringstream fields(text.substr(text.rfind(')') + 1));
+  for (int field = 3; field <= 22; ++field)
+    fields >> text;
+  double now = 0;
+  uptime >> now;
+  return std::max(
+      0., now - std::strtod(text.c_str(), nullptr) / static_cast<double>(sysconf(_SC_CLK_TCK)));
 }
 
 Process::~Process() {

@@ -34,13 +34,13 @@ class Simulation {
   void keep_what_there_is();
   output::Summary summary() const;
 
+  double start_seconds_ = process_age();
   output::Progress progress_;
   Model<dim> model_;
   std::vector<double> state_, before_, loads_, right_side_;
   std::optional<output::ResultFolder> folder_;
   std::optional<Recorder<dim>> recorder_;
   std::unique_ptr<Route> route_;
-  Stopwatch total_;
   int newton_total_ = 0, newton_max_ = 0, newton_first_ = 0;
   double step_seconds_ = 0;
 };
@@ -143,6 +143,7 @@ output::Summary Simulation<dim>::summary() const {
                    {"electric_and_thermal_unknowns", report.electric_and_thermal_unknowns},
                    {"contact_nodes", model_.interface.size()},
                    {"factor_entries", report.factor_entries},
+                   {"factor_flops", static_cast<std::int64_t>(report.factor_flops)},
                    {"steps", model_.asked.time.steps}};
   summary.iterations = {{"newton_total", newton_total_},
                         {"newton_max", newton_max_},
@@ -157,7 +158,10 @@ output::Summary Simulation<dim>::summary() const {
   summary.seconds.analyse = report.analyse_seconds;
   summary.seconds.factorise = report.factorise_seconds;
   summary.seconds.condense = report.condense_seconds;
-  summary.seconds.step = {step_seconds_, step_seconds_ / model_.asked.time.steps};
+  summary.seconds.step = {step_seconds_, step_seconds_ / model_.asked.time.steps,
+                          report.substitution_seconds, report.contact_seconds};
+  summary.seconds.start = start_seconds_;
+  summary.seconds.total = process_age();
   summary.seconds.output = recorder_->seconds();
   summary.peak_memory_bytes = peak_memory();
   return summary;

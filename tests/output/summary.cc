@@ -19,7 +19,7 @@ Summary whole_summary() {
   summary.backward_error = 0.5;
   summary.extremes = {{"potential", -0., 0.1, {0, 0.5, 0}, {1, -0., 0}}};
   summary.seconds.mesh = 0.25;
-  summary.seconds.step = {2, 0.125};
+  summary.seconds.step = {2, 0.125, 2};
   summary.peak_memory_bytes = 1 << 30;
   summary.warnings = {"coarse"};
   return summary;
@@ -67,7 +67,9 @@ TEST(SummaryText, ItHasTheKeysOfTheContractInTheirOrder) {
     "condense": null,
     "step": {
       "total": 2.0,
-      "per_step": 0.125
+      "per_step": 0.125,
+      "substitutions": 2.0,
+      "contact": null
     },
     "output": null,
     "total": null

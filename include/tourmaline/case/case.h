@@ -24,6 +24,9 @@ struct Box {
   std::vector<double> min, max;
   std::vector<int> cells;
   CellShape cell = CellShape::triangle;
+  /// by name of a side, how many times smaller the cells are there than where they are largest
+  /// along that axis; what is not named: 1
+  std::map<std::string, double> grading;
 };
 
 struct MeshCase {

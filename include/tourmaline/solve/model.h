@@ -13,6 +13,9 @@ namespace tourmaline::solve {
 template <int dim>
 struct Model {
   explicit Model(const casefile::Case &asked_for);
+  /// On a mesh of the caller's, whose boundaries the case names; `asked_for.mesh` says only the
+  /// degree.
+  Model(const casefile::Case &asked_for, mesh::Mesh<dim> mesh);
 
   casefile::Case asked;
   double step;                   ///< k [s]

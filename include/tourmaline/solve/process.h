@@ -16,4 +16,8 @@ class Process {
   bool owns_mpi_ = false;
 };
 
+/// Seconds since the operating system started this process, to a hundredth; loading the libraries
+/// included.
+double process_age();
+
 }  // namespace tourmaline::solve

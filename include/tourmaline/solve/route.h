@@ -21,8 +21,10 @@ struct StepOutcome {
 struct RouteReport {
   int factorisations = 0;
   double analyse_seconds = 0, factorise_seconds = 0, condense_seconds = 0;
+  double substitution_seconds = 0, contact_seconds = 0;  ///< over all steps
   std::size_t unknowns = 0, electric_and_thermal_unknowns = 0;
   long long factor_entries = 0;
+  double factor_flops = 0;
   int negative_pivots = -1;   ///< -1: not known to this route
   double backward_error = 0;  ///< largest over the steps in which it was measured
 };

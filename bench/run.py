@@ -1,0 +1,222 @@
+#!/usr/bin/env python3
+"""Runs the benchmarks and writes bench/results.md: Tourmaline beside GetFEM on the paper's conductive case, the
+floors of a step and of the factorisation, growth with the mesh. Everything runs in turn, on one thread and one core.
+
+    bench/run.py [--quick]      --quick: no n = 256 for the peer, no n = 512, no 2,000 steps
+"""
+import argparse
+import csv
+import json
+import math
+import os
+import pathlib
+import platform
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+BUILD = ROOT / "build" / "release"
+PROGRAM = BUILD / "apps" / "tourmaline" / "tourmaline"
+CASE = ROOT / "cases" / "ouafik-2020" / "conductive.toml"
+PEER = ROOT / "bench" / "peers" / "getfem_paper.py"
+
+ENVIRONMENT = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1", OMP_WAIT_POLICY="passive",
+                   OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+ENVIRONMENT.pop("OPENBLAS_CORETYPE", None)  # both programs get the kernels that they choose
+
+
+def on_one_core(command):
+    """Runs a command on core 0; its wall-clock seconds from start to end."""
+    begin = time.perf_counter()
+    done = subprocess.run(["taskset", "-c", "0", *map(str, command)], env=ENVIRONMENT, capture_output=True, text=True)
+    seconds = time.perf_counter() - begin
+    if done.returncode:
+        sys.exit(f"bench: {' '.join(map(str, command))} failed:\n{done.stderr}")
+    return seconds, done.stdout
+
+
+def tourmaline(n, steps, folder, *overrides):
+    arguments = [PROGRAM, "run", CASE, "-o", folder, "--set", f"mesh.box.cells=[{n},{n}]",
+                 "--set", f"time.steps={steps}", "--set", "output.fields=false"]
+    for override in overrides:
+        arguments += ["--set", override]
+    seconds, _ = on_one_core(arguments)
+    summary = json.loads((pathlib.Path(folder) / "summary.json").read_text())
+    with open(pathlib.Path(folder) / "history.csv") as table:
+        newton = [int(row["newton_iterations"]) for row in csv.DictReader(table)]
+    return {"wall": seconds, "summary": summary, "newton": newton}
+
+
+def median_of(count, run):
+    """The run with the median wall-clock time."""
+    return sorted((run() for _ in range(count)), key=lambda r: r["wall"])[count // 2]
+
+
+def peer(n, steps, run_steps, folder):
+    out = pathlib.Path(folder) / "peer.json"
+    seconds, _ = on_one_core(["/usr/bin/python3", PEER, "--cells", n, "--steps", steps, "--run-steps", run_steps,
+                              "--json", out, "--nodes", pathlib.Path(folder) / "peer.csv"])
+    result = json.loads(out.read_text())
+    result["wall"] = seconds
+    return result
+
+
+def largest_difference(ours, theirs):
+    """Over all columns of two nodes.csv: the largest difference over the column's largest size."""
+    with open(ours) as a, open(theirs) as b:
+        left, right = list(csv.DictReader(a)), list(csv.DictReader(b))
+    assert len(left) == len(right)
+    worst = 0
+    for column in ("u_x", "u_y", "potential", "temperature"):
+        size = max(abs(float(row[column])) for row in right)
+        worst = max(worst, max(abs(float(p[column]) - float(q[column])) for p, q in zip(left, right)) / size)
+    return worst
+
+
+def steps_only(run):
+    return run["summary"]["seconds"]["step"]["total"] + run["summary"]["seconds"]["output"]
+
+
+def set_up(seconds):
+    return sum(seconds[stage] for stage in ("mesh", "assemble", "analyse", "factorise", "condense"))
+
+
+def mebibytes(value):
+    return f"{value / 2**20:.0f}"
+
+
+def compare(folder, quick):
+    rows = []
+    for n, steps, run_steps in ((32, 20, 20), (64, 20, 20), (128, 20, 20), (64, 200, 20)):
+        print(f"peer: n = {n}, {steps} steps", flush=True)
+        ours = median_of(3, lambda: tourmaline(n, steps, folder))
+        theirs = peer(n, steps, run_steps, folder)
+        if run_steps == steps:
+            difference = largest_difference(pathlib.Path(folder) / "nodes.csv", pathlib.Path(folder) / "peer.csv")
+            if difference > 1e-6:
+                sys.exit(f"bench: the answers differ by {difference:.2g} at n = {n}")
+        rows.append((n, steps, run_steps, ours, theirs, difference if run_steps == steps else None))
+    if not quick:
+        ours, theirs = tourmaline(256, 20, folder), peer(256, 20, 2, folder)
+        rows.append((256, 20, 2, ours, theirs, None))
+    return rows
+
+
+def comparison_table(rows, startup):
+    lines = ["| n | steps | Tourmaline, s | GetFEM, s | whole process | without start-up | per step | Newton, T / G |"
+             " peak MiB, T / G | largest difference |",
+             "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"]
+    for n, steps, run_steps, ours, theirs, difference in rows:
+        peer_step = theirs["seconds"]["steps"] / run_steps
+        peer_wall = theirs["wall"] + peer_step * (steps - run_steps)
+        own_step = steps_only(ours) / steps
+        mark = "" if run_steps == steps else f" ({run_steps} steps run)"
+        own_net = set_up(ours["summary"]["seconds"]) + steps_only(ours)
+        peer_net = theirs["seconds"]["assemble"] + peer_step * steps
+        lines.append(
+            f"| {n} | {steps} | {ours['wall']:.2f} | {peer_wall:.1f}{mark} | {peer_wall / ours['wall']:.0f} | "
+            f"{peer_net / own_net:.0f} | {peer_step / own_step:.0f} | "
+            f"{sum(ours['newton'])} / {sum(theirs['newton_iterations'])} | "
+            f"{mebibytes(ours['summary']['memory'])} / {mebibytes(theirs['peak_rss_bytes'])} | "
+            f"{'' if difference is None else format(difference, '.1e')} |")
+    lines.append("")
+    lines.append(f"Start-up: a case of 2 x 2 squares and one step takes {startup['wall']:.2f} s from start to end.")
+    return lines
+
+
+def growth(folder, machine, quick):
+    runs = []
+    for n in (64, 128, 256) if quick else (64, 128, 256, 512):
+        print(f"growth: n = {n}", flush=True)
+        runs.append((n, median_of(3 if n < 512 else 1, lambda: tourmaline(n, 20, folder))))
+    lines = ["| n | unknowns | mesh, s | assemble | analyse | factorise | step, ms | of it substitutions | contact |"
+             " step over floor | factorise over DGEMM | peak MiB | Newton first, mean after |",
+             "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"]
+    for n, run in runs:
+        seconds, sizes = run["summary"]["seconds"], run["summary"]["sizes"]
+        step, steps = seconds["step"], sizes["steps"]
+        floor = 2 * 8 * sizes["factor_entries"] / machine["read_bandwidth"]
+        dgemm = sizes["factor_flops"] / machine["dgemm_rate"]
+        lines.append(
+            f"| {n} | {sizes['unknowns']} | {seconds['mesh']:.3f} | {seconds['assemble']:.3f} | "
+            f"{seconds['analyse']:.3f} | {seconds['factorise']:.3f} | {1e3 * step['per_step']:.2f} | "
+            f"{1e3 * step['substitutions'] / steps:.2f} | {1e3 * step['contact'] / steps:.2f} | "
+            f"{step['per_step'] / floor:.1f} | {seconds['factorise'] / dgemm:.1f} | "
+            f"{mebibytes(run['summary']['memory'])} | {run['newton'][0]}, {statistics.mean(run['newton'][1:]):.1f} |")
+    first, last = runs[0][1]["summary"], runs[-1][1]["summary"]
+    ratio = math.log(last["sizes"]["unknowns"] / first["sizes"]["unknowns"])
+
+    def exponent(value):
+        return math.log(value(last) / value(first)) / ratio
+    lines += ["", f"Exponents against unknowns, first to last row: set-up {exponent(lambda s: set_up(s['seconds'])):.2f}, "
+              f"step {exponent(lambda s: s['seconds']['step']['per_step']):.2f}, "
+              f"memory {exponent(lambda s: s['memory']):.2f}."]
+    at_256 = next(run for n, run in runs if n == 256)["summary"]["seconds"]
+    share = (at_256["start"] + at_256["mesh"] + at_256["assemble"]) / (at_256["analyse"] + at_256["factorise"])
+    bound = at_256["analyse"] + at_256["factorise"] + at_256["step"]["substitutions"]
+    lines += ["", f"At n = 256, start-up, mesh and assembly together are {100 * share:.0f} % of analysis and factorisation, "
+              f"and the whole run takes {at_256['total'] / bound:.2f} times what analysis, factorisation and the "
+              f"substitutions of its 20 steps take."]
+    return lines
+
+
+def long_run(folder):
+    print("2,000 steps", flush=True)
+    short, long = tourmaline(128, 20, folder), tourmaline(128, 2000, folder)
+    return ["", f"2,000 steps at n = 128: {long['wall']:.1f} s, peak {mebibytes(long['summary']['memory'])} MiB; "
+            f"20 steps: {mebibytes(short['summary']['memory'])} MiB."]
+
+
+def micro():
+    print("micro-benchmarks", flush=True)
+    _, text = on_one_core([BUILD / "bench" / "micro", "--benchmark_format=json", "--benchmark_min_time=0.3"])
+    lines = ["| part | n = 64, ms | n = 128 | n = 256 |", "| --- | --- | --- | --- |"]
+    times = {}
+    for entry in json.loads(text)["benchmarks"]:
+        part, n = entry["name"].split("/")
+        times.setdefault(part, {})[n] = entry["real_time"]
+    for part, by_n in times.items():
+        lines.append(f"| {part.replace('_', ' ')} | " + " | ".join(f"{t:.3g}" for t in by_n.values()) + " |")
+    return lines
+
+
+def git(*arguments):
+    return subprocess.run(["git", "-C", ROOT, *arguments], capture_output=True, text=True).stdout.strip()
+
+
+def heading(machine, versions):
+    with open("/proc/cpuinfo") as cpuinfo:
+        processor = next(line.split(":")[1].strip() for line in cpuinfo if line.startswith("model name"))
+    return ["# Benchmarks", "",
+            "Written by `./dev bench`. The paper's conductive case, one thread, one core, field files off; times are wall",
+            "clock, medians of three where a run is short. Ratios are GetFEM over Tourmaline. `bench/peers/README.md` says",
+            "what the peer does and why these are its strongest settings, and what it would gain from another ordering.", "",
+            f"Commit {git('rev-parse', '--short', 'HEAD')}{' and changes' if git('status', '--porcelain', '-uno') else ''}; "
+            f"{processor}, {platform.system()}; reads {machine['read_bandwidth'] / 1e9:.1f} GB/s, DGEMM "
+            f"{machine['dgemm_rate'] / 1e9:.1f} Gflop/s on one core; load average at the start {os.getloadavg()[0]:.1f}.", "",
+            "; ".join(f"{name} {version}" for name, version in versions.items()) + ".", ""]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--quick", action="store_true")
+    quick = parser.parse_args().quick
+    machine = json.loads(on_one_core([BUILD / "bench" / "machine"])[1])
+    with tempfile.TemporaryDirectory() as folder:
+        startup = median_of(3, lambda: tourmaline(2, 1, folder))
+        text = heading(machine, startup["summary"]["versions"])
+        text += ["## Beside GetFEM", ""] + comparison_table(compare(folder, quick), startup)
+        text += ["", "## Floors and growth", "",
+                 "The floor of a step is reading the factor twice at the bandwidth above; that of the factorisation its",
+                 "operations at the DGEMM rate.", ""] + growth(folder, machine, quick)
+        if not quick:
+            text += long_run(folder)
+        text += ["", "## Parts", ""] + micro()
+    (ROOT / "bench" / "results.md").write_text("\n".join(text) + "\n")
+    print("\n".join(text))
+
+
+main()
