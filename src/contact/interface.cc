@@ -43,6 +43,36 @@ std::map<body::Node, Integrals<dim>> integrate(const body::Discretisation<dim> &
 
 }  // namespace
 
+namespace {
+
+// One normal must serve all facets at a node; 45 degrees is far more than a curved side's facets
+// differ.
+template <int dim>
+void check_normals(const body::Discretisation<dim> &body,
+                   const std::vector<std::string> &boundaries,
+                   const std::vector<InterfaceNode<dim>> &nodes) {
+  std::map<body::Node, Normal<dim>> normal_at;
+  for (const InterfaceNode<dim> &node : nodes)
+    normal_at[node.node] = node.normal;
+  body.for_each_facet(boundaries, [&](const body::Quadrature<dim> &facet) {
+    for (std::size_t a = 0; a < facet.nodes.size(); ++a) {
+      const auto found = normal_at.find(facet.nodes[a]);
+      if (found == normal_at.end() || facet.value(0, a) == 0)
+        continue;
+      if (found->second.dot(Eigen::Map<const Normal<dim>>(facet.normals[0].data())) > 0.75)
+        continue;
+      const output::Vector &point = body.points()[facet.nodes[a]];
+      throw CaseError(
+          fmt::format("[contact] at ({:g}, {:g}, {:g}) contact boundaries meet at an angle, where "
+                      "the normal is not "
+                      "unique; contact around a corner is not available, name one of them",
+                      point[0], point[1], point[2]));
+    }
+  });
+}
+
+}  // namespace
+
 template <int dim>
 std::vector<InterfaceNode<dim>> interface_nodes(const body::Discretisation<dim> &body,
                                                 const std::vector<std::string> &boundaries) {
@@ -57,6 +87,7 @@ std::vector<InterfaceNode<dim>> interface_nodes(const body::Discretisation<dim> 
                       point[0], point[1], point[2]));
     nodes.push_back({node, point, integrals.weight, integrals.normal.normalized()});
   }
+  check_normals(body, boundaries, nodes);
   return nodes;
 }
 

@@ -188,6 +188,8 @@ bool Iteration::newton_step() {
       length /= 2;
       next = truncated(direction, length);
     }
+    if (!descends(next))
+      return false;  // round-off is all that is left of the step
   }
   d_ = next;
   update_residual_force();
@@ -227,10 +229,6 @@ InterfaceSolution Iteration::solution() const {
   return solution;
 }
 
-}  // namespace
-
-namespace {
-
 // Every point is held in all directions: no unknowns, nothing to solve.
 InterfaceSolution nothing_to_slip(const InterfaceProgramme &programme) {
   InterfaceSolution solution;
@@ -264,8 +262,11 @@ InterfaceSolution minimise(const InterfaceProgramme &programme, VectorXd start,
   InterfaceSolution solution = iteration.solution();
   solution.iterations = solved;
   solution.converged = converged;
-  for (std::size_t i = 0; !converged && i < programme.points.size(); ++i)
-    if (iteration.residual(i) > settings.tolerance * iteration.force_size())
+  if (converged)
+    return solution;
+  const double allowed = settings.tolerance * iteration.force_size();
+  for (std::size_t i = 0; i < programme.points.size(); ++i)
+    if (iteration.residual(i) > allowed)
       solution.unsettled.push_back(i);
   return solution;
 }

@@ -14,8 +14,7 @@ namespace tourmaline::solve {
 
 namespace {
 
-constexpr double bytes_per_unknown_2d = 2000;
-constexpr double bytes_3d = 390;  // times unknowns^(4/3)
+constexpr double program = 190e6;  // the libraries, before any case
 
 double available_on_system() {
   std::ifstream file("/proc/meminfo");
@@ -35,8 +34,8 @@ double estimated_memory(const casefile::Case &asked) {
   for (const int cells : asked.mesh.box->cells)
     nodes *= double(asked.mesh.degree) * cells + 1;
   const double unknowns = nodes * (asked.dimension + 2);
-  return asked.dimension == 2 ? bytes_per_unknown_2d * unknowns
-                              : bytes_3d * std::pow(unknowns, 4. / 3);
+  return program + (asked.dimension == 2 ? unknowns * (440 + 115 * std::log2(unknowns))
+                                         : 310 * std::pow(unknowns, 4. / 3));
 }
 
 double available_memory() {

@@ -87,10 +87,10 @@ void Simulation<dim>::sum_loads(double time) {
 template <int dim>
 void Simulation<dim>::step(int n) {
   Stopwatch watch;
+  before_ = state_;  // first, so that a step that fails anywhere leaves the last good state there
   sum_loads(model_.time(n));
   right_side_ = loads_;
   model_.op.add_history(state_, right_side_);
-  before_ = state_;
   prescribe(model_.time(n), state_);
   const StepOutcome outcome = route_->advance(model_.time(n), right_side_, before_, state_);
   newton_total_ += outcome.newton_iterations;

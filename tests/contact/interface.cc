@@ -55,6 +55,12 @@ TEST(Interface, QuadraticTetrahedraAreRefusedBecauseTheirCornersHaveNoWeight) {
                CaseError);
 }
 
+TEST(Interface, ContactAroundACornerIsRefusedBecauseTheNormalIsNotUnique) {
+  EXPECT_THROW(
+      interface_nodes(box<2>(casefile::CellShape::triangle, {2, 2}, 1), {"left", "bottom"}),
+      CaseError);
+}
+
 TEST(Interface, AnUnknownBoundaryIsNamed) {
   const auto body = box<2>(casefile::CellShape::triangle, {1, 1}, 1);
   EXPECT_THROW(interface_nodes(body, {"lft"}), CaseError);

@@ -26,7 +26,7 @@ struct Box {
   CellShape cell = CellShape::triangle;
   /// by name of a side, how many times smaller the cells are there than where they are largest
   /// along that axis; what is not named: 1
-  std::map<std::string, double> grading;
+  std::map<std::string, double> grading = {};
 };
 
 struct MeshCase {

@@ -19,7 +19,8 @@ struct InterfaceNode {
 };
 
 /// The nodes of the named boundaries in ascending order. Throws CaseError where a weight is not
-/// positive (quadratic tetrahedra), because complementarity node by node needs positive weights.
+/// positive (quadratic tetrahedra), because complementarity node by node needs positive weights,
+/// and where the facets of a node have no common normal (contact around a corner).
 template <int dim>
 std::vector<InterfaceNode<dim>> interface_nodes(const body::Discretisation<dim> &body,
                                                 const std::vector<std::string> &boundaries);

@@ -1,0 +1,68 @@
+"""Runs of the program and the tables they leave."""
+import csv
+import pathlib
+import subprocess
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+class Table:
+    """A CSV file by the names of its columns."""
+
+    def __init__(self, names, rows):
+        self.names, self.rows = names, rows
+
+    @staticmethod
+    def read(path):
+        with open(path, newline="") as file:
+            names, *rows = csv.reader(file)
+        return Table(names, rows)
+
+    def texts(self, column):
+        place = self.names.index(column)
+        return [row[place] for row in self.rows]
+
+    def numbers(self, column):
+        return [float(text) for text in self.texts(column)]
+
+    def only(self, column, value):
+        """The rows in which a column has this number."""
+        place = self.names.index(column)
+        return Table(self.names, [row for row in self.rows if float(row[place]) == value])
+
+
+class Run:
+    def __init__(self, folder):
+        self.folder = folder
+
+    def table(self, name):
+        return Table.read(self.folder / f"{name}.csv")
+
+
+class Program:
+    def __init__(self, path):
+        self.path = pathlib.Path(path).resolve()
+        self._folders = tempfile.TemporaryDirectory(prefix="tourmaline-verify-")
+        self._runs = {}
+
+    def version(self):
+        done = subprocess.run([self.path, "--version"], capture_output=True, text=True, check=True)
+        return done.stdout.strip().splitlines()[0]
+
+    def run(self, case, **settings):
+        """Runs a case of the repository; settings are keys of the case file with "__" for "."."""
+        key = (str(case), *sorted(settings.items()))
+        if key not in self._runs:
+            self._runs[key] = self._start(case, settings)
+        return self._runs[key]
+
+    def _start(self, case, settings):
+        folder = pathlib.Path(self._folders.name) / str(len(self._runs))
+        command = [self.path, "run", ROOT / case, "-o", folder, "--set", "output.fields=false"]
+        for name, value in settings.items():
+            command += ["--set", f"{name.replace('__', '.')}={value}"]
+        done = subprocess.run(command, capture_output=True, text=True)
+        if done.returncode != 0:
+            raise SystemExit(f"verify: {case} {settings} failed:\n{done.stderr}")
+        return Run(folder)
