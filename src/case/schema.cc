@@ -312,9 +312,7 @@ void declare(Visitor &v, ContactCase &contact, int dimension) {
 void declare_augmented_lagrangian(Visitor &v, SolverCase &solver) {
   const bool monolithic = solver.method == "monolithic";
   const std::string used_with = "method = \"monolithic\"";
-  const std::string from_stiffness =
-      "the stiffness of the body at each contact point, which only changes the number of "
-      "iterations";
+  const std::string from_stiffness = "from the stiffness of the body at the contact";
   v.key({.name = "multiplier",
          .description = "where the contact multipliers live; nodal: at the contact nodes, with "
                         "lumped weights; piecewise-constant: on the facets (section 3.1), with "
@@ -324,7 +322,8 @@ void declare_augmented_lagrangian(Visitor &v, SolverCase &solver) {
          .used_with = used_with},
         &solver.multiplier);
   v.optional({.name = "r_normal",
-              .description = "r_nu of the augmented Lagrangian (40)",
+              .description = "r_nu of the augmented Lagrangian (40); it changes the number of "
+                             "iterations, not the solution",
               .unit = "N/m^3",
               .range = positive(),
               .default_words = from_stiffness,
@@ -333,7 +332,8 @@ void declare_augmented_lagrangian(Visitor &v, SolverCase &solver) {
              solver.r_normal);
   v.optional({.name = "r_tangential",
               .description = "r_tau of the augmented Lagrangian (41), which multiplies the slip "
-                             "rate du_tau / k",
+                             "rate du_tau / k; it changes the number of iterations, not the "
+                             "solution",
               .unit = "N s/m^3",
               .range = positive(),
               .default_words = from_stiffness,

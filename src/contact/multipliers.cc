@@ -143,7 +143,9 @@ void require_independent(const std::vector<MultiplierPoint<dim>> &points,
     throw CaseError(fmt::format(
         "[solver] multiplier = \"piecewise-constant\": {} multipliers on {} free displacements of "
         "the contact boundary, of which only {} are independent, so the contact tractions are not "
-        "determined; use \"nodal\", or quadrilaterals or hexahedra with unclamped edges",
+        "determined; use \"nodal\" (or, in three dimensions, hexahedra, which have fewer facets, "
+        "and "
+        "no clamped boundary beside the contact)",
         rows.cols(), rows.rows(), qr.rank()));
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tourmaline/condensation/ordering.h"
+#include "tourmaline/solve/stopwatch.h"
 
 namespace tourmaline::solve {
 
@@ -40,6 +41,12 @@ SaddleSystem<dim>::SaddleSystem(const body::Operator<dim> &op, double step,
     : operator_(op), step_(step), points_(std::move(points)) {
   number(prescribed);
   set_scales();
+  for (const Point &point : points_) {
+    double stiffness = 0;
+    for (const auto &share : point.mean)
+      stiffness += share.factor * node_stiffness(share.node);
+    stiffness_.push_back(stiffness / point.weight);
+  }
   condensation::SymmetricMatrix matrix = body_matrix();
   n_body_entries_ = matrix.value.size();
   add_contact_pattern(matrix);
@@ -88,14 +95,6 @@ double SaddleSystem<dim>::node_stiffness(Node node) const {
     if (graph.column[e] == node)
       return operator_.step_block(e, step_).template topLeftCorner<dim, dim>().trace() / dim;
   return 0;
-}
-
-template <int dim>
-double SaddleSystem<dim>::stiffness_at(std::size_t point) const {
-  double stiffness = 0;
-  for (const auto &share : points_[point].mean)
-    stiffness += share.factor * node_stiffness(share.node);
-  return stiffness / points_[point].weight;
 }
 
 template <int dim>
@@ -199,8 +198,7 @@ void SaddleSystem<dim>::set_multiplier(std::size_t point, const Local &value,
 
 template <int dim>
 SaddlePoint SaddleSystem<dim>::residual(const StepData &data, const SaddlePoint &x) const {
-  SaddlePoint r{std::vector<double>(x.body.size()), Eigen::VectorXd(x.multipliers.size())};
-  operator_.multiply(step_, x.body, r.body);  // (38), (39)
+  SaddlePoint r{body_times(x.body), Eigen::VectorXd(x.multipliers.size())};  // (38), (39)
   for (std::size_t i = 0; i < r.body.size(); ++i)
     r.body[i] -= data.right_side[i];
   for (std::size_t p = 0; p < points_.size(); ++p) {  // (42)
@@ -215,6 +213,22 @@ SaddlePoint SaddleSystem<dim>::residual(const StepData &data, const SaddlePoint 
     if (!is_free(i))
       r.body[i] = 0;
   return r;
+}
+
+template <int dim>
+std::vector<double> SaddleSystem<dim>::body_times(const std::vector<double> &x) const {
+  std::vector<double> y(x.size());
+  operator_.multiply(step_, x, y);
+  return y;
+}
+
+template <int dim>
+double SaddleSystem<dim>::largest_displacement(const SaddlePoint &x) const {
+  double largest = 0;
+  for (std::size_t i = 0; i < x.body.size(); ++i)
+    if (field_of<dim>(i) == 0)
+      largest = std::max(largest, std::abs(x.body[i]));
+  return largest;
 }
 
 template <int dim>
@@ -275,7 +289,9 @@ void SaddleSystem<dim>::factorise(const StepData &data, const SaddlePoint &x) {
 template <int dim>
 SaddlePoint SaddleSystem<dim>::increment(const SaddlePoint &residual) {
   std::vector<double> variables = scaled(residual);
+  Stopwatch watch;
   factorisation_->solve(variables);
+  substitution_seconds_ += watch.lap();
   SaddlePoint increment = unscaled(variables);
   for (double &value : increment.body)
     value = -value;

@@ -29,7 +29,7 @@ boundary = [
   { on = "right", displacement = [0, 0], potential = 0, temperature = 0 },
   { on = ["bottom", "top"], temperature = 0 },
   { on = "top", traction = ["30*t", "-100*t"] } ]
-contact = { on = "left", friction = { law = "tresca", bound = 3 }, heat = { law = "exchange", coefficient = 1, foundation_temperature = -27 } }
+contact = { on = "left", friction = { law = "tresca", bound = 15 }, heat = { law = "exchange", coefficient = 1, foundation_temperature = -27 } }
 output = { fields = false, report = false }
 )toml";
 
@@ -41,7 +41,7 @@ boundary = [
   { on = "right", displacement = [0, 0, 0], potential = 0, temperature = 0 },
   { on = "top", temperature = 0 },
   { on = "top", traction = ["20*t", "80*sin(40*t)", "-100*t"] } ]
-contact = { on = "left", friction = { law = "tresca", bound = 3 }, heat = { law = "exchange", coefficient = 1, foundation_temperature = -27 } }
+contact = { on = "left", friction = { law = "tresca", bound = 100 }, heat = { law = "exchange", coefficient = 1, foundation_temperature = -27 } }
 output = { fields = false, report = false }
 )toml";
 
@@ -106,7 +106,7 @@ INSTANTIATE_TEST_SUITE_P(
     Cases, BothRoutes,
     ::testing::Values(
         Variant{"Plane", plane, {}}, Variant{"Insulated", plane, {insulated}},
-        Variant{"SmallBoundThatMakesNewtonCycle", plane, {"contact.friction.bound=0.02"}},
+        Variant{"SmallBound", plane, {"contact.friction.bound=0.02"}},
         Variant{"Frictionless", plane, {"contact.friction={law='none'}"}},
         Variant{"WithoutContact", without_contact, {}},
         Variant{"QuadraticQuadrilaterals", plane, {"mesh.box.cell=quadrilateral", "mesh.degree=2"}},
@@ -125,6 +125,18 @@ TEST(Monolithic, TheAnswerDoesNotDependOnROverSixDecades) {
     const testing::RunCase run(asked(plane, {"solver.method=monolithic", "solver.r_normal=" + r,
                                              "solver.r_tangential=" + r_tau}));
     expect_equal_runs(run, condensed);
+  }
+}
+
+// In these two Newton's method alone does not converge whatever r is (docs/monolithic.md).
+TEST(Monolithic, WhereNewtonAloneCyclesTheMethodOfMultipliersLeadsToTheAnswer) {
+  for (const char *folder : {"box-offset-13x24-xload", "n20x28-initial-all"}) {
+    SCOPED_TRACE(folder);
+    const auto file = std::filesystem::path(TOURMALINE_SOURCE_DIR) / "tests" / "reference" /
+                      "third" / folder / "case.toml";
+    const Overrides tables_only = {"output.fields=false"};
+    expect_equal_runs(testing::RunCase(casefile::read_file(file, with(tables_only, monolithic))),
+                      testing::RunCase(casefile::read_file(file, tables_only)));
   }
 }
 

@@ -62,13 +62,18 @@ class SaddleSystem {
   /// -tangent^-1 residual (44), zero in prescribed unknowns.
   SaddlePoint increment(const SaddlePoint &residual);
 
+  /// K x, the body's part of the tangent.
+  std::vector<double> body_times(const std::vector<double> &x) const;
+  double largest_displacement(const SaddlePoint &x) const;  ///< of a component [m]
+
   bool is_free(std::size_t unknown) const { return variable_of_[unknown] >= 0; }
   std::size_t n_variables() const { return scale_.size(); }
   std::size_t n_multipliers() const { return scale_.size() - unknown_of_.size(); }
   std::size_t n_electric_and_thermal() const;
   /// Mean diagonal entry of the displacement of a point's nodes over its weight [N/m^3].
-  double stiffness_at(std::size_t point) const;
+  double stiffness_at(std::size_t point) const { return stiffness_[point]; }
   const condensation::SaddleFactorisation &factorisation() const { return *factorisation_; }
+  double substitution_seconds() const { return substitution_seconds_; }
 
  private:
   void number(const std::vector<body::Prescribed> &prescribed);
@@ -90,7 +95,9 @@ class SaddleSystem {
   std::vector<int> variable_of_;         // by unknown of the body; -1: prescribed
   std::vector<std::size_t> unknown_of_;  // by variable; multipliers follow
   std::vector<double> scale_;            // by variable
+  std::vector<double> stiffness_;        // by point
   std::size_t n_body_entries_ = 0;
+  double substitution_seconds_ = 0;
   std::optional<condensation::SaddleFactorisation> factorisation_;
 };
 

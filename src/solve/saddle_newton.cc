@@ -1,0 +1,197 @@
+#include "tourmaline/solve/saddle_newton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace tourmaline::solve {
+
+using contact::AugmentedLagrangian;
+using contact::Local;
+using contact::Tangent;
+
+namespace {
+
+// Newton iterations without a smaller residual after which the iteration counts as unsettled.
+constexpr int patience = 4;
+// The method of multipliers has r = 10 times the stiffness of a node: each of its steps then leaves
+// about a tenth of the distance to the solution at most.
+constexpr double stronger = 10;
+
+double ratio(double residual, double size) {
+  return residual == 0 ? 0 : residual / size;
+}
+
+double dot(const std::vector<double> &a, const std::vector<double> &b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.);
+}
+
+}  // namespace
+
+double Verdict::body() const {
+  return std::max({blocks[0], blocks[1], blocks[2]});
+}
+
+double Verdict::without_law() const {
+  return std::max(body(), blocks[3]);
+}
+
+double Verdict::worst() const {
+  return std::max(without_law(), blocks[4]);
+}
+
+const char *Verdict::worst_name() const {
+  return names[std::max_element(blocks.begin(), blocks.end()) - blocks.begin()];
+}
+
+template <int dim>
+SaddleNewton<dim>::SaddleNewton(SaddleSystem<dim> &system, const StepData &data,
+                                SaddlePoint prediction)
+    : system_(system), data_(data), x_(std::move(prediction)), zero_(x_.body.size(), 0.) {}
+
+template <int dim>
+bool SaddleNewton<dim>::solve(const SaddleSettings &settings) {
+  Eigen::VectorXd multipliers = x_.multipliers;  // the method of multipliers' own sequence
+  while (!newton(settings)) {
+    if (iterations_ >= settings.max_iterations)
+      return false;
+    x_.multipliers = multipliers;
+    multiplier_step(settings);
+    multipliers = x_.multipliers;
+  }
+  return true;
+}
+
+template <int dim>
+bool SaddleNewton<dim>::newton(const SaddleSettings &settings) {
+  double smallest = std::numeric_limits<double>::infinity();
+  int without_progress = 0;
+  while (true) {
+    const double residual = verdict().worst();
+    if (residual <= settings.tolerance)
+      return true;
+    without_progress = residual < smallest ? 0 : without_progress + 1;
+    smallest = std::min(smallest, residual);
+    if (without_progress == patience || iterations_ == settings.max_iterations)
+      return false;
+    correct(direction(data_, system_.residual(data_, x_)), 1);
+  }
+}
+
+template <int dim>
+SaddlePoint SaddleNewton<dim>::direction(const StepData &data, const SaddlePoint &residual) {
+  system_.factorise(data, x_);
+  ++iterations_;
+  return system_.increment(residual);  // (44)
+}
+
+// Correction step. Multipliers enter the system linearly, so they always move by the whole step.
+template <int dim>
+void SaddleNewton<dim>::correct(const SaddlePoint &increment, double length) {
+  for (std::size_t i = 0; i < x_.body.size(); ++i)
+    x_.body[i] += length * increment.body[i];
+  x_.multipliers += increment.multipliers;
+}
+
+// Minimises the augmented Lagrangian for fixed lambda_tau, as a function of the displacement a
+// convex one with a continuous gradient, and then moves lambda_tau to P(lambda_tau + r d). That is
+// a proximal step on the dual problem, so a sequence of these converges from any start (R. T.
+// Rockafellar, Math. Oper. Res. 1 (1976) 97-116). Newton's iteration before this has solved the
+// linear rows of (37), which stay solved whatever the length of a step.
+template <int dim>
+void SaddleNewton<dim>::multiplier_step(const SaddleSettings &settings) {
+  const std::vector<AugmentedLagrangian> laws = laws_with_held_friction();
+  const StepData held{data_.right_side, data_.before, laws};
+  while (judge(held).without_law() > settings.tolerance && iterations_ < settings.max_iterations) {
+    const SaddlePoint residual = system_.residual(held, x_);
+    const SaddlePoint newton_direction = direction(held, residual);
+    correct(newton_direction, length(held, residual, newton_direction));
+  }
+  for (std::size_t p = 0; p < laws.size(); ++p) {
+    Local lambda = system_.multiplier(p, x_);
+    const Tangent moved =
+        laws[p].friction_traction(system_.displacement(p, x_, data_.before), lambda);
+    lambda.tail(moved.size()) = moved;
+    system_.set_multiplier(p, lambda, x_);
+  }
+}
+
+template <int dim>
+std::vector<AugmentedLagrangian> SaddleNewton<dim>::laws_with_held_friction() const {
+  std::vector<AugmentedLagrangian> laws = data_.laws;
+  for (std::size_t p = 0; p < laws.size(); ++p) {
+    laws[p].friction_held = true;
+    laws[p].r_slip = stronger * system_.stiffness_at(p);
+  }
+  return laws;
+}
+
+// Where the augmented Lagrangian is least along the direction, but not beyond the whole step: a
+// root of its slope, which grows with the length.
+template <int dim>
+double SaddleNewton<dim>::length(const StepData &data, const SaddlePoint &residual,
+                                 const SaddlePoint &direction) const {
+  const double start = dot(residual.body, direction.body);
+  const double curvature = dot(system_.body_times(direction.body), direction.body);
+  const double friction = friction_power(data, direction, 0);
+  const auto slope = [&](double t) {
+    return start + t * curvature + friction_power(data, direction, t) - friction;
+  };
+  constexpr double round_off = 1e-8;
+  constexpr int bisections = 40;
+  if (slope(1) <= round_off * std::abs(start))
+    return 1;
+  double low = 0, high = 1;
+  for (int k = 0; k < bisections; ++k)
+    (slope((low + high) / 2) > 0 ? high : low) = (low + high) / 2;
+  return (low + high) / 2;
+}
+
+// The friction tractions at x + length * direction, times the slips of the direction [J].
+template <int dim>
+double SaddleNewton<dim>::friction_power(const StepData &data, const SaddlePoint &direction,
+                                         double length) const {
+  double sum = 0;
+  for (std::size_t p = 0; p < data.laws.size(); ++p) {
+    const Local change = system_.displacement(p, direction, zero_);
+    const Local y = system_.displacement(p, x_, data.before) + length * change;
+    const Tangent traction = data.laws[p].friction_traction(y, system_.multiplier(p, x_));
+    sum += system_.points()[p].weight * traction.dot(change.tail(traction.size()));
+  }
+  return sum;
+}
+
+template <int dim>
+double SaddleNewton<dim>::law_residual(std::size_t point) const {
+  AugmentedLagrangian natural = data_.laws[point];
+  natural.r_slip = system_.stiffness_at(point);
+  const Local lambda = system_.multiplier(point, x_);
+  const Tangent projected =
+      natural.friction_traction(system_.displacement(point, x_, data_.before), lambda);
+  return system_.points()[point].weight * (projected - lambda.tail(projected.size())).norm();
+}
+
+template <int dim>
+Verdict SaddleNewton<dim>::judge(const StepData &data) const {
+  Verdict verdict;
+  const auto rows = system_.largest_rows(system_.residual(data, x_));
+  const auto sizes = system_.row_sizes(data, x_);
+  verdict.force_size = sizes[0];
+  for (std::size_t field = 0; field < 3; ++field)
+    verdict.blocks[field] = ratio(rows[field], sizes[field]);
+  double gap = 0, law = 0;
+  for (std::size_t p = 0; p < data.laws.size(); ++p) {
+    if (data.laws[p].has_normal)
+      gap = std::max(gap, std::abs(system_.displacement(p, x_, data.before)[0]));
+    law = std::max(law, law_residual(p));
+  }
+  verdict.blocks[3] = ratio(gap, system_.largest_displacement(x_));
+  verdict.blocks[4] = ratio(law, verdict.force_size);
+  return verdict;
+}
+
+template class SaddleNewton<2>;
+template class SaddleNewton<3>;
+
+}  // namespace tourmaline::solve
