@@ -10,8 +10,8 @@ The discrete problem: n x n squares, each split by the diagonal from lower right
 backward Euler; multipliers at the nodes of Gamma_C with the lumped weights h, h/2; all other integrals exact.
 
 Everything is written in scaled unknowns, u = U u', phi = PHI phi', theta = THETA theta', and in the symmetric form of the
-equations (electric row times -1, heat row times -k/theta_ref), so that GetFEM may factorise by LDL^T.
-The multipliers are nodal forces w_i lambda_i in the same scaling; r multiplies the scaled increment of u.
+equations (electric row times -1, heat row times -k/theta_ref), which LDL^T and conjugate gradients need. GetFEM sees one
+vector field (u_x, u_y, phi, theta) and the multipliers: nodal forces w_i lambda_i in the same scaling.
 """
 import os
 import time
@@ -66,6 +66,8 @@ CONSTANTS = dict(c11=166e9, c13=78e9, c33=162e9, c44=43e9,    # [Pa]
 U, PHI, THETA = 1e11 ** -0.5, 1e-8 ** -0.5, CONSTANTS['alpha'] ** -0.5
 SCALE = {'c': U * U, 'e': U * PHI, 'b': PHI * PHI, 'm': U * THETA, 'p': PHI * THETA, 'k': THETA * THETA, 'a': THETA * THETA}
 
+HEAT = 3                                                      # component of theta in the field (u_x, u_y, phi, theta)
+
 
 class Body:
     """Mesh, spaces without the prescribed values, the linear operator and its loads, inside a GetFEM model."""
@@ -81,26 +83,26 @@ class Body:
         mesh.set_region(contact, mesh.outer_faces_in_box([-e, -e], [e, L + e]))
         mesh.set_region(top, mesh.outer_faces_in_box([-e, L - e], [L + e, L + e]))
 
-        scalar, vector = gf.MeshFem(mesh, 1), gf.MeshFem(mesh, 2)
-        scalar.set_classical_fem(1)
-        vector.set_classical_fem(1)
-        p, pu = scalar.basic_dof_nodes(), vector.basic_dof_nodes()
-        free_u = np.flatnonzero(pu[0] < L - e)
-        free_phi = np.flatnonzero(p[0] < L - e)
-        free_theta = np.flatnonzero((p[0] < L - e) & (p[1] > e) & (p[1] < L - e))
-        on_contact = np.flatnonzero(p[0] < e)
-        space = lambda whole, dofs: gf.MeshFem('partial', whole, dofs)
-        spaces = dict(u=space(vector, free_u), phi=space(scalar, free_phi), theta=space(scalar, free_theta),
-                      normal=space(scalar, on_contact), tangential=space(scalar, on_contact))
-        self.points = p
-        self.keep = [mesh, scalar, vector, spaces]             # the model only refers to them
-        self.free = dict(u=free_u, phi=free_phi, theta=free_theta)
+        # One field (u_x, u_y, phi, theta): the unknowns of a node stand together, which incomplete factors need.
+        whole, trace = gf.MeshFem(mesh, 4), gf.MeshFem(mesh, 1)
+        whole.set_classical_fem(1)
+        trace.set_classical_fem(1)
+        p, q = whole.basic_dof_nodes(), trace.basic_dof_nodes()
+        kind = np.arange(p.shape[1]) % 4
+        prescribed = (p[0] > L - e) | ((kind == HEAT) & ((p[1] < e) | (p[1] > L - e)))
+        self.free = np.flatnonzero(~prescribed)
+        on_contact = np.flatnonzero(q[0] < e)
+        space = lambda fem, dofs: gf.MeshFem('partial', fem, dofs)
+        spaces = dict(field=space(whole, self.free), normal=space(trace, on_contact), tangential=space(trace, on_contact))
+        self.points = p[:, ::4]
+        self.keep = [mesh, whole, trace, spaces]               # the model only refers to them
+        self.heat = np.flatnonzero(kind[self.free] == HEAT)
 
-        # Contact nodes: rows of u_x and u_y among the free displacement dofs, lumped weights.
-        at = np.flatnonzero(pu[0, free_u] < e)
-        self.ux, self.uy = at[0::2], at[1::2]
-        self.y = p[1, on_contact]
-        assert np.array_equal(pu[1, free_u][self.uy], self.y)
+        # Contact nodes: rows of u_x and u_y in the field, lumped weights.
+        here = p[0, self.free] < e
+        self.ux, self.uy = (np.flatnonzero(here & (kind[self.free] == component)) for component in (0, 1))
+        self.y = q[1, on_contact]
+        assert np.array_equal(p[1, self.free][self.uy], self.y)
         self.w = np.full(n + 1, L / n)
         self.w[(self.y < e) | (self.y > L - e)] /= 2
 
@@ -117,16 +119,16 @@ class Body:
         exact = gf.MeshIm(mesh, gf.Integ('IM_TRIANGLE(2)'))
         self.keep += [once, exact]
         linear = lambda mim, expression, region=-1: md.add_linear_term(mim, expression, region, 1, 0)
-        linear(once,                                                                   # (31), (32), couplings of (33)
-               '(c11*Grad_u(1,1)+c13*Grad_u(2,2)+e31*Grad_phi(2)-m11*theta)*Grad_Test_u(1,1)'
-               '+(c13*Grad_u(1,1)+c33*Grad_u(2,2)+e33*Grad_phi(2)-m33*theta)*Grad_Test_u(2,2)'
-               '+(c44*(Grad_u(1,2)+Grad_u(2,1))+e15*Grad_phi(1))*(Grad_Test_u(1,2)+Grad_Test_u(2,1))'
-               '+(e15*(Grad_u(1,2)+Grad_u(2,1))-b11*Grad_phi(1))*Grad_Test_phi(1)'
-               '+(e31*Grad_u(1,1)+e33*Grad_u(2,2)-b33*Grad_phi(2)+p3*theta)*Grad_Test_phi(2)'
-               '-(m11*Grad_u(1,1)+m33*Grad_u(2,2)-p3*Grad_phi(2))*Test_theta')
-        linear(exact, '-alpha*theta*Test_theta')
-        conduction = '-k11*Grad_theta(1)*Grad_Test_theta(1)-k33*Grad_theta(2)*Grad_Test_theta(2)'
-        exchange = '-kc*theta*Test_theta'                                              # (13), (18)
+        linear(once,                                          # (31), (32), couplings of (33)
+               '(c11*Grad_field(1,1)+c13*Grad_field(2,2)+e31*Grad_field(3,2)-m11*field(4))*Grad_Test_field(1,1)'
+               '+(c13*Grad_field(1,1)+c33*Grad_field(2,2)+e33*Grad_field(3,2)-m33*field(4))*Grad_Test_field(2,2)'
+               '+(c44*(Grad_field(1,2)+Grad_field(2,1))+e15*Grad_field(3,1))*(Grad_Test_field(1,2)+Grad_Test_field(2,1))'
+               '+(e15*(Grad_field(1,2)+Grad_field(2,1))-b11*Grad_field(3,1))*Grad_Test_field(3,1)'
+               '+(e31*Grad_field(1,1)+e33*Grad_field(2,2)-b33*Grad_field(3,2)+p3*field(4))*Grad_Test_field(3,2)'
+               '-(m11*Grad_field(1,1)+m33*Grad_field(2,2)-p3*Grad_field(3,2))*Test_field(4)')
+        linear(exact, '-alpha*field(4)*Test_field(4)')
+        conduction = '-k11*Grad_field(4,1)*Grad_Test_field(4,1)-k33*Grad_field(4,2)*Grad_Test_field(4,2)'
+        exchange = '-kc*field(4)*Test_field(4)'               # (13), (18)
         linear(once, conduction)
         linear(exact, exchange, contact)
         md.assembly('build_matrix')
@@ -140,8 +142,8 @@ class Body:
         self.at = {name: slice(first, first + count)
                    for name in spaces for first, count in [md.interval_of_variable(name)]}
         # (19) for f_N = (0, 1) and the exchange with theta_f (18), both constant on an edge
-        self.traction = U * gf.asm_generic(exact, 1, 'Test_u(2)', top, md)
-        self.foundation = -FOUNDATION / THETA * gf.asm_generic(exact, 1, 'kc*Test_theta', contact, md)
+        self.traction = U * gf.asm_generic(exact, 1, 'Test_field(2)', top, md)
+        self.foundation = -FOUNDATION / THETA * gf.asm_generic(exact, 1, 'kc*Test_field(4)', contact, md)
 
 
 class Contact:
@@ -153,16 +155,16 @@ class Contact:
     def __init__(self, body, r=1.0):
         self.body, self.r = body, r
         self.bound = U * BOUND * body.w
-        self.count, self.size = len(body.w), body.at['u'].stop - body.at['u'].start
+        self.count, self.size = len(body.w), body.at['field'].stop - body.at['field'].start
         self.sliding = np.zeros(self.count, bool)
         add = body.md.add_explicit_matrix
-        add('u', 'normal', self.matrix('u', 'normal', body.ux, np.ones(self.count)), 1)
+        add('field', 'normal', self.matrix('field', 'normal', body.ux, np.ones(self.count)), 1)
         self.bricks = [add(a, b, matrix, 1) for a, b, matrix in self.tangent(self.sliding)]
 
     def matrix(self, a, b, rows, values):
         """The block (a, b) with `values` at the contact nodes' rows; its columns are the same nodes'."""
-        shape = [self.size if name == 'u' else self.count for name in (a, b)]
-        columns = rows if b == 'u' else np.arange(self.count)
+        shape = [self.size if name == 'field' else self.count for name in (a, b)]
+        columns = rows if b == 'field' else np.arange(self.count)
         block = gf.Spmat('empty', *shape)
         for row, column, value in zip(rows, columns, values):
             if value:
@@ -172,9 +174,9 @@ class Contact:
     def tangent(self, sliding):
         """Second derivatives of (40), (41): sticking nodes couple u and lambda, sliding nodes hold lambda."""
         body, nodes = self.body, np.arange(self.count)
-        yield 'u', 'tangential', self.matrix('u', 'tangential', body.uy, np.where(sliding, 0.0, 1.0))
-        yield 'u', 'u', self.matrix('u', 'u', np.concatenate([body.ux, body.uy]),
-                                    self.r * np.concatenate([np.ones(self.count), ~sliding]))
+        yield 'field', 'tangential', self.matrix('field', 'tangential', body.uy, np.where(sliding, 0.0, 1.0))
+        yield 'field', 'field', self.matrix('field', 'field', np.concatenate([body.ux, body.uy]),
+                                            self.r * np.concatenate([np.ones(self.count), ~sliding]))
         yield 'tangential', 'tangential', self.matrix('tangential', 'tangential', nodes, np.where(sliding, -1.0 / self.r, 0.0))
 
     def set_tangent(self, sliding):
@@ -186,15 +188,62 @@ class Contact:
     def residual(self, x, x_old):
         """First derivatives of (40), (41), and which nodes slide: |lambda + r du| > S."""
         body, at, r = self.body, self.body.at, self.r
-        u, du = x[at['u']], (x - x_old)[at['u']]
-        augmented = x[at['tangential']] + r * du[body.uy]
+        w, dw = x[at['field']], (x - x_old)[at['field']]
+        augmented = x[at['tangential']] + r * dw[body.uy]
         projected = np.clip(augmented, -self.bound, self.bound)
         out = np.zeros(len(x))
-        out[at['u'].start + body.ux] = x[at['normal']] + r * u[body.ux]
-        out[at['u'].start + body.uy] = projected
-        out[at['normal']] = u[body.ux]
+        out[at['field'].start + body.ux] = x[at['normal']] + r * w[body.ux]
+        out[at['field'].start + body.uy] = projected
+        out[at['normal']] = w[body.ux]
         out[at['tangential']] = (projected - x[at['tangential']]) / r
         return out, np.abs(augmented) > self.bound
+
+
+class Direct:
+    """GetFEM's model solver: one MUMPS analysis, factorisation and solve for each call."""
+
+    def __init__(self, body, name):
+        self.body, self.name, self.seconds = body, name, 0.0
+        self.slots = {name: body.md.add_explicit_rhs(name, np.zeros(s.stop - s.start)) for name, s in body.at.items()}
+
+    def solve(self, residual):
+        begin = time.perf_counter()
+        md, dx = self.body.md, np.empty(len(residual))
+        for name, s in self.body.at.items():
+            md.set_private_rhs(self.slots[name], residual[s])
+        md.solve('lsolver', self.name)
+        for name, s in self.body.at.items():
+            dx[s] = md.variable(name)
+        self.seconds += time.perf_counter() - begin
+        return dx
+
+
+class Incomplete:
+    """Conjugate gradients with incomplete LDL^T factors that are kept while few nodes have changed their status.
+
+    The tangent is quasi-definite, not definite, but with such factors the preconditioned matrix is near the identity.
+    Nothing rests on that: the Newton iteration stops by its true residual only."""
+
+    FILL, DROP = 15, 1e-3                                      # ILDLTT: entries more than the matrix has in a row, threshold
+    REDUCTION, LIMIT = 1e-6, 3000                              # of the residual in one call; iterations
+    CHANGED = 0.1                                              # share of the nodes after which the factors are renewed
+
+    def __init__(self, body, contact):
+        self.body, self.contact, self.seconds = body, contact, 0.0
+        self.tangent_at = self.factors_at = self.tangent = self.factors = None
+
+    def solve(self, residual):
+        begin = time.perf_counter()
+        sliding = self.contact.sliding
+        if self.tangent_at is not sliding:
+            self.body.md.assembly('build_matrix')
+            self.tangent, self.tangent_at = self.body.md.tangent_matrix(), sliding
+        if self.factors is None or (sliding != self.factors_at).sum() > self.CHANGED * len(sliding):
+            self.factors = gf.Precond('ildltt', self.tangent, self.FILL, self.DROP)
+            self.factors_at = sliding
+        dx = gf.linsolve_cg(self.tangent, residual, self.factors, 'res', self.REDUCTION, 'maxiter', self.LIMIT)
+        self.seconds += time.perf_counter() - begin
+        return dx
 
 
 def run(options):
@@ -204,18 +253,20 @@ def run(options):
     body = Body(options.cells, k)
     contact = Contact(body)
     ctypes.CDLL(None).malloc_trim(0)                          # the assembly's scratch memory
-    md, at = body.md, body.at
-    slots = {name: md.add_explicit_rhs(name, np.zeros(s.stop - s.start)) for name, s in at.items()}
+    at = body.at
+    if options.solver == 'fastest':
+        options.solver = 'cg' if 10_000 < len(body.traction) < 100_000 else 'auto'
+    solver = Incomplete(body, contact) if options.solver == 'cg' else Direct(body, options.solver)
     seconds['assemble'] = time.perf_counter() - mark
 
     mark = time.perf_counter()
-    seconds['linear_solves'] = 0.0
+    heat = at['field'].start + body.heat
     old = older = product = np.zeros(max(s.stop for s in at.values()))
     iterations, rows = [], []
     for step in range(1, (options.run_steps or options.steps) + 1):
         history = product - body.flux.mult(old)               # heat rows of (33): what the last step left
         load = LOAD_RATE * k * step * body.traction + body.foundation
-        load[at['theta']] += history[at['theta']]
+        load[heat] += history[heat]
 
         x = 2 * old - older if options.prediction == 'linear' else old
         for count in range(options.max_iterations + 1):
@@ -225,43 +276,33 @@ def run(options):
             if np.abs(residual).max() <= options.tolerance * np.abs(load).max():
                 break
             contact.set_tangent(sliding)
-            for name, s in at.items():
-                md.set_private_rhs(slots[name], residual[s])
-            begin = time.perf_counter()
-            md.solve('lsolver', options.solver)
-            seconds['linear_solves'] += time.perf_counter() - begin
-            dx = np.empty(len(x))
-            for name, s in at.items():
-                dx[s] = md.variable(name)
-            x = x + dx
+            x = x + solver.solve(residual)
         else:
             sys.exit('step %d: not converged after %d Newton iterations' % (step, options.max_iterations))
         iterations.append(count)
         rows += contact_rows(body, step, k, x, old, sliding)
         old, older = x, old
     seconds['steps'] = time.perf_counter() - mark
+    seconds['linear_solves'] = solver.seconds
     seconds['total'] = AGE + time.perf_counter() - START
     seconds['processor'] = time.process_time()
     return body, x, rows, iterations, seconds
 
 
 def contact_rows(body, step, k, x, old, sliding):
-    u, du = U * x[body.at['u']], U * (x - old)[body.at['u']]
+    uy, dy = U * x[body.at['field']][body.uy], U * (x - old)[body.at['field']][body.uy]
     # lambda = -sigma nu and nu = (-1, 0): the normal traction is +lambda_x, the tangential one -lambda_y.
     normal, tangential = x[body.at['normal']] / (U * body.w), -x[body.at['tangential']] / (U * body.w)
-    return [(step, k * step, 0.0, body.y[i], normal[i], tangential[i], u[body.uy[i]], abs(du[body.uy[i]]) / k,
+    return [(step, k * step, 0.0, body.y[i], normal[i], tangential[i], uy[i], abs(dy[i]) / k,
              'slip' if sliding[i] else 'stick') for i in np.argsort(body.y)]
 
 
 def node_rows(body, x):
-    count = body.points.shape[1]
-    field = {}
-    for name, scale, size in (('u', U, 2 * count), ('phi', PHI, count), ('theta', THETA, count)):
-        field[name] = np.zeros(size)
-        field[name][body.free[name]] = scale * x[body.at[name]]
     px, py = body.points
-    for i in np.lexsort((py.round(12), px.round(12))):
-        yield px[i], py[i], field['u'][2 * i], field['u'][2 * i + 1], field['phi'][i], field['theta'][i]
+    w = np.zeros(4 * len(px))
+    w[body.free] = x[body.at['field']]
+    w = w.reshape(-1, 4) * [U, U, PHI, THETA]
+    return [(px[i], py[i], *w[i]) for i in np.lexsort((py.round(12), px.round(12)))]
 
 
 def write_csv(path, header, rows):
@@ -296,12 +337,15 @@ def main():
     parser.add_argument('--contact', help='CSV of the contact nodes in all steps')
     parser.add_argument('--prediction', choices=['linear', 'paper'], default='linear',
                         help='start of a step: the last two states continued, or the last state (the paper)')
-    parser.add_argument('--solver', choices=['auto', 'mumps'], default='auto', help="GetFEM's lsolver: LDL^T or LU")
+    parser.add_argument('--solver', choices=['fastest', 'cg', 'auto', 'mumps'], default='fastest',
+                        help="cg with kept incomplete factors, or GetFEM's lsolver: auto is MUMPS' LDL^T, mumps its LU; "
+                             'fastest is cg between 10 000 and 100 000 unknowns, else auto')
     parser.add_argument('--tolerance', type=float, default=1e-9, help='largest residual over the largest load')
-    parser.add_argument('--max-iterations', type=int, default=60)
+    parser.add_argument('--max-iterations', type=int, default=80)
     options = parser.parse_args()
 
     gf.util_trace_level(0)
+    gf.util_warning_level(0)
     body, x, rows, iterations, seconds = run(options)
     if options.nodes:
         write_csv(options.nodes, 'x,y,u_x,u_y,potential,temperature', node_rows(body, x))

@@ -59,8 +59,9 @@ def section(program):
     return f"""## Agreement with other codes
 
 Label: other code. Largest difference of each column over the reference's largest value, all nodes, in
-contact columns also all steps; slips over the largest displacement (rates: by the time step). What the other programs are stands in
-`tests/reference/README.md`; `same status` counts contact nodes and steps with the same of stick and slip.
+contact columns also all steps; slips over the largest displacement (rates: by the time step).
+`tests/reference/README.md` says what the other programs are; `same status` counts contact nodes and steps
+that both call stick or both call slip.
 
 The paper's example by two programs, which agree with each other to 3e-10 but for the temperature of the
 insulated case (1e-10 K), where the stored numbers carry round-off:

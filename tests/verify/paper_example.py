@@ -120,8 +120,10 @@ At the corners they are {page.number(1 / smallest_share(16), 3)} and {page.numbe
 The *converged value* is Aitken's extrapolation of the three finest meshes. Its *error bar* is its distance
 from the value on the finest mesh, or from the extrapolation of the three meshes before, whichever is larger.
 Where the last two differences do not shrink with one sign there is no extrapolation: then it is the value on
-the finest mesh with the larger of the two differences, and the order reads "none". The bars bound the error
-of the mesh only; for that of the time step see below.
+the finest mesh with the larger of the two differences, and the order reads "none". An order far from those
+of the theory (2, and less where corners rule) says that the last differences are not those of one power; the
+value then rests on the agreement of the families. The bars are for the error of the mesh only; for that of
+the time step see below.
 
 {summary(values)}
 
@@ -272,8 +274,8 @@ Backward Euler is of first order. {verdict(time_errors, mesh_errors)}
 def verdict(time_errors, mesh_errors):
     worse = [name for name, of_time, of_mesh in zip(QUANTITIES, time_errors, mesh_errors) if of_time > of_mesh]
     if len(worse) == len(QUANTITIES):
-        return ("With 20 steps every quantity errs more from the time step than from the best mesh: who wants "
-                "more digits\nneeds smaller steps first.")
+        return ("With 20 steps every quantity errs more from the time step than from\nthe best mesh: who wants "
+                "more digits needs smaller steps first.")
     return f"With 20 steps the time step errs more than the best mesh for: {', '.join(worse) or 'nothing'}."
 
 
