@@ -225,7 +225,7 @@ class Incomplete:
     Nothing rests on that: the Newton iteration stops by its true residual only."""
 
     FILL, DROP = 15, 1e-3                                      # ILDLTT: entries more than the matrix has in a row, threshold
-    REDUCTION, LIMIT = 1e-6, 3000                              # of the residual in one call; iterations
+    REDUCTION, LIMIT = 1e-9, 3000                              # of the residual in one call; iterations
     CHANGED = 0.1                                              # share of the nodes after which the factors are renewed
 
     def __init__(self, body, contact):
