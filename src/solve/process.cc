@@ -23,6 +23,9 @@ namespace {
 void start_mpi() {
   if (!std::getenv("OMPI_COMM_WORLD_SIZE")) {
     setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+    // Isolated processes would share one session folder, and one's end removes it under another's
+    // start.
+    setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
     setenv("OMPI_MCA_pml", "ob1", 0);
     setenv("OMPI_MCA_btl", "self", 0);
   }
