@@ -255,7 +255,7 @@ def run(options):
     ctypes.CDLL(None).malloc_trim(0)                          # the assembly's scratch memory
     at = body.at
     if options.solver == 'fastest':
-        options.solver = 'cg' if 10_000 < len(body.traction) < 100_000 else 'auto'
+        options.solver = 'cg' if 10_000 < len(body.traction) < 50_000 else 'auto'
     solver = Incomplete(body, contact) if options.solver == 'cg' else Direct(body, options.solver)
     seconds['assemble'] = time.perf_counter() - mark
 
@@ -339,7 +339,7 @@ def main():
                         help='start of a step: the last two states continued, or the last state (the paper)')
     parser.add_argument('--solver', choices=['fastest', 'cg', 'auto', 'mumps'], default='fastest',
                         help="cg with kept incomplete factors, or GetFEM's lsolver: auto is MUMPS' LDL^T, mumps its LU; "
-                             'fastest is cg between 10 000 and 100 000 unknowns, else auto')
+                             'fastest is cg between 10 000 and 50 000 unknowns, else auto')
     parser.add_argument('--tolerance', type=float, default=1e-9, help='largest residual over the largest load')
     parser.add_argument('--max-iterations', type=int, default=80)
     options = parser.parse_args()

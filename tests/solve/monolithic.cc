@@ -134,9 +134,10 @@ TEST(Monolithic, WhereNewtonAloneCyclesTheMethodOfMultipliersLeadsToTheAnswer) {
     SCOPED_TRACE(folder);
     const auto file = std::filesystem::path(TOURMALINE_SOURCE_DIR) / "tests" / "reference" /
                       "third" / folder / "case.toml";
-    const Overrides tables_only = {"output.fields=false"};
-    expect_equal_runs(testing::RunCase(casefile::read_file(file, with(tables_only, monolithic))),
-                      testing::RunCase(casefile::read_file(file, tables_only)));
+    // The first three steps; it is the second in which Newton cycles.
+    const Overrides start = {"output.fields=false", "time.end=0.03", "time.steps=3"};
+    expect_equal_runs(testing::RunCase(casefile::read_file(file, with(start, monolithic))),
+                      testing::RunCase(casefile::read_file(file, start)));
   }
 }
 
