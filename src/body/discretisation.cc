@@ -219,6 +219,38 @@ std::vector<Node> Discretisation<dim>::nodes_on(const std::vector<std::string> &
 
 namespace {
 
+template <class Face>
+std::vector<std::uint32_t> facet_nodes(const Face &face, unsigned int degree) {
+  if (face.n_vertices() == 2)
+    return degree == 1 ? std::vector<std::uint32_t>{face.vertex_dof_index(0, 0),
+                                                    face.vertex_dof_index(1, 0)}
+                       : std::vector<std::uint32_t>{face.vertex_dof_index(0, 0), face.dof_index(0),
+                                                    face.vertex_dof_index(1, 0)};
+  if (face.n_vertices() == 3)
+    return {face.vertex_dof_index(0, 0), face.vertex_dof_index(1, 0), face.vertex_dof_index(2, 0)};
+  // deal.II numbers the corners of a quadrilateral line by line.
+  return {face.vertex_dof_index(0, 0), face.vertex_dof_index(1, 0), face.vertex_dof_index(3, 0),
+          face.vertex_dof_index(2, 0)};
+}
+
+}  // namespace
+
+template <int dim>
+std::vector<output::NamedBoundary> Discretisation<dim>::boundaries() const {
+  std::vector<output::NamedBoundary> all;
+  for (const auto &[name, id] : parts_->mesh.boundaries) {
+    output::NamedBoundary boundary{name, {}};
+    for (const auto &cell : parts_->nodes.active_cell_iterators())
+      for (const unsigned int f : cell->face_indices())
+        if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == id)
+          boundary.facets.push_back(facet_nodes(*cell->face(f), parts_->element->degree));
+    all.push_back(std::move(boundary));
+  }
+  return all;
+}
+
+namespace {
+
 using output::VtkCell;
 
 VtkCell vtk_cell(int dim, bool simplices, unsigned int degree) {

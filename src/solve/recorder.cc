@@ -40,6 +40,7 @@ template <int dim>
 void Recorder<dim>::initial(std::span<const double> state) {
   Stopwatch watch;
   balance_.emplace(model_, state);
+  folder_.put_boundaries(model_.body.boundaries());
   put_fields(0, state);
   seconds_ += watch.lap();
 }

@@ -9,6 +9,7 @@
 #include "tourmaline/error.h"
 #include "tourmaline/material/plane.h"
 #include "tourmaline/output/progress.h"
+#include "tourmaline/report/page.h"
 #include "tourmaline/solve/condensed_route.h"
 #include "tourmaline/solve/memory.h"
 #include "tourmaline/solve/monolithic_route.h"
@@ -31,6 +32,7 @@ class Simulation {
   void prescribe(double time, std::vector<double> &state) const;
   void sum_loads(double time);
   void step(int n);
+  void put_report();
   void keep_what_there_is();
   output::Summary summary() const;
 
@@ -114,13 +116,28 @@ void Simulation<dim>::run() {
     }
   recorder_->finish(state_);
   folder_->put_summary(summary());
+  put_report();
   progress_.done();
 }
 
 template <int dim>
+void Simulation<dim>::put_report() {
+  if (!model_.asked.output.report)
+    return;
+  progress_.stage("report");
+  report::write_page({folder_->directory()}, folder_->directory() / "report.html");
+}
+
+// The error that ended the steps is the one to tell of.
+template <int dim>
 void Simulation<dim>::keep_what_there_is() {
   progress_.done();
   recorder_->finish(state_);
+  try {
+    put_report();
+  } catch (const std::runtime_error &) {
+  }
+  progress_.done();
 }
 
 std::uint64_t peak_memory() {

@@ -67,6 +67,9 @@ class Discretisation {
   /// Nodes on the closure of the named boundaries, ascending.
   std::vector<Node> nodes_on(const std::vector<std::string> &boundaries) const;
 
+  /// All named boundaries, by name.
+  std::vector<output::NamedBoundary> boundaries() const;
+
   /// The grid as the output wants it, points in the order of the nodes, cells in the order of
   /// `for_each_cell`.
   output::Grid grid() const;

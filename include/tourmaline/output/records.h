@@ -37,6 +37,13 @@ struct Grid {
   std::size_t n_cells() const { return connectivity.size() / nodes_per_cell; }
 };
 
+/// A part of the boundary that has a name, its facets by their nodes: corners in a circle; a line
+/// from end to end, with its middle node if it has one.
+struct NamedBoundary {
+  std::string name;
+  std::vector<std::vector<std::uint32_t>> facets;
+};
+
 /// Values at the nodes of the grid.
 struct PointFields {
   std::vector<Vector> displacement;  // m
