@@ -33,17 +33,17 @@ void add_contact(Conditions &conditions, const casefile::ContactCase &contact) {
   if (contact.friction.law == "none")
     conditions.texts.push_back("no friction");
   else
-    conditions.texts.push_back(fmt::format("{} friction, S = {} N/m²", contact.friction.law,
-                                           contact.friction.bound.text()));
+    conditions.texts.push_back(
+        fmt::format("Tresca friction, S = {} N/m²", contact.friction.bound.text()));
   if (contact.heat.law == "insulated")
-    conditions.texts.push_back("q·ν = 0");
+    conditions.texts.push_back("insulated, q·ν = 0");
   else
-    conditions.texts.push_back(fmt::format("q·ν = k (θ − θf), k = {} W/(K m²), θf = {} K",
+    conditions.texts.push_back(fmt::format("heat exchange, k = {} W/(K m²), with {} K",
                                            contact.heat.coefficient.text(),
                                            contact.heat.foundation_temperature.text()));
 }
 
-void add(Conditions &conditions, const casefile::BoundaryCase &entry) {
+void add_mechanics(Conditions &conditions, const casefile::BoundaryCase &entry) {
   if (entry.displacement) {
     if (conditions.kind == "free" || conditions.kind == "traction")
       conditions.kind = "displacement";
@@ -54,6 +54,9 @@ void add(Conditions &conditions, const casefile::BoundaryCase &entry) {
       conditions.kind = "traction";
     conditions.texts.push_back(traction_text(*entry.traction));
   }
+}
+
+void add_others(Conditions &conditions, const casefile::BoundaryCase &entry) {
   const auto scalar = [&](const std::optional<Formula> &formula, const char *symbol,
                           const char *unit) {
     if (formula)
@@ -71,9 +74,13 @@ Conditions conditions_on(const casefile::Case &asked, const std::string &boundar
   Conditions conditions;
   if (asked.contact && names(asked.contact->on, boundary))
     add_contact(conditions, *asked.contact);
-  for (const casefile::BoundaryCase &entry : asked.boundaries)
-    if (names(entry.on, boundary))
-      add(conditions, entry);
+  const auto add_entries = [&](auto add) {
+    for (const casefile::BoundaryCase &entry : asked.boundaries)
+      if (names(entry.on, boundary))
+        add(conditions, entry);
+  };
+  add_entries(add_mechanics);
+  add_entries(add_others);
   return conditions;
 }
 

@@ -1,6 +1,7 @@
 #include "tourmaline/report/skin.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 namespace tourmaline::report {
@@ -55,11 +56,9 @@ struct Face {
 using Corners = std::array<std::uint32_t, 4>;
 
 Corners key_of(const Face &face) {
-  Corners key{};
-  const std::size_t n = corners_of(face.nodes.size());
-  std::copy_n(face.nodes.begin(), n, key.begin());
-  if (n == 3)
-    key[3] = key[2];
+  Corners key;
+  key.fill(std::numeric_limits<std::uint32_t>::max());  // of a triangle's fourth
+  std::copy_n(face.nodes.begin(), corners_of(face.nodes.size()), key.begin());
   std::sort(key.begin(), key.end());
   return key;
 }

@@ -61,6 +61,7 @@ export class Body {
   private readonly lineObject: THREE.LineSegments;
   readonly settingObject = new THREE.Group();
   private readonly triangleObject: THREE.Mesh;
+  private scale?: number;
   private placed = '';
   private coloured = '';
 
@@ -92,13 +93,23 @@ export class Body {
     return this.result.field('displacement')?.values('size').greatest ?? 0;
   }
 
-  /** Magnification that shows the greatest displacement as a tenth of the body; 1, 2 or 5 times 10^n. */
+  /**
+   * Magnification, one digit times 10^n, that shows the greatest displacement as at most a tenth of the body and
+   * strains as less than one, so that cells do not turn inside out; but for the hundredth that is strained most,
+   * at singular corners. The counterpart of suitable_scale in src/report/scale.cc.
+   */
   get suitableScale(): number {
-    const largest = this.largestDisplacement;
-    if (!(largest > 0)) return 1;
-    const wanted = (0.1 * this.size) / largest;
-    const power = 10 ** Math.floor(Math.log10(wanted));
-    return [5, 2, 1].find((m) => m * power <= wanted)! * power;
+    if (this.scale === undefined) {
+      const strain = this.result.field('strain');
+      const largest = Math.max(0, ...(strain?.components ?? []).map((c) => {
+        const { low, high } = strain!.values(c).usual();
+        return Math.max(-low, high);
+      }));
+      const wanted = Math.min((0.1 * this.size) / this.largestDisplacement, 0.9 / largest);
+      const power = 10 ** Math.floor(Math.log10(wanted));
+      this.scale = Number.isFinite(wanted) ? [8, 6, 5, 4, 3, 2, 1].find((m) => m * power <= wanted * 1.000001)! * power : 1;
+    }
+    return this.scale;
   }
 
   set(look: Look, ink: string, paper: string) {
@@ -106,14 +117,14 @@ export class Body {
     this.colour(look);
     this.lineObject.visible = look.mesh;
     this.lineMaterial.color.set(look.field ? '#000000' : ink);
-    this.lineMaterial.opacity = look.field ? 0.22 : 0.55;
+    this.lineMaterial.opacity = look.field ? 0.17 : 0.5;
     const plain = new THREE.Color(paper);
     (this.material.uniforms.plain.value as THREE.Vector3).set(plain.r, plain.g, plain.b);
     this.material.uniforms.coloured.value = look.field ? 1 : 0;
     this.material.uniforms.colours.value = look.range.signed ? this.maps.signed : this.maps.even;
   }
 
-  private place(state: number, scale: number) {
+  place(state: number, scale: number) {
     const key = `${state} ${scale}`;
     if (key === this.placed) return;
     this.placed = key;

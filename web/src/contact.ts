@@ -19,8 +19,9 @@ export class Contact {
     this.line = contactLine(result);
     const step = result.contact!.column('step')!;
     this.steps = Array.from({ length: step.length / this.nodes }, (_, k) => step[k * this.nodes]);
-    this.add('Tractions on the body', 'N/m²', [
-      { label: 'normal', column: this.column('normal_traction'), colour: lineColours[0] },
+    this.add('Normal traction on the body', 'N/m²', [
+      { label: 'σν·ν', column: this.column('normal_traction'), colour: lineColours[0] }]);
+    this.add('Tangential traction and the bound ±S', 'N/m²', [
       { label: 'tangential', column: this.tangential('tangential_traction_'), colour: lineColours[1] },
       ...this.bounds(),
     ]);

@@ -29,7 +29,7 @@ export class Explorer {
   readonly box: HTMLElement;
   private field: string;
   private component = '';
-  private rangeOver: 'all' | 'step' | 'hand' = 'all';
+  private rangeOver: 'all' | 'usual' | 'step' | 'hand' = 'all';
   private byHand: [number, number] = [0, 1];
   private linked = true;
   private stretch = 1;
@@ -83,6 +83,7 @@ export class Explorer {
     canvas.setAttribute('role', 'img');
     canvas.setAttribute('aria-label', `field of ${body.result.title}; arrow keys, plus, minus and 0 move the view`);
     const controls = new OrbitControls(this.camera.three, canvas);
+    controls.target.copy(this.camera.target);
     controls.addEventListener('change', () => this.refresh());
     controls.zoomToCursor = true;
     controls.enableZoom = false;
@@ -116,8 +117,8 @@ export class Explorer {
       element('button', { type: 'button', 'aria-label': 'farther', onclick: zoom(1 / 1.4) }, '−'),
       element('button', { type: 'button', 'aria-label': 'whole body', onclick: () => this.home() }, '⤢'));
     return element('figure', { class: 'view' },
-      this.views.length > 1 && element('figcaption', {}, view.result.title),
-      element('div', { class: 'screen' }, view.picture.canvas, buttons), view.bar.box, view.note, view.readout);
+      element('div', { class: 'head' }, element('figcaption', {}, this.views.length > 1 && view.result.title), buttons),
+      view.picture.canvas, view.bar.box, view.note, view.readout);
   }
 
   private toolbar(): HTMLElement {
@@ -125,7 +126,8 @@ export class Explorer {
       type: 'range', id: 'stretch', min: 0, max: 3, step: 0.1, value: 1,
       oninput: () => { this.stretch = Number(stretch.value); this.refresh(); },
     });
-    const range = choice('Colour range', [['all', 'all moments'], ['step', 'this moment'], ['hand', 'by hand']], 'all',
+    const range = choice('Colour range', [['all', 'all moments'], ['usual', 'without the extreme 1 %'], ['step', 'this moment'],
+      ['hand', 'by hand']], 'all',
       (over) => {
         const current = this.range(this.views[0]);
         this.byHand = [current.low, current.high];
@@ -159,6 +161,7 @@ export class Explorer {
     if (!field || !field.has(this.component)) return [Infinity, -Infinity];
     const values = field.values(this.component);
     if (this.rangeOver === 'all') return [values.least, values.greatest];
+    if (this.rangeOver === 'usual') return [values.usual().low, values.usual().high];
     const state = view.result.stateAt(this.timeline.time);
     let low = Infinity, high = -Infinity;
     for (const v of values.data.subarray(state * values.places, (state + 1) * values.places)) {
@@ -195,7 +198,7 @@ export class Explorer {
   }
 
   private home() {
-    for (const view of this.views) view.controls.target.set(0, 0, 0);
+    for (const view of this.views) view.controls.target.copy(this.camera.target);
     this.camera.reset();
     for (const view of this.views) view.controls.update();
     this.refresh();

@@ -53,15 +53,14 @@ startTheme();
 page.append(header(), ...[notices()].filter((n): n is HTMLElement => !!n));
 
 if (drawn.length > 0 && !obstacle()) {
-  const groups = groupsOf(results);
   const bodies = drawn.map((r) => new Body(r));
   const explorer = new Explorer(bodies, timeline);
   const pick = (field: string) => {
     explorer.choose(field);
     document.getElementById('fields')!.scrollIntoView({ behavior: 'smooth' });
   };
-  bodies.forEach((body, i) => { if (body.result.dimension === 3) body.paintBoundaries(coloursOf(drawn[i], groups)); });
-  const overviews = bodies.map((body, i) => new Overview(body, drawn[i], groups, timeline, pick));
+  bodies.forEach((body) => { if (body.result.dimension === 3) body.paintBoundaries(coloursOf(groupsOf(body.result))); });
+  const overviews = bodies.map((body) => new Overview(body, timeline, pick));
   page.append(section('overview', 'At a glance', ...overviews.map((o, i) => element('div', {},
     several && element('h3', { class: 'whose' }, drawn[i].title), o.box))),
     section('fields', 'Fields', explorer.box));

@@ -2,28 +2,43 @@
 // and von Mises stress.
 import { Body, Look } from './body';
 import { Camera } from './stage';
-import { Field, Result } from './results';
+import { Field, Result, Values } from './results';
 import { Picture } from './picture';
 import { ColourBar } from './colour_bar';
-import { colourRange } from './colours';
+import { colourRange, Range } from './colours';
 import { element } from './dom';
 import { fieldTitle, shown } from './numbers';
-import { coloursOf, Group, legend } from './setting';
+import { coloursOf, groupsOf, legend } from './setting';
 import { Timeline } from './timeline';
 
+/** A camera that has the body in view at the first and the last moment. */
 export function homeCamera(body: Body): Camera {
   const low = [0, 0, 0], high = [0, 0, 0];
-  const { points } = body.grid;
-  for (let i = 0; i < points.length; ++i) {
-    const at = (points[i] - body.centre[i % 3]) / body.size;
-    low[i % 3] = Math.min(low[i % 3], at);
-    high[i % 3] = Math.max(high[i % 3], at);
+  for (const state of [0, body.result.times.length - 1]) {
+    body.place(state, body.suitableScale);
+    body.places.forEach((at, i) => {
+      low[i % 3] = Math.min(low[i % 3], at);
+      high[i % 3] = Math.max(high[i % 3], at);
+    });
   }
+  const middle = low.map((v, c) => (v + high[c]) / 2) as [number, number, number];
+  const half = low.map((v, c) => (high[c] - v) / 2);
   if (body.result.dimension === 3) {
-    const radius = Math.hypot(...high) * 1.06 + 0.04;
-    return new Camera(3, radius, radius);
+    const radius = 1.02 * Math.hypot(...half);
+    return new Camera(3, middle, radius, radius);
   }
-  return new Camera(2, high[0] + 0.12, high[1] + 0.12);
+  const room = 0.04 * Math.max(...half);
+  return new Camera(2, middle, half[0] + room, half[1] + room);
+}
+
+/**
+ * The range of all moments; of cells' values without the highest hundredth where singular corners would leave
+ * nothing to be seen of the rest.
+ */
+function withoutPeaks(field: Field, values: Values): { range: Range; clipped: boolean } {
+  const { high } = values.usual();
+  const clipped = !field.onPoints && values.least >= 0 && high > 0 && values.greatest > 1.5 * high;
+  return { range: colourRange(values.least, clipped ? high : values.greatest), clipped };
 }
 
 interface Card { picture: Picture; look: (state: number) => Look; bar?: ColourBar; field?: Field }
@@ -31,8 +46,11 @@ interface Card { picture: Picture; look: (state: number) => Look; bar?: ColourBa
 export class Overview {
   readonly box: HTMLElement;
   private readonly cards: Card[] = [];
-  constructor(body: Body, private readonly result: Result, groups: Group[],
-    private readonly timeline: Timeline, pick: (field: string) => void) {
+  private readonly result: Result;
+  constructor(body: Body, private readonly timeline: Timeline, pick: (field: string) => void) {
+    const { result } = body;
+    this.result = result;
+    const groups = groupsOf(result);
     const scale = body.suitableScale;
     const even = { low: 0, high: 1, signed: false };
     const camera = homeCamera(body);
@@ -45,11 +63,12 @@ export class Overview {
         : element('span', {}, title);
       picture.canvas.setAttribute('role', 'img');
       picture.canvas.setAttribute('aria-label', title);
-      figures.push(element('figure', { class: 'card' }, element('figcaption', {}, heading), picture.canvas, below));
+      figures.push(element('figure', { class: field || title === 'Deformed mesh' ? 'card' : 'card setting' },
+        element('figcaption', {}, heading), picture.canvas, below));
     };
     if (result.boundaries.length > 0)
-      add('Physical setting', new Picture(body, camera, coloursOf(result, groups)),
-        () => ({ state: 0, scale: 0, mesh: false, component: '', range: even }), legend(result, groups));
+      add('Physical setting', new Picture(body, camera, coloursOf(groups)),
+        () => ({ state: 0, scale: 0, mesh: false, component: '', range: even }), legend(groups));
     const plain = result.field('displacement');
     if (plain)
       add('Deformed mesh', new Picture(body, camera),
@@ -60,9 +79,9 @@ export class Overview {
       const field = result.field(name);
       if (!field) continue;
       const values = field.values('');
-      const range = colourRange(values.least, values.greatest);
-      const bar = new ColourBar();
-      bar.show(range, field.unit);
+      const { range, clipped } = withoutPeaks(field, values);
+      const bar = new ColourBar(true);
+      bar.show(range, field.unit, clipped);
       add(fieldTitle(name), new Picture(body, camera),
         (state) => ({ state, scale, mesh: false, field, component: '', range }), bar.box, field, bar);
     }

@@ -33,13 +33,28 @@ export interface Grid {
 export interface Boundary { name: string; kind: string; conditions: string[]; facets: Uint32Array[] }
 
 /** A component of a field, or its size, over all states. */
-export interface Values {
-  data: Float32Array;
-  places: number;
-  least: number;
-  greatest: number;
-  /** largest error by rounding for the page */
-  error: number;
+export class Values {
+  least = Infinity;
+  greatest = -Infinity;
+  private ends?: { low: number; high: number };
+
+  /** `error`: largest error by rounding for the page */
+  constructor(readonly data: Float32Array, readonly places: number, readonly error: number) {
+    for (const value of data) {
+      if (value < this.least) this.least = value;
+      if (value > this.greatest) this.greatest = value;
+    }
+  }
+
+  /** The range without the lowest and the highest hundredth of the last state. */
+  usual(): { low: number; high: number } {
+    if (!this.ends) {
+      const sorted = this.data.slice(Math.max(0, this.data.length - this.places)).sort();
+      const last = sorted.length - 1;
+      this.ends = { low: sorted[Math.floor(0.01 * last)] ?? 0, high: sorted[Math.ceil(0.99 * last)] ?? 0 };
+    }
+    return this.ends;
+  }
 }
 
 export class Field {
@@ -71,24 +86,15 @@ export class Field {
 
   private component(name: string): Values {
     const packed = this.packed.values[this.packed.components.indexOf(name)];
-    return described(unpack(packed), packed.columns, packed.coding === 'levels' ? packed.step! / 2 : 0);
+    return new Values(unpack(packed), packed.columns, packed.coding === 'levels' ? packed.step! / 2 : 0);
   }
 
   private size(): Values {
     const parts = this.packed.components.map((c) => this.values(c));
     const data = new Float32Array(parts[0].data.length);
     for (let i = 0; i < data.length; ++i) data[i] = Math.hypot(...parts.map((p) => p.data[i]));
-    return described(data, parts[0].places, Math.max(...parts.map((p) => p.error)));
+    return new Values(data, parts[0].places, Math.max(...parts.map((p) => p.error)));
   }
-}
-
-function described(data: Float32Array, places: number, error: number): Values {
-  let least = Infinity, greatest = -Infinity;
-  for (const value of data) {
-    if (value < least) least = value;
-    if (value > greatest) greatest = value;
-  }
-  return { data, places, least, greatest, error };
 }
 
 export class Table {

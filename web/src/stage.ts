@@ -48,10 +48,13 @@ export function draw(scene: THREE.Scene, camera: THREE.Camera, canvas: HTMLCanva
   context.drawImage(gl, 0, gl.height - height, width, height, 0, 0, width, height);
 }
 
-/** A camera that shows a ball of radius `radius` around its target in any canvas. */
+/** A camera that shows a part of the scene around `target` in a canvas of any shape. */
 export class Camera {
   readonly three = new THREE.OrthographicCamera(-1, 1, 1, -1, -100, 100);
-  constructor(readonly dimension: 2 | 3, private readonly halfWidth: number, private readonly halfHeight: number) {
+  readonly target: THREE.Vector3;
+  constructor(readonly dimension: 2 | 3, target: [number, number, number], private readonly halfWidth: number,
+    private readonly halfHeight: number) {
+    this.target = new THREE.Vector3(...target);
     this.reset();
   }
 
@@ -60,7 +63,8 @@ export class Camera {
     this.three.up.set(0, this.dimension === 3 ? 0 : 1, this.dimension === 3 ? 1 : 0);
     if (this.dimension === 3) this.three.position.set(-5, -7, 4.5);
     else this.three.position.set(0, 0, 10);
-    this.three.lookAt(0, 0, 0);
+    this.three.position.add(this.target);
+    this.three.lookAt(this.target);
   }
 
   /** Fits the frustum to a canvas. */
