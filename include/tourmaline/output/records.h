@@ -37,6 +37,9 @@ struct Grid {
   std::size_t n_cells() const { return connectivity.size() / nodes_per_cell; }
 };
 
+/// Takes out of a grid the points that none of its cells uses; returns which are left, ascending.
+std::vector<std::uint32_t> keep_used_points(Grid &grid);
+
 /// A part of the boundary that has a name, its facets by their nodes: corners in a circle; a line
 /// from end to end, with its middle node if it has one.
 struct NamedBoundary {
