@@ -156,6 +156,7 @@ void merge_points(FieldFile &file) {
     number[i] = static_cast<std::uint32_t>(kept.size() - 1);
   }
   std::vector<output::Vector> points;
+  points.reserve(kept.size());
   for (const std::size_t i : kept)
     points.push_back(file.grid.points[i]);
   file.grid.points = std::move(points);

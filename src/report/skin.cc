@@ -78,6 +78,7 @@ std::vector<Face> all_faces(const output::Grid &grid) {
 /// Those that belong to one cell only, in the order of the cells.
 std::vector<Face> outer(const std::vector<Face> &faces) {
   std::vector<std::pair<Corners, std::size_t>> keys;
+  keys.reserve(faces.size());
   for (std::size_t i = 0; i < faces.size(); ++i)
     keys.emplace_back(key_of(faces[i]), i);
   std::sort(keys.begin(), keys.end());
