@@ -22,7 +22,7 @@ std::vector<double> ticks(double low, double high) {
   const double power = std::pow(10, std::floor(std::log10((high - low) / 4)));
   double step = power;
   for (const double digit : {2., 5., 10.})
-    if ((high - low) / step > 5)
+    if ((high - low) / step > 6)
       step = digit * power;
   std::vector<double> values;
   for (double i = std::ceil(low / step - 1e-9); i <= high / step + 1e-9; ++i)
@@ -258,15 +258,26 @@ void Figure::paint_faces(Raster &raster, const Boundary &boundary, const Colour 
                       [&](double, double, double) { return colour; });
 }
 
+namespace {
+
+/// value / 10^power to three digits of `size`: beside 1.24 the end of a bar is 0, not 9.6e-5.
+double rounded(double value, double size, int power) {
+  const double step = size > 0 ? std::pow(10, std::floor(std::log10(size)) - 2) : 1;
+  return std::round(value / step) * step / std::pow(10, power);
+}
+
+}  // namespace
+
 void Figure::colour_bar(const ColourRange &range, const std::string &unit, bool clipped) {
   const double top = top_ + height_ + axis_room, width = body_size - 40;
-  const int power = shown_power(std::max(std::abs(range.low), std::abs(range.high)));
+  const double size = std::max(std::abs(range.low), std::abs(range.high));
+  const int power = shown_power(size);
   canvas_.colour_strip(range.diverging ? blue_red() : viridis(), {left_margin, top}, width, 7);
   for (int i = 0; i <= 4; ++i) {
     const double at = i / 4., value = range.low + at * (range.high - range.low);
     canvas_.lines({{{left_margin + at * width, top + 7}, {left_margin + at * width, top + 10}}},
                   grey, 0.5);
-    canvas_.text((clipped && i == 4 ? "≥ " : "") + number_text(value / std::pow(10, power), 3),
+    canvas_.text((clipped && i == 4 ? "≥ " : "") + number_text(rounded(value, size, power), 3),
                  {left_margin + at * width, top + 18}, Canvas::Align::middle, 7);
   }
   canvas_.text(unit_text(power, unit), {left_margin + width + 8, top + 6.5}, Canvas::Align::left,
@@ -302,7 +313,9 @@ void Figure::legend() {
     canvas_.area({{left, y - 6}, {right, y - 6}, {right, y + 1}, {left, y + 1}}, group.colour);
     canvas_.text(names_of(group), {left + 11, y}, Canvas::Align::left, legend_size, true);
     for (const std::string &text : texts_of(group)) {
-      canvas_.text(text, {left + 19 + column, y}, Canvas::Align::left, legend_size);
+      const double room = left_margin + body_size + right_margin - left - 21 - column;
+      const double fit = std::min(1., room / canvas_.text_width(text, legend_size));
+      canvas_.text(text, {left + 19 + column, y}, Canvas::Align::left, fit * legend_size);
       y += line_height;
     }
   }
