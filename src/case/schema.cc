@@ -39,11 +39,17 @@ Range from_to(double low, double high) {
 Length one_each_axis(int dimension) {
   return {{dimension},
           "one for each axis",
-          fmt::format("mesh.box.cell makes the case {}-dimensional", dimension)};
+          fmt::format("the shape of its cells makes the case {}-dimensional", dimension)};
 }
 
 int dimension_of(CellShape shape) {
   return shape == CellShape::triangle || shape == CellShape::quadrilateral ? 2 : 3;
+}
+
+int dimension_of(const MeshCase &mesh) {
+  if (mesh.annulus)
+    return dimension_of(mesh.annulus->cell);
+  return mesh.box ? dimension_of(mesh.box->cell) : 2;
 }
 
 const char *name_of(CellShape shape) {
@@ -161,6 +167,68 @@ void declare(Visitor &v, Box &box, int degree) {
   v.check("grading", [&] { return grading_complaint(box); });
 }
 
+std::string radii_complaint(const Annulus &ring) {
+  if (!(ring.outer > ring.inner))
+    return fmt::format("must be greater than inner, which is {}", ring.inner);
+  if (ring.outer - ring.inner < 1e-8 * ring.outer * ring.cells[0])
+    return "the wall is too thin to tell the corners of its cells apart";
+  return "";
+}
+
+std::string cells_complaint(const Annulus &ring, int degree) {
+  // With fewer the facets of a node differ too much to have one normal.
+  if (constexpr int least = 8; ring.cells[1] < least)
+    return fmt::format("entry 1, the intervals around, must be at least {}", least);
+  double unknowns = static_cast<double>(ring.cells.size()) + 2;
+  for (const int cells : ring.cells)
+    unknowns *= static_cast<double>(degree) * cells + 1;
+  if (unknowns < std::numeric_limits<int>::max())
+    return "";
+  return fmt::format("makes {:.3g} unknowns; at most {} are possible", unknowns,
+                     std::numeric_limits<int>::max());
+}
+
+void declare(Visitor &v, Annulus &ring, int degree) {
+  std::string cell = name_of(ring.cell);
+  v.key({.name = "cell",
+         .description = "shape of the cells; triangles and quadrilaterals make a ring, tetrahedra "
+                        "and hexahedra a tube",
+         .choices = {"triangle", "quadrilateral", "tetrahedron", "hexahedron"}},
+        &cell);
+  ring.cell = shape_named(cell);
+  const bool tube = dimension_of(ring.cell) == 3;
+  v.key({.name = "inner",
+         .description = "inner radius",
+         .unit = "m",
+         .required = true,
+         .range = positive()},
+        &ring.inner);
+  v.key({.name = "outer",
+         .description = "outer radius",
+         .unit = "m",
+         .required = true,
+         .range = positive()},
+        &ring.outer);
+  v.key({.name = "height",
+         .description = "length of the tube along z",
+         .unit = "m",
+         .required = true,
+         .range = positive(),
+         .used = tube,
+         .used_with = "cell = \"tetrahedron\" or \"hexahedron\""},
+        &ring.height);
+  v.key({.name = "cells",
+         .description = "intervals along the radius, around and, of a tube, along z",
+         .required = true,
+         .range = at_least(1),
+         .length = {{tube ? 3 : 2},
+                    "along the radius, around, of a tube along z",
+                    fmt::format("mesh.annulus.cell makes the case {}-dimensional", tube ? 3 : 2)}},
+        &ring.cells);
+  v.check("outer", [&] { return radii_complaint(ring); });
+  v.check("cells", [&] { return cells_complaint(ring, degree); });
+}
+
 void declare(Visitor &v, MeshCase &mesh) {
   v.optional(
       {.name = "file",
@@ -182,12 +250,32 @@ void declare(Visitor &v, MeshCase &mesh) {
       mesh.box.emplace();
     v.table(box, [&](Visitor &inner) { declare(inner, *mesh.box, mesh.degree); });
   }
+  const Key annulus = {.name = "annulus",
+                       .description =
+                           "The ring between two circles about the origin, in 3D a tube along z "
+                           "from z = 0 on; its sides are named inner, outer and in 3D bottom, "
+                           "top. The corners of the cells lie on circles, edges are straight",
+                       .optional = true};
+  if (v.given(annulus, mesh.annulus.has_value())) {
+    if (!mesh.annulus)
+      mesh.annulus.emplace();
+    v.table(annulus, [&](Visitor &inner) { declare(inner, *mesh.annulus, mesh.degree); });
+  }
   v.check("", [&] {
-    return mesh.box || mesh.file ? "" : "no mesh; give mesh.box = { min, max, cells, cell }";
+    return mesh.box || mesh.annulus || mesh.file
+               ? ""
+               : "no mesh; give mesh.box = { min, max, cells, cell } or mesh.annulus = { inner, "
+                 "outer, cells, cell }";
+  });
+  v.check("annulus", [&] {
+    return mesh.box && mesh.annulus
+               ? "both mesh.box and mesh.annulus are given; a case has one mesh"
+               : "";
   });
   v.check("file", [&] {
-    if (mesh.box && mesh.file)
-      return "both mesh.box and mesh.file are given; a case has one mesh";
+    if ((mesh.box || mesh.annulus) && mesh.file)
+      return mesh.box ? "both mesh.box and mesh.file are given; a case has one mesh"
+                      : "both mesh.annulus and mesh.file are given; a case has one mesh";
     return mesh.file ? "Gmsh files are not available yet; give mesh.box instead" : "";
   });
 }
@@ -206,12 +294,14 @@ void declare(Visitor &v, TimeCase &time) {
         &time.steps);
 }
 
-Key on_sides(const std::string &description, int dimension) {
+Key on_sides(const std::string &description, const MeshCase &mesh) {
   return {.name = "on",
           .description = description,
           .required = true,
-          .choices = side_names(dimension),
-          .choices_words = "left, right, bottom, top, in 3D also front, back"};
+          .choices = side_names(mesh),
+          .choices_words =
+              "left, right, bottom, top, in 3D also front, back, of a box; inner, "
+              "outer, in 3D also bottom, top, of an annulus"};
 }
 
 void declare_mechanics(Visitor &v, BoundaryCase &boundary, int dimension) {
@@ -229,9 +319,9 @@ void declare_mechanics(Visitor &v, BoundaryCase &boundary, int dimension) {
              boundary.traction);
 }
 
-void declare(Visitor &v, BoundaryCase &boundary, int dimension) {
+void declare(Visitor &v, BoundaryCase &boundary, const MeshCase &mesh, int dimension) {
   v.place(boundary.where);
-  v.key(on_sides("boundary, or list of boundaries, that the conditions hold on", dimension),
+  v.key(on_sides("boundary, or list of boundaries, that the conditions hold on", mesh),
         &boundary.on);
   declare_mechanics(v, boundary, dimension);
   v.optional({.name = "potential", .description = "prescribed electric potential", .unit = "V"},
@@ -293,9 +383,9 @@ void declare(Visitor &v, HeatExchangeCase &heat) {
         &heat.foundation_temperature);
 }
 
-void declare(Visitor &v, ContactCase &contact, int dimension) {
+void declare(Visitor &v, ContactCase &contact, const MeshCase &mesh) {
   v.place(contact.where);
-  v.key(on_sides("boundary, or list of boundaries, in contact with the foundation", dimension),
+  v.key(on_sides("boundary, or list of boundaries, in contact with the foundation", mesh),
         &contact.on);
   v.key({.name = "normal",
          .description = "bilateral: contact is never lost, u_nu = 0 (9)",
@@ -429,7 +519,8 @@ void declare(Visitor &v, InitialCase &initial, int dimension) {
       &initial.temperature);
 }
 
-void declare_boundaries(Visitor &v, std::vector<BoundaryCase> &boundaries, int dimension) {
+void declare_boundaries(Visitor &v, std::vector<BoundaryCase> &boundaries, const MeshCase &mesh,
+                        int dimension) {
   const Key key = {.name = "boundary",
                    .description =
                        "Conditions on a part of the boundary. Several entries may name one "
@@ -438,10 +529,10 @@ void declare_boundaries(Visitor &v, std::vector<BoundaryCase> &boundaries, int d
   boundaries.resize(static_cast<std::size_t>(v.count(key, static_cast<int>(boundaries.size()))));
   for (std::size_t i = 0; i < boundaries.size(); ++i)
     v.entry(key, static_cast<int>(i),
-            [&](Visitor &inner) { declare(inner, boundaries[i], dimension); });
+            [&](Visitor &inner) { declare(inner, boundaries[i], mesh, dimension); });
 }
 
-void declare_contact(Visitor &v, std::optional<ContactCase> &contact, int dimension) {
+void declare_contact(Visitor &v, std::optional<ContactCase> &contact, const MeshCase &mesh) {
   const Key key = {.name = "contact",
                    .description =
                        "Contact with a foundation that does not deform. Without this table "
@@ -451,7 +542,7 @@ void declare_contact(Visitor &v, std::optional<ContactCase> &contact, int dimens
     return;
   if (!contact)
     contact.emplace();
-  v.table(key, [&](Visitor &inner) { declare(inner, *contact, dimension); });
+  v.table(key, [&](Visitor &inner) { declare(inner, *contact, mesh); });
 }
 
 }  // namespace
@@ -460,8 +551,7 @@ void declare(Visitor &v, Case &c) {
   v.key({.name = "title", .description = "what the run is called in its results"}, &c.title);
   v.table({.name = "mesh", .description = "The body's shape and its cells", .required = true},
           [&](Visitor &inner) { declare(inner, c.mesh); });
-  if (c.mesh.box)
-    c.dimension = dimension_of(c.mesh.box->cell);
+  c.dimension = dimension_of(c.mesh);
   v.table({.name = "material",
            .description =
                "Constants of (1)-(3) in crystal axes, in the stress-charge form at constant "
@@ -472,8 +562,8 @@ void declare(Visitor &v, Case &c) {
           [&](Visitor &inner) { declare(inner, c.material, c.dimension); });
   v.table({.name = "time", .description = "The simulated time", .required = true},
           [&](Visitor &inner) { declare(inner, c.time); });
-  declare_boundaries(v, c.boundaries, c.dimension);
-  declare_contact(v, c.contact, c.dimension);
+  declare_boundaries(v, c.boundaries, c.mesh, c.dimension);
+  declare_contact(v, c.contact, c.mesh);
   v.table({.name = "load", .description = "Loads on the volume"},
           [&](Visitor &inner) { declare(inner, c.load, c.dimension); });
   v.table({.name = "initial", .description = "The state at the time 0"},

@@ -28,10 +28,10 @@ double available_on_system() {
 }  // namespace
 
 double estimated_memory(const casefile::Case &asked) {
-  if (!asked.mesh.box)
+  if (!asked.mesh.box && !asked.mesh.annulus)
     return 0;
   double nodes = 1;
-  for (const int cells : asked.mesh.box->cells)
+  for (const int cells : asked.mesh.box ? asked.mesh.box->cells : asked.mesh.annulus->cells)
     nodes *= double(asked.mesh.degree) * cells + 1;
   const double unknowns = nodes * (asked.dimension + 2);
   return program + (asked.dimension == 2 ? unknowns * (440 + 115 * std::log2(unknowns))

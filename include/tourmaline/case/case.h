@@ -29,11 +29,23 @@ struct Box {
   std::map<std::string, double> grading = {};
 };
 
+/// [mesh] annulus: the ring between two circles about the origin, in three dimensions a tube along
+/// z that stands on z = 0. `cells` intervals along the radius, around and, in 3D, along z; the
+/// corners of the cells lie on circles, their edges are straight.
+struct Annulus {
+  double inner = 0, outer = 0, height = 0;  ///< [m]; height in 3D only
+  std::vector<int> cells;
+  CellShape cell = CellShape::triangle;
+};
+
 struct MeshCase {
   std::optional<Box> box;
+  std::optional<Annulus> annulus;
   std::optional<std::string> file;  ///< Gmsh; physical groups name the boundaries
   int degree = 1;                   ///< of the finite elements, 1 or 2
 };
+
+int dimension_of(const MeshCase &mesh);
 
 /// [material] Constants in crystal axes, stress-charge form at constant strain. What is not given
 /// is taken from the library's entry; without an entry it must be given.
