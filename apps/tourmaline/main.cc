@@ -12,6 +12,7 @@
 #include "tourmaline/case/resolved.h"
 #include "tourmaline/error.h"
 #include "tourmaline/material/library.h"
+#include "tourmaline/mesh/gmsh.h"
 #include "tourmaline/solve/simulation.h"
 
 namespace {
@@ -27,7 +28,8 @@ struct Asked {
 };
 
 void run(const Asked &asked) {
-  const auto read = tourmaline::casefile::read_file(asked.file, asked.overrides);
+  const auto read = tourmaline::casefile::read_file(asked.file, asked.overrides,
+                                                    tourmaline::mesh::read_mesh_file);
   const auto directory = asked.directory.empty()
                              ? std::filesystem::path("results") / asked.file.stem()
                              : asked.directory;
@@ -35,7 +37,8 @@ void run(const Asked &asked) {
 }
 
 void check(const Asked &asked) {
-  const auto read = tourmaline::casefile::read_file(asked.file, asked.overrides);
+  const auto read = tourmaline::casefile::read_file(asked.file, asked.overrides,
+                                                    tourmaline::mesh::read_mesh_file);
   tourmaline::solve::check(read);
   std::cout << tourmaline::casefile::resolved(read);
 }

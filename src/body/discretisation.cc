@@ -178,7 +178,7 @@ std::set<dealii::types::boundary_id> ids_of(const mesh::Mesh<dim> &mesh,
     const auto found = mesh.boundaries.find(name);
     if (found == mesh.boundaries.end())
       throw CaseError("the mesh has no boundary named \"" + name + "\"");
-    ids.insert(found->second);
+    ids.insert(found->second.begin(), found->second.end());
   }
   return ids;
 }

@@ -4,6 +4,8 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <map>
+#include <set>
 
 #include "tourmaline/case/sides.h"
 #include "tourmaline/error.h"
@@ -109,29 +111,83 @@ std::vector<std::array<double, 3>> corners(const Box &box, const Side &side) {
   return all;
 }
 
-// A rigid motion is affine: it vanishes on a side when it does at the side's corners.
-void hold(const Box &box, const std::string &name, int component, std::vector<Support> &supports) {
-  std::array<double, 3> direction{};
-  direction[component] = 1;
-  for (const Side &side : sides(static_cast<int>(box.min.size())))
-    if (side.name == name)
-      for (const std::array<double, 3> &point : corners(box, side))
-        supports.push_back({point, direction});
+// Vertices of the facets with one of the names, and the means of these facets' normals (as long as
+// the facets are large), which need not be outward here.
+std::map<std::uint32_t, Vector3d> vertices_on(const MeshFile &mesh,
+                                              const std::vector<std::string> &names) {
+  std::set<int> sets;
+  for (const std::string &name : names)
+    for (const int set : mesh.boundaries.sets_with(name))
+      sets.insert(set);
+  std::map<std::uint32_t, Vector3d> normals;
+  const std::size_t each = mesh.vertices_per_facet();
+  for (std::size_t facet = 0; facet < mesh.n_facets(); ++facet) {
+    if (!sets.contains(mesh.boundaries.set_of[facet]))
+      continue;
+    const std::uint32_t *at = &mesh.facets[facet * each];
+    const auto point = [&](std::size_t i) {
+      return Eigen::Map<const Vector3d>(mesh.points[at[i]].data());
+    };
+    const Vector3d along = point(1) - point(0);
+    const Vector3d normal = mesh.dimension == 2 ? Vector3d(along.y(), -along.x(), 0)
+                                                : Vector3d(along.cross(point(2) - point(0)));
+    for (std::size_t i = 0; i < each; ++i) {
+      Vector3d &mean = normals.try_emplace(at[i], Vector3d::Zero()).first->second;
+      mean += mean.dot(normal) < 0 ? Vector3d(-normal) : normal;
+    }
+  }
+  return normals;
 }
 
-std::vector<Support> supports_of(const Case &asked) {
-  std::vector<Support> supports;
+// Points at which a rigid motion must vanish to vanish on a boundary: a rigid motion is affine.
+std::vector<std::array<double, 3>> points_on(const Case &asked, const std::string &name) {
+  std::vector<std::array<double, 3>> points;
+  if (asked.mesh.content)
+    for (const auto &[vertex, normal] : vertices_on(*asked.mesh.content, {name}))
+      points.push_back(asked.mesh.content->points[vertex]);
+  else
+    for (const Side &side : sides(asked.dimension))
+      if (side.name == name)
+        points = corners(*asked.mesh.box, side);
+  return points;
+}
+
+std::array<double, 3> unit_vector(int axis) {
+  std::array<double, 3> direction{};
+  direction[static_cast<std::size_t>(axis)] = 1;
+  return direction;
+}
+
+void hold_by_conditions(const Case &asked, std::vector<Support> &supports) {
   for (const BoundaryCase &boundary : asked.boundaries)
     if (boundary.displacement)
       for (const std::string &name : boundary.on)
         for (int i = 0; i < asked.dimension; ++i)
-          if ((*boundary.displacement)[i])
-            hold(*asked.mesh.box, name, i, supports);
+          if ((*boundary.displacement)[static_cast<std::size_t>(i)])
+            for (const std::array<double, 3> &point : points_on(asked, name))
+              supports.push_back({point, unit_vector(i)});
+}
+
+void hold_by_contact(const Case &asked, std::vector<Support> &supports) {
+  if (asked.mesh.content) {
+    for (const auto &[vertex, normal] : vertices_on(*asked.mesh.content, asked.contact->on)) {
+      const Vector3d n = normal.normalized();
+      supports.push_back({asked.mesh.content->points[vertex], {n.x(), n.y(), n.z()}});
+    }
+    return;
+  }
+  for (const Side &side : sides(asked.dimension))
+    if (std::find(asked.contact->on.begin(), asked.contact->on.end(), side.name) !=
+        asked.contact->on.end())
+      for (const std::array<double, 3> &point : corners(*asked.mesh.box, side))
+        supports.push_back({point, unit_vector(side.axis)});
+}
+
+std::vector<Support> supports_of(const Case &asked) {
+  std::vector<Support> supports;
+  hold_by_conditions(asked, supports);
   if (asked.contact && asked.contact->normal == "bilateral")
-    for (const Side &side : sides(asked.dimension))
-      if (std::find(asked.contact->on.begin(), asked.contact->on.end(), side.name) !=
-          asked.contact->on.end())
-        hold(*asked.mesh.box, side.name, side.axis, supports);
+    hold_by_contact(asked, supports);
   return supports;
 }
 
@@ -159,8 +215,6 @@ void check_holding(const Case &asked) {
     throw CaseError(asked.source +
                     " [[boundary]]: the electric potential floats, as no boundary "
                     "prescribes it; give `potential` on at least one");
-  if (!asked.mesh.box)
-    return;
   const std::vector<std::string> free = free_motions(asked.dimension, supports_of(asked));
   if (!free.empty())
     throw CaseError(fmt::format(

@@ -78,7 +78,8 @@ std::string found_elsewhere(const std::string &name) {
 /// Reads one table of the case file.
 class Reader : public Visitor {
  public:
-  Reader(const toml::table &table, std::string path) : table_(table), path_(std::move(path)) {}
+  Reader(const toml::table &table, std::string path, const MeshFileReader &read_mesh)
+      : table_(table), path_(std::move(path)), read_mesh_(read_mesh) {}
 
   /// Checks that every key of the table is declared, then reads those that are.
   void read_all(const Body &body) {
@@ -118,7 +119,7 @@ class Reader : public Visitor {
     const toml::table *inner = node->as_table();
     if (!inner)
       fail(item(*node, key), "must be a table: [" + path_to(key.name) + "]");
-    Reader(*inner, path_to(key.name)).read_all(body);
+    Reader(*inner, path_to(key.name), read_mesh_).read_all(body);
   }
 
   int count(const Key &key, int) override {
@@ -138,7 +139,8 @@ class Reader : public Visitor {
   void entry(const Key &key, int index, const Body &body) override {
     const toml::node *node =
         table_.get_as<toml::array>(key.name)->get(static_cast<std::size_t>(index));
-    Reader(*node->as_table(), fmt::format("{}[{}]", path_to(key.name), index)).read_all(body);
+    Reader(*node->as_table(), fmt::format("{}[{}]", path_to(key.name), index), read_mesh_)
+        .read_all(body);
   }
 
   void check(const std::string &name, const Complaint &complaint) override {
@@ -149,6 +151,21 @@ class Reader : public Visitor {
     if (!node)
       throw CaseError(where(table_.source(), name) + ": " + text);
     fail(item(*node, {.name = name, .description = ""}), text);
+  }
+
+  void load(MeshCase &mesh) override {
+    if (!mesh.file)
+      return;
+    const Item file = item(*table_.get("file"), {.name = "file", .description = ""});
+    if (!read_mesh_)
+      fail(file, "mesh files cannot be read here; give mesh.box instead");
+    const std::string *source = table_.source().path.get();
+    mesh.file = in_folder_of(source ? *source : "", *mesh.file);
+    try {
+      mesh.content = read_mesh_(mesh);
+    } catch (const CaseError &error) {
+      fail(file, error.what() + (" (" + *mesh.file + ")"));
+    }
   }
 
   void place(std::string &where_) override { where_ = where(table_.source(), ""); }
@@ -194,8 +211,13 @@ class Reader : public Visitor {
                     (meant.empty() ? found_elsewhere(name) : meant));
   }
 
+  static std::string in_folder_of(const std::filesystem::path &of, const std::string &file) {
+    return std::filesystem::absolute(of.parent_path() / file).lexically_normal().string();
+  }
+
   const toml::table &table_;
   std::string path_;  ///< of the table, with dots
+  const MeshFileReader &read_mesh_;
 };
 
 toml::table parsed(const std::string &text, const std::string &name) {
@@ -240,13 +262,13 @@ std::string text_of_file(const std::filesystem::path &file) {
 }  // namespace
 
 Case read_text(const std::string &text, const std::string &name,
-               const std::vector<std::string> &overrides) {
+               const std::vector<std::string> &overrides, const MeshFileReader &read_mesh) {
   toml::table root = parsed(text, name);
   for (const std::string &assignment : overrides)
     apply_override(root, assignment);
   Case asked;
   asked.source = name;
-  Reader(root, "").read_all([&](Visitor &visitor) { declare(visitor, asked); });
+  Reader(root, "", read_mesh).read_all([&](Visitor &visitor) { declare(visitor, asked); });
   if (asked.output.every == 0)
     asked.output.every = steps_between_files(asked.time.steps);
   check_conditions(asked);
@@ -254,8 +276,9 @@ Case read_text(const std::string &text, const std::string &name,
   return asked;
 }
 
-Case read_file(const std::filesystem::path &file, const std::vector<std::string> &overrides) {
-  return read_text(text_of_file(file), file.string(), overrides);
+Case read_file(const std::filesystem::path &file, const std::vector<std::string> &overrides,
+               const MeshFileReader &read_mesh) {
+  return read_text(text_of_file(file), file.string(), overrides, read_mesh);
 }
 
 }  // namespace tourmaline::casefile

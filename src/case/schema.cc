@@ -39,7 +39,7 @@ Range from_to(double low, double high) {
 Length one_each_axis(int dimension) {
   return {{dimension},
           "one for each axis",
-          fmt::format("mesh.box.cell makes the case {}-dimensional", dimension)};
+          fmt::format("the mesh makes the case {}-dimensional", dimension)};
 }
 
 int dimension_of(CellShape shape) {
@@ -161,12 +161,65 @@ void declare(Visitor &v, Box &box, int degree) {
   v.check("grading", [&] { return grading_complaint(box); });
 }
 
-void declare(Visitor &v, MeshCase &mesh) {
+// Where the file has no name, nobody could give a condition.
+std::string unnamed_complaint(const MeshCase &mesh) {
+  if (!mesh.content || mesh.unnamed != "error")
+    return "";
+  const MeshFile &file = *mesh.content;
+  const auto unnamed = std::count(file.boundaries.set_of.begin(), file.boundaries.set_of.end(), 0);
+  if (unnamed == 0)
+    return "";
+  const auto first = std::find(file.boundaries.set_of.begin(), file.boundaries.set_of.end(), 0) -
+                     file.boundaries.set_of.begin();
+  const auto &p = file.points[file.facets[first * file.vertices_per_facet()]];
+  return fmt::format(
+      "{} of the {} facets of the boundary have no name, one of them at ({:g}, {:g}, {:g}), so "
+      "that "
+      "no condition can be given there. Put them into a physical group, or say mesh.unnamed = "
+      "\"natural\": no traction, no charge and no heat flow there",
+      unnamed, std::count(file.inside.begin(), file.inside.end(), false), p[0], p[1], p[2]);
+}
+
+void declare_file(Visitor &v, MeshCase &mesh) {
+  const std::string used_with = "mesh.file";
   v.optional(
       {.name = "file",
-       .description = "Gmsh file whose physical groups name the boundaries; not available in "
-                      "this version"},
+       .description =
+           "mesh or geometry, found from the folder of the case. Gmsh's .msh (2.2 or 4.1, text or "
+           "binary; triangles, quadrilaterals, tetrahedra or hexahedra of order 1; a plane body "
+           "lies in z = 0): physical groups name boundaries and regions, a group without a name "
+           "goes by its number. Gmsh's .geo, and .step, .iges, .brep from CAD, are meshed with "
+           "simplices; faces and solids from CAD go by their labels or by \"surface 1\", "
+           "\"volume 1\", ... (`tourmaline check` lists them with their places)"},
       mesh.file);
+  const bool file = mesh.file.has_value();
+  v.optional({.name = "size",
+              .description = "size of the largest cells of a geometry; required for .step, .iges "
+                             "and .brep",
+              .unit = "m",
+              .range = positive(),
+              .used = file,
+              .used_with = used_with},
+             mesh.size);
+  v.key({.name = "scale",
+         .description = "the unit of length of the file, 1e-3 when it is in millimetres; .step and "
+                        ".iges know theirs and come in metres",
+         .unit = "m",
+         .range = positive(),
+         .used = file,
+         .used_with = used_with},
+        &mesh.scale);
+  v.key({.name = "unnamed",
+         .description = "what facets of the boundary without a name are; error: a mistake; "
+                        "natural: free of traction, charge and heat flow",
+         .choices = {"error", "natural"},
+         .used = file,
+         .used_with = used_with},
+        &mesh.unnamed);
+}
+
+void declare(Visitor &v, MeshCase &mesh) {
+  declare_file(v, mesh);
   v.key({.name = "degree",
          .description = "of the finite elements for all fields",
          .range = from_to(1, 2)},
@@ -183,13 +236,16 @@ void declare(Visitor &v, MeshCase &mesh) {
     v.table(box, [&](Visitor &inner) { declare(inner, *mesh.box, mesh.degree); });
   }
   v.check("", [&] {
-    return mesh.box || mesh.file ? "" : "no mesh; give mesh.box = { min, max, cells, cell }";
+    return mesh.box || mesh.file
+               ? ""
+               : "no mesh; give mesh.box = { min, max, cells, cell } or mesh.file";
   });
   v.check("file", [&] {
-    if (mesh.box && mesh.file)
-      return "both mesh.box and mesh.file are given; a case has one mesh";
-    return mesh.file ? "Gmsh files are not available yet; give mesh.box instead" : "";
+    return mesh.box && mesh.file ? "both mesh.box and mesh.file are given; a case has one mesh"
+                                 : "";
   });
+  v.load(mesh);
+  v.check("file", [&] { return unnamed_complaint(mesh); });
 }
 
 void declare(Visitor &v, TimeCase &time) {
@@ -206,12 +262,23 @@ void declare(Visitor &v, TimeCase &time) {
         &time.steps);
 }
 
-Key on_sides(const std::string &description, int dimension) {
-  return {.name = "on",
-          .description = description,
-          .required = true,
-          .choices = side_names(dimension),
-          .choices_words = "left, right, bottom, top, in 3D also front, back"};
+// What a boundary condition is checked against.
+struct Body {
+  const MeshCase &mesh;
+  int dimension;
+};
+
+Key on_boundaries(const std::string &description, const Body &body) {
+  Key key = {.name = "on",
+             .description = description,
+             .required = true,
+             .choices = boundary_names(body.mesh, body.dimension),
+             .choices_words =
+                 "left, right, bottom, top, in 3D also front, back; the names of a "
+                 "mesh file"};
+  if (body.mesh.content)
+    key.foreseen = body.mesh.content->inner_names();
+  return key;
 }
 
 void declare_mechanics(Visitor &v, BoundaryCase &boundary, int dimension) {
@@ -229,11 +296,11 @@ void declare_mechanics(Visitor &v, BoundaryCase &boundary, int dimension) {
              boundary.traction);
 }
 
-void declare(Visitor &v, BoundaryCase &boundary, int dimension) {
+void declare(Visitor &v, BoundaryCase &boundary, const Body &body) {
   v.place(boundary.where);
-  v.key(on_sides("boundary, or list of boundaries, that the conditions hold on", dimension),
+  v.key(on_boundaries("boundary, or list of boundaries, that the conditions hold on", body),
         &boundary.on);
-  declare_mechanics(v, boundary, dimension);
+  declare_mechanics(v, boundary, body.dimension);
   v.optional({.name = "potential", .description = "prescribed electric potential", .unit = "V"},
              boundary.potential);
   v.optional(
@@ -293,9 +360,9 @@ void declare(Visitor &v, HeatExchangeCase &heat) {
         &heat.foundation_temperature);
 }
 
-void declare(Visitor &v, ContactCase &contact, int dimension) {
+void declare(Visitor &v, ContactCase &contact, const Body &body) {
   v.place(contact.where);
-  v.key(on_sides("boundary, or list of boundaries, in contact with the foundation", dimension),
+  v.key(on_boundaries("boundary, or list of boundaries, in contact with the foundation", body),
         &contact.on);
   v.key({.name = "normal",
          .description = "bilateral: contact is never lost, u_nu = 0 (9)",
@@ -411,7 +478,7 @@ void declare(Visitor &v, InitialCase &initial, int dimension) {
       &initial.temperature);
 }
 
-void declare_boundaries(Visitor &v, std::vector<BoundaryCase> &boundaries, int dimension) {
+void declare_boundaries(Visitor &v, std::vector<BoundaryCase> &boundaries, const Body &body) {
   const Key key = {.name = "boundary",
                    .description =
                        "Conditions on a part of the boundary. Several entries may name one "
@@ -419,11 +486,10 @@ void declare_boundaries(Visitor &v, std::vector<BoundaryCase> &boundaries, int d
                        "nothing is said, there is no traction, charge or heat flow"};
   boundaries.resize(static_cast<std::size_t>(v.count(key, static_cast<int>(boundaries.size()))));
   for (std::size_t i = 0; i < boundaries.size(); ++i)
-    v.entry(key, static_cast<int>(i),
-            [&](Visitor &inner) { declare(inner, boundaries[i], dimension); });
+    v.entry(key, static_cast<int>(i), [&](Visitor &inner) { declare(inner, boundaries[i], body); });
 }
 
-void declare_contact(Visitor &v, std::optional<ContactCase> &contact, int dimension) {
+void declare_contact(Visitor &v, std::optional<ContactCase> &contact, const Body &body) {
   const Key key = {.name = "contact",
                    .description =
                        "Contact with a foundation that does not deform. Without this table "
@@ -433,7 +499,7 @@ void declare_contact(Visitor &v, std::optional<ContactCase> &contact, int dimens
     return;
   if (!contact)
     contact.emplace();
-  v.table(key, [&](Visitor &inner) { declare(inner, *contact, dimension); });
+  v.table(key, [&](Visitor &inner) { declare(inner, *contact, body); });
 }
 
 }  // namespace
@@ -444,6 +510,9 @@ void declare(Visitor &v, Case &c) {
           [&](Visitor &inner) { declare(inner, c.mesh); });
   if (c.mesh.box)
     c.dimension = dimension_of(c.mesh.box->cell);
+  if (c.mesh.content)
+    c.dimension = c.mesh.content->dimension;
+  const Body body{c.mesh, c.dimension};
   v.table({.name = "material",
            .description =
                "Constants of (1)-(3) in crystal axes, in the stress-charge form at constant "
@@ -454,8 +523,8 @@ void declare(Visitor &v, Case &c) {
           [&](Visitor &inner) { declare(inner, c.material, c.dimension); });
   v.table({.name = "time", .description = "The simulated time", .required = true},
           [&](Visitor &inner) { declare(inner, c.time); });
-  declare_boundaries(v, c.boundaries, c.dimension);
-  declare_contact(v, c.contact, c.dimension);
+  declare_boundaries(v, c.boundaries, body);
+  declare_contact(v, c.contact, body);
   v.table({.name = "load", .description = "Loads on the volume"},
           [&](Visitor &inner) { declare(inner, c.load, c.dimension); });
   v.table({.name = "initial", .description = "The state at the time 0"},

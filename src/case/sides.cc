@@ -18,4 +18,8 @@ std::vector<std::string> side_names(int dimension) {
   return names;
 }
 
+std::vector<std::string> boundary_names(const MeshCase &mesh, int dimension) {
+  return mesh.content ? mesh.content->boundary_names() : side_names(dimension);
+}
+
 }  // namespace tourmaline::casefile

@@ -25,14 +25,23 @@ double available_on_system() {
   return std::numeric_limits<double>::infinity();
 }
 
+double nodes_of_box(const casefile::MeshCase &mesh) {
+  double nodes = 1;
+  for (const int cells : mesh.box->cells)
+    nodes *= double(mesh.degree) * cells + 1;
+  return nodes;
+}
+
+// Degree 2 puts nodes where a mesh refined once has its vertices: 2^dim times as many.
+double nodes_of_file(const casefile::MeshCase &mesh) {
+  return static_cast<double>(mesh.content->points.size()) *
+         std::pow(mesh.degree, mesh.content->dimension);
+}
+
 }  // namespace
 
 double estimated_memory(const casefile::Case &asked) {
-  if (!asked.mesh.box)
-    return 0;
-  double nodes = 1;
-  for (const int cells : asked.mesh.box->cells)
-    nodes *= double(asked.mesh.degree) * cells + 1;
+  const double nodes = asked.mesh.box ? nodes_of_box(asked.mesh) : nodes_of_file(asked.mesh);
   const double unknowns = nodes * (asked.dimension + 2);
   return program + (asked.dimension == 2 ? unknowns * (440 + 115 * std::log2(unknowns))
                                          : 310 * std::pow(unknowns, 4. / 3));

@@ -173,8 +173,6 @@ void check(const casefile::Case &asked) {
   const material::Constants constants = body_material(asked);
   if (asked.dimension == 2)
     material::restricted<2>(constants);
-  if (!asked.mesh.box)
-    throw CaseError(asked.source + ": [mesh] file: Gmsh files are not available yet; use mesh.box");
   require_memory(asked);
 }
 

@@ -167,7 +167,7 @@ const Mistake missing[] = {
     {"cells = [64, 64], ", "", {"[mesh.box] cells: missing"}},
     {"box =", "#", {"case.toml:3:1 [mesh]: no mesh"}},
     {"box =", "file = \"a.msh\"\nbox =", {"both mesh.box and mesh.file"}},
-    {"box =", "file = \"a.msh\" #", {"[mesh] file = \"a.msh\"", "not available yet"}},
+    {"box =", "file = \"a.msh\" #", {"[mesh] file = \"a.msh\"", "give mesh.box"}},
 };
 INSTANTIATE_TEST_SUITE_P(Missing, MistakeInAFile, testing::ValuesIn(missing));
 

@@ -6,12 +6,11 @@
 #include <vector>
 
 #include "tourmaline/case/formula.h"
+#include "tourmaline/case/mesh_file.h"
 
 /// What the user asked for: plain structs, one for each table of the case file. They hold values
 /// that have been read and checked; defaults stand here and nowhere else. All values are SI.
 namespace tourmaline::casefile {
-
-enum class CellShape { triangle, quadrilateral, tetrahedron, hexahedron };
 
 int dimension_of(CellShape shape);
 const char *name_of(CellShape shape);
@@ -31,8 +30,12 @@ struct Box {
 
 struct MeshCase {
   std::optional<Box> box;
-  std::optional<std::string> file;  ///< Gmsh; physical groups name the boundaries
-  int degree = 1;                   ///< of the finite elements, 1 or 2
+  std::optional<std::string> file;          ///< Gmsh's or CAD's, absolute once it is read
+  std::optional<double> size;               ///< of the largest cells of a geometry [m]
+  double scale = 1;                         ///< the file's unit of length [m]
+  std::string unnamed = "error";            ///< error | natural: boundary facets without a name
+  int degree = 1;                           ///< of the finite elements, 1 or 2
+  std::shared_ptr<const MeshFile> content;  ///< of `file`
 };
 
 /// [material] Constants in crystal axes, stress-charge form at constant strain. What is not given

@@ -85,6 +85,8 @@ class Visitor {
   /// A condition on several keys: `complaint` returns what is wrong with `name` (empty: the table),
   /// or nothing. Only called once all keys declared before have been read.
   virtual void check(const std::string & /*name*/, const Complaint & /*complaint*/) {}
+  /// The mesh that a file holds, so that what follows can be checked against its names.
+  virtual void load(MeshCase & /*mesh*/) {}
   /// Where this table stands, for later error texts.
   virtual void place(std::string & /*where*/) {}
 

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "tourmaline/case/case.h"
+
 namespace tourmaline::casefile {
 
 /// A side of a box: the one where the coordinate along `axis` (0, 1, 2) is least or greatest.
@@ -17,5 +19,8 @@ struct Side {
 const std::vector<Side> &sides(int dimension);
 
 std::vector<std::string> side_names(int dimension);
+
+/// Names that boundary conditions and contact may use: of a box's sides, or those in the mesh file.
+std::vector<std::string> boundary_names(const MeshCase &mesh, int dimension);
 
 }  // namespace tourmaline::casefile

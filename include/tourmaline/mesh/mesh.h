@@ -4,22 +4,29 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 
 #include "tourmaline/case/case.h"
 
 namespace tourmaline::mesh {
 
-/// Cells of one shape and the boundaries by their names.
+/// Cells of one shape and the boundaries by their names. A facet has one id, but may have several
+/// names: a name stands for a set of ids.
 template <int dim>
 struct Mesh {
   std::unique_ptr<dealii::Triangulation<dim>> cells;
-  std::map<std::string, dealii::types::boundary_id> boundaries;
+  std::map<std::string, std::set<dealii::types::boundary_id>> boundaries;
   bool simplices = false;
 };
 
-/// The mesh that a case asks for. Throws CaseError when there is none of that kind.
+/// The mesh that a case asks for: a box, or what was read from its mesh file.
 template <int dim>
 Mesh<dim> build(const casefile::MeshCase &asked);
+
+template <int dim>
+Mesh<dim> box(const casefile::Box &asked);
+template <int dim>
+Mesh<dim> imported(const casefile::MeshFile &file);
 
 }  // namespace tourmaline::mesh
