@@ -13,6 +13,7 @@
 #include "tourmaline/error.h"
 #include "tourmaline/material/library.h"
 #include "tourmaline/mesh/gmsh.h"
+#include "tourmaline/parallel/ranks.h"
 #include "tourmaline/solve/simulation.h"
 
 namespace {
@@ -142,8 +143,10 @@ std::string one_paragraph(const std::string &text) {
   return joined;
 }
 
+// All ranks end with the same error; one tells it.
 int report(ExitStatus status, const std::string &text) {
-  std::cerr << "tourmaline: " << one_paragraph(text) << '\n';
+  if (tourmaline::parallel::speaks())
+    std::cerr << "tourmaline: " << one_paragraph(text) << '\n';
   return status;
 }
 

@@ -7,31 +7,40 @@
 #include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_fe.h>
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
 
 #include <algorithm>
+#include <map>
+#include <numeric>
 #include <set>
 
 #include "tourmaline/error.h"
 #include "tourmaline/output/place.h"
+#include "tourmaline/parallel/ranks.h"
 
 namespace tourmaline::body {
 
 template <int dim>
 struct Discretisation<dim>::Parts {
+  using Dofs = std::vector<dealii::types::global_dof_index>;
+
   Parts(mesh::Mesh<dim> given, int degree);
 
+  void number_nodes();
+  void list_cells();
+  std::span<const Node> nodes_of(std::size_t cell) const;
   template <class Values>
-  void copy(const Values &from, const std::vector<dealii::types::global_dof_index> &dofs,
-            Quadrature<dim> &to) const;
+  void copy(const Values &from, std::span<const Node> cell_nodes, Quadrature<dim> &to) const;
 
   mesh::Mesh<dim> mesh;
   std::unique_ptr<dealii::FiniteElement<dim>> linear, element;
   std::unique_ptr<dealii::Mapping<dim>> mapping;
   dealii::Quadrature<dim> cell_rule;
   dealii::Quadrature<dim - 1> facet_rule;
-  dealii::DoFHandler<dim> nodes;
-  std::vector<output::Vector> points;
+  dealii::DoFHandler<dim> dofs;
+  std::vector<Node> node_of;           // by deal.II's global number, which depends on the ranks
+  std::vector<output::Vector> points;  // by node
+  std::vector<typename dealii::DoFHandler<dim>::active_cell_iterator> cells;  // of this rank
+  std::vector<Node> connectivity;                                             // cell by cell
 };
 
 namespace {
@@ -76,29 +85,60 @@ Discretisation<dim>::Parts::Parts(mesh::Mesh<dim> given, int degree)
       mapping(std::make_unique<dealii::MappingFE<dim>>(*linear)),
       cell_rule(gauss<dim>(mesh.simplices, degree + 1)),
       facet_rule(gauss<dim - 1>(mesh.simplices, degree + 1)),
-      nodes(*mesh.cells) {
-  nodes.distribute_dofs(*element);
-  std::vector<dealii::Point<dim>> places(nodes.n_dofs());
-  dealii::DoFTools::map_dofs_to_support_points(*mapping, nodes, places);
-  std::vector<output::Vector> unsorted;
-  std::transform(places.begin(), places.end(), std::back_inserter(unsorted), in_space<dim>);
-  const std::vector<std::size_t> order = output::sorted_by_place(unsorted);
-  std::vector<dealii::types::global_dof_index> number(order.size());
-  for (std::size_t place = 0; place < order.size(); ++place) {
-    number[order[place]] = static_cast<dealii::types::global_dof_index>(place);
-    points.push_back(unsorted[order[place]]);
+      dofs(*mesh.cells) {
+  dofs.distribute_dofs(*element);
+  number_nodes();
+  list_cells();
+}
+
+// Every rank owns a range of deal.II's numbers; one behind the other, their places are those of all
+// nodes.
+template <int dim>
+void Discretisation<dim>::Parts::number_nodes() {
+  std::map<dealii::types::global_dof_index, dealii::Point<dim>> places;
+  dealii::DoFTools::map_dofs_to_support_points(*mapping, dofs, places);
+  std::vector<double> owned;
+  for (const auto dof : dofs.locally_owned_dofs())
+    for (int axis = 0; axis < dim; ++axis)
+      owned.push_back(places.at(dof)[axis]);
+  const std::vector<double> coordinates = parallel::joined(owned);
+  std::vector<output::Vector> unsorted(dofs.n_dofs(), output::Vector{});
+  for (std::size_t i = 0; i < coordinates.size(); ++i)
+    unsorted[i / dim][i % dim] = coordinates[i];
+  node_of.resize(unsorted.size());
+  points.reserve(unsorted.size());
+  for (const std::size_t dof : output::sorted_by_place(unsorted)) {
+    node_of[dof] = static_cast<Node>(points.size());
+    points.push_back(unsorted[dof]);
   }
-  nodes.renumber_dofs(number);
+}
+
+template <int dim>
+void Discretisation<dim>::Parts::list_cells() {
+  Dofs of_cell(element->n_dofs_per_cell());
+  for (const auto &cell : dofs.active_cell_iterators()) {
+    if (!cell->is_locally_owned())
+      continue;
+    cell->get_dof_indices(of_cell);
+    cells.push_back(cell);
+    for (const auto dof : of_cell)
+      connectivity.push_back(node_of[dof]);
+  }
+}
+
+template <int dim>
+std::span<const Node> Discretisation<dim>::Parts::nodes_of(std::size_t cell) const {
+  const std::size_t n = element->n_dofs_per_cell();
+  return std::span(connectivity).subspan(cell * n, n);
 }
 
 template <int dim>
 template <class Values>
-void Discretisation<dim>::Parts::copy(const Values &from,
-                                      const std::vector<dealii::types::global_dof_index> &dofs,
+void Discretisation<dim>::Parts::copy(const Values &from, std::span<const Node> cell_nodes,
                                       Quadrature<dim> &to) const {
   const unsigned int n_points = from.n_quadrature_points;
-  const auto n_shapes = static_cast<unsigned int>(dofs.size());
-  to.nodes.assign(dofs.begin(), dofs.end());
+  const auto n_shapes = static_cast<unsigned int>(cell_nodes.size());
+  to.nodes.assign(cell_nodes.begin(), cell_nodes.end());
   to.jxw = from.get_JxW_values();
   to.points.resize(n_points);
   to.values.resize(n_points * n_shapes);
@@ -119,12 +159,12 @@ Discretisation<dim>::Discretisation(Discretisation &&) noexcept = default;
 
 template <int dim>
 std::size_t Discretisation<dim>::n_nodes() const {
-  return parts_->nodes.n_dofs();
+  return parts_->points.size();
 }
 
 template <int dim>
 std::size_t Discretisation<dim>::n_cells() const {
-  return parts_->mesh.cells->n_active_cells();
+  return parts_->mesh.cells->n_global_active_cells();
 }
 
 template <int dim>
@@ -132,17 +172,29 @@ const std::vector<output::Vector> &Discretisation<dim>::points() const {
   return parts_->points;
 }
 
+// Each node's row collects the nodes of its cells, with repetitions, and is then sorted.
 template <int dim>
 NodeGraph Discretisation<dim>::graph() const {
-  dealii::DynamicSparsityPattern pattern(parts_->nodes.n_dofs());
-  dealii::DoFTools::make_sparsity_pattern(parts_->nodes, pattern);
+  const std::vector<Node> &nodes = parts_->connectivity;
+  const std::size_t n_per_cell = parts_->element->n_dofs_per_cell();
+  std::vector<std::size_t> start(n_nodes() + 1, 0);
+  for (const Node node : nodes)
+    start[node + std::size_t{1}] += n_per_cell;
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  std::vector<Node> neighbours(start.back());
+  std::vector<std::size_t> end(start.begin(), start.end() - 1);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto cell = parts_->nodes_of(i / n_per_cell);
+    std::copy(cell.begin(), cell.end(), &neighbours[end[nodes[i]]]);
+    end[nodes[i]] += n_per_cell;
+  }
   NodeGraph graph;
   graph.row.reserve(n_nodes() + 1);
-  graph.column.reserve(pattern.n_nonzero_elements());
   graph.row.push_back(0);
-  for (Node i = 0; i < n_nodes(); ++i) {
-    for (unsigned int k = 0; k < pattern.row_length(i); ++k)
-      graph.column.push_back(static_cast<Node>(pattern.column_number(i, k)));
+  for (std::size_t i = 0; i < n_nodes(); ++i) {
+    const auto begin = neighbours.begin() + start[i], all = neighbours.begin() + end[i];
+    std::sort(begin, all);
+    graph.column.insert(graph.column.end(), begin, std::unique(begin, all));
     graph.row.push_back(graph.column.size());
   }
   return graph;
@@ -154,16 +206,15 @@ void Discretisation<dim>::for_each_cell(
   dealii::FEValues<dim> shape(*parts_->mapping, *parts_->element, parts_->cell_rule,
                               dealii::update_values | dealii::update_gradients |
                                   dealii::update_JxW_values | dealii::update_quadrature_points);
-  std::vector<dealii::types::global_dof_index> dofs(parts_->element->n_dofs_per_cell());
+  const unsigned int n_shapes = parts_->element->n_dofs_per_cell();
   Quadrature<dim> plain_values;
-  plain_values.gradients.resize(shape.n_quadrature_points * dofs.size());
-  for (const auto &cell : parts_->nodes.active_cell_iterators()) {
-    shape.reinit(cell);
-    cell->get_dof_indices(dofs);
-    parts_->copy(shape, dofs, plain_values);
+  plain_values.gradients.resize(shape.n_quadrature_points * n_shapes);
+  for (std::size_t i = 0; i < parts_->cells.size(); ++i) {
+    shape.reinit(parts_->cells[i]);
+    parts_->copy(shape, parts_->nodes_of(i), plain_values);
     for (unsigned int q = 0; q < shape.n_quadrature_points; ++q)
-      for (unsigned int a = 0; a < dofs.size(); ++a)
-        plain_values.gradients[q * dofs.size() + a] = plain<dim>(shape.shape_grad(a, q));
+      for (unsigned int a = 0; a < n_shapes; ++a)
+        plain_values.gradients[q * n_shapes + a] = plain<dim>(shape.shape_grad(a, q));
     visit(plain_values);
   }
 }
@@ -194,27 +245,41 @@ void Discretisation<dim>::for_each_facet(
                                   dealii::update_values | dealii::update_JxW_values |
                                       dealii::update_quadrature_points |
                                       dealii::update_normal_vectors);
-  std::vector<dealii::types::global_dof_index> dofs(parts_->element->n_dofs_per_cell());
   Quadrature<dim> plain_values;
-  for (const auto &cell : parts_->nodes.active_cell_iterators())
+  for (std::size_t i = 0; i < parts_->cells.size(); ++i) {
+    const auto &cell = parts_->cells[i];
     for (const unsigned int f : cell->face_indices()) {
       if (!cell->face(f)->at_boundary() || !ids.count(cell->face(f)->boundary_id()))
         continue;
       shape.reinit(cell, f);
-      cell->get_dof_indices(dofs);
-      parts_->copy(shape, dofs, plain_values);
+      parts_->copy(shape, parts_->nodes_of(i), plain_values);
       plain_values.normals.clear();
       for (unsigned int q = 0; q < shape.n_quadrature_points; ++q)
         plain_values.normals.push_back(plain<dim>(shape.normal_vector(q)));
       visit(plain_values);
     }
+  }
 }
 
+// deal.II's own extraction would count the outer faces of the layer around a rank's cells.
 template <int dim>
 std::vector<Node> Discretisation<dim>::nodes_on(const std::vector<std::string> &boundaries) const {
-  const dealii::IndexSet on =
-      dealii::DoFTools::extract_boundary_dofs(parts_->nodes, {}, ids_of(parts_->mesh, boundaries));
-  return {on.begin(), on.end()};
+  const auto ids = ids_of(parts_->mesh, boundaries);
+  std::vector<Node> nodes;
+  typename Parts::Dofs of_face;
+  for (const auto &cell : parts_->cells)
+    for (const unsigned int f : cell->face_indices()) {
+      if (!cell->face(f)->at_boundary() || !ids.count(cell->face(f)->boundary_id()))
+        continue;
+      of_face.resize(parts_->element->n_dofs_per_face(f));
+      cell->face(f)->get_dof_indices(of_face);
+      for (const auto dof : of_face)
+        nodes.push_back(parts_->node_of[dof]);
+    }
+  nodes = parallel::joined(nodes);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
 }
 
 namespace {
@@ -264,12 +329,10 @@ output::Grid Discretisation<dim>::grid() const {
   grid.cell = vtk_cell(dim, parts_->mesh.simplices, parts_->element->degree);
   const std::vector<unsigned int> order = vtk_order(grid.cell);
   grid.nodes_per_cell = order.size();
-  std::vector<dealii::types::global_dof_index> dofs(parts_->element->n_dofs_per_cell());
-  for (const auto &cell : parts_->nodes.active_cell_iterators()) {
-    cell->get_dof_indices(dofs);
+  grid.connectivity.reserve(parts_->connectivity.size());
+  for (std::size_t i = 0; i < parts_->cells.size(); ++i)
     for (const unsigned int local : order)
-      grid.connectivity.push_back(dofs[local]);
-  }
+      grid.connectivity.push_back(parts_->nodes_of(i)[local]);
   return grid;
 }
 

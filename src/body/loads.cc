@@ -2,6 +2,8 @@
 
 #include <numeric>
 
+#include "tourmaline/parallel/ranks.h"
+
 namespace tourmaline::body {
 
 Load::Load(LoadKind kind, casefile::Formula density, double factor, int stride, int component)
@@ -26,6 +28,17 @@ void Load::add(Share share) {
     }
 }
 
+void Load::sum_over_ranks(std::size_t n_nodes) {
+  if (parallel::n_ranks() == 1)
+    return;
+  uniform_.resize(n_nodes, 0.);
+  parallel::sum(uniform_);
+}
+
+bool Load::is_distributed() const {
+  return parallel::n_ranks() > 1 && density_.depends_on_place() && density_.depends_on_time();
+}
+
 double Load::factor_in_time(double t) const {
   return density_.depends_on_time() && !density_.depends_on_place() ? density_.value({}, t) : 1;
 }
@@ -39,11 +52,13 @@ void Load::integrate(double t, std::vector<double> &right_side) const {
 }
 
 double Load::resultant(double t) const {
-  double sum = factor_in_time(t) / factor_ * std::accumulate(uniform_.begin(), uniform_.end(), 0.);
+  double sum = 0;
   for (const Share &share : shares_)
     sum += density_.value(share.point, t) *
            std::accumulate(share.weights.begin(), share.weights.end(), 0.);
-  return sum;
+  if (is_distributed())
+    sum = parallel::sum(sum);
+  return sum + factor_in_time(t) / factor_ * std::accumulate(uniform_.begin(), uniform_.end(), 0.);
 }
 
 void Load::add_to(std::vector<double> &right_side, double density, const Share &share) const {
@@ -86,7 +101,10 @@ void Loads<dim>::add_volume_loads(const Discretisation<dim> &body, const casefil
     if (density.is_zero())
       return;
     Load &added = loads_.emplace_back(kind, density, factor, Fields<dim>::count, component);
-    body.for_each_cell([&](const Quadrature<dim> &cell) { add_shares(cell, 1., added); });
+    parallel::together([&] {
+      body.for_each_cell([&](const Quadrature<dim> &cell) { add_shares(cell, 1., added); });
+    });
+    added.sum_over_ranks(body.n_nodes());
   };
   for (int c = 0; c < static_cast<int>(load.force.size()); ++c)
     over_cells({LoadKind::force, "", c}, load.force[c], 1, c);
@@ -103,8 +121,11 @@ void Loads<dim>::add_over_facets(const Discretisation<dim> &body, LoadKind kind,
   const std::vector<std::string> boundary{kind.boundary};
   Load &added =
       loads_.emplace_back(std::move(kind), density, factor, Fields<dim>::count, component);
-  body.for_each_facet(boundary,
-                      [&](const Quadrature<dim> &facet) { add_shares(facet, weight, added); });
+  parallel::together([&] {
+    body.for_each_facet(boundary,
+                        [&](const Quadrature<dim> &facet) { add_shares(facet, weight, added); });
+  });
+  added.sum_over_ranks(body.n_nodes());
 }
 
 template <int dim>
@@ -132,8 +153,17 @@ void Loads<dim>::add_foundation_heat(const Discretisation<dim> &body,
 
 template <int dim>
 void Loads<dim>::integrate(double t, std::vector<double> &right_side) const {
-  for (const Load &load : loads_)
-    load.integrate(t, right_side);
+  std::vector<double> share;  // of the distributed loads, this rank's
+  parallel::together([&] {
+    for (const Load &load : loads_) {
+      if (load.is_distributed())
+        share.resize(right_side.size(), 0.);
+      load.integrate(t, load.is_distributed() ? share : right_side);
+    }
+  });
+  parallel::sum(share);
+  for (std::size_t i = 0; i < share.size(); ++i)
+    right_side[i] += share[i];
 }
 
 template class Loads<2>;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "tourmaline/error.h"
+#include "tourmaline/parallel/ranks.h"
 
 namespace tourmaline::body {
 
@@ -30,7 +31,6 @@ using Vector = Eigen::Matrix<double, dim, 1>;
 // What one shape function does at one point: the fields' derivatives, multiplied by the constants.
 template <int dim>
 struct Trial {
-  double value;
   Vector<dim> gradient;
   Strains<dim> strain;
   Strains<dim> stress;                     // F B
@@ -41,10 +41,9 @@ struct Trial {
 };
 
 template <int dim>
-Trial<dim> trial(const material::BodyConstants<dim> &c, double value,
+Trial<dim> trial(const material::BodyConstants<dim> &c,
                  const std::array<double, static_cast<std::size_t>(dim)> &gradient) {
   Trial<dim> t;
-  t.value = value;
   t.gradient = Eigen::Map<const Vector<dim>>(gradient.data());
   t.strain = strain_of(gradient);
   t.stress = c.stiffness * t.strain;
@@ -55,20 +54,49 @@ Trial<dim> trial(const material::BodyConstants<dim> &c, double value,
   return t;
 }
 
-// The storage operator's block between test function a and trial function b at one point.
+// Integrals of 1 and of the values of a test function a and a trial function b.
+struct Weights {
+  double one, a, b, ab;
+};
+
+// The storage operator's block between test function a and trial function b, where their gradients
+// do not change.
 template <int dim>
-void add_block(const Trial<dim> &a, const Trial<dim> &b, double heat_capacity, double jxw,
+void add_block(const Trial<dim> &a, const Trial<dim> &b, double heat_capacity, const Weights &w,
                typename Operator<dim>::Block &block) {
   constexpr int phi = Fields<dim>::potential, theta = Fields<dim>::temperature;
-  block.template topLeftCorner<dim, dim>() += jxw * a.strain.transpose() * b.stress;
-  block.template block<dim, 1>(0, phi) += jxw * a.charge.transpose() * b.gradient;
-  block.template block<1, dim>(phi, 0) += jxw * a.gradient.transpose() * b.charge;
-  block.template block<dim, 1>(0, theta) -= jxw * b.value * a.heat.transpose();
-  block.template block<1, dim>(theta, 0) -= jxw * a.value * b.heat;
-  block(phi, phi) -= jxw * a.gradient.dot(b.electric);
-  block(phi, theta) += jxw * a.pyroelectric * b.value;
-  block(theta, phi) += jxw * a.value * b.pyroelectric;
-  block(theta, theta) -= jxw * heat_capacity * a.value * b.value;
+  block.template topLeftCorner<dim, dim>() += w.one * a.strain.transpose() * b.stress;
+  block.template block<dim, 1>(0, phi) += w.one * a.charge.transpose() * b.gradient;
+  block.template block<1, dim>(phi, 0) += w.one * a.gradient.transpose() * b.charge;
+  block.template block<dim, 1>(0, theta) -= w.b * a.heat.transpose();
+  block.template block<1, dim>(theta, 0) -= w.a * b.heat;
+  block(phi, phi) -= w.one * a.gradient.dot(b.electric);
+  block(phi, theta) += w.b * a.pyroelectric;
+  block(theta, phi) += w.a * b.pyroelectric;
+  block(theta, theta) -= w.ab * heat_capacity;
+}
+
+// As on linear simplices: then one product of the constants serves the whole cell.
+template <int dim>
+bool has_constant_gradients(const Quadrature<dim> &cell) {
+  const std::size_t n = cell.nodes.size();
+  return std::equal(cell.gradients.begin() + n, cell.gradients.end(), cell.gradients.begin());
+}
+
+template <int dim>
+Weights weights(const Quadrature<dim> &cell, std::size_t q, std::size_t a, std::size_t b) {
+  const double jxw = cell.jxw[q], va = cell.value(q, a), vb = cell.value(q, b);
+  return {jxw, jxw * va, jxw * vb, jxw * va * vb};
+}
+
+template <int dim>
+Weights weights(const Quadrature<dim> &cell, std::size_t a, std::size_t b) {
+  Weights sum{};
+  for (std::size_t q = 0; q < cell.jxw.size(); ++q) {
+    const Weights w = weights(cell, q, a, b);
+    sum = {sum.one + w.one, sum.a + w.a, sum.b + w.b, sum.ab + w.ab};
+  }
+  return sum;
 }
 
 constexpr int field_of(int component, int dim) {
@@ -84,28 +112,34 @@ Operator<dim>::Operator(const Discretisation<dim> &body,
       storage_(graph_.column.size(), Block::Zero()),
       conduction_(graph_.column.size(), 0.),
       reference_temperature_(material.reference_temperature) {
-  std::vector<Trial<dim>> trials;
-  body.for_each_cell([&](const Quadrature<dim> &cell) {
-    for (std::size_t q = 0; q < cell.jxw.size(); ++q) {
-      trials.clear();
-      for (std::size_t a = 0; a < cell.nodes.size(); ++a)
-        trials.push_back(trial<dim>(material, cell.value(q, a), cell.gradient(q, a)));
-      for (std::size_t a = 0; a < cell.nodes.size(); ++a)
-        for (std::size_t b = 0; b < cell.nodes.size(); ++b) {
-          const std::size_t entry = entry_of(cell.nodes[a], cell.nodes[b]);
-          add_block(trials[a], trials[b], material.heat_capacity, cell.jxw[q], storage_[entry]);
-          conduction_[entry] +=
-              cell.jxw[q] * trials[a].gradient.dot(material.conductivity * trials[b].gradient);
-        }
-    }
-  });
+  body.for_each_cell([&](const Quadrature<dim> &cell) { add_cell(cell, material); });
+}
+
+template <int dim>
+void Operator<dim>::add_cell(const Quadrature<dim> &cell,
+                             const material::BodyConstants<dim> &material) {
+  const std::size_t n_shapes = cell.nodes.size();
+  const bool constant = has_constant_gradients(cell);
+  std::array<Trial<dim>, 27> trials;  // as many as a quadratic hexahedron has
+  for (std::size_t q = 0; q < (constant ? 1 : cell.jxw.size()); ++q) {
+    for (std::size_t a = 0; a < n_shapes; ++a)
+      trials[a] = trial<dim>(material, cell.gradient(q, a));
+    for (std::size_t a = 0; a < n_shapes; ++a)
+      for (std::size_t b = 0; b < n_shapes; ++b) {
+        const std::size_t entry = entry_of(cell.nodes[a], cell.nodes[b]);
+        const Weights w = constant ? weights(cell, a, b) : weights(cell, q, a, b);
+        add_block(trials[a], trials[b], material.heat_capacity, w, storage_[entry]);
+        conduction_[entry] +=
+            w.one * trials[a].gradient.dot(material.conductivity * trials[b].gradient);
+      }
+  }
 }
 
 template <int dim>
 void Operator<dim>::add_exchange(const Discretisation<dim> &body,
                                  const std::vector<std::string> &boundaries,
                                  const casefile::Formula &coefficient) {
-  body.for_each_facet(boundaries, [&](const Quadrature<dim> &facet) {
+  const auto add_facet = [&](const Quadrature<dim> &facet) {
     for (std::size_t q = 0; q < facet.jxw.size(); ++q) {
       const double k_c = coefficient.value(facet.points[q], 0);
       if (k_c < 0)
@@ -115,7 +149,8 @@ void Operator<dim>::add_exchange(const Discretisation<dim> &body,
           if (const double v = facet.value(q, a) * facet.value(q, b); v != 0)
             conduction_[entry_of(facet.nodes[a], facet.nodes[b])] += k_c * facet.jxw[q] * v;
     }
-  });
+  };
+  parallel::together([&] { body.for_each_facet(boundaries, add_facet); });
 }
 
 template <int dim>
@@ -147,18 +182,20 @@ void Operator<dim>::multiply(double step, std::span<const double> x, std::span<d
     sum[Fields<dim>::temperature] -= step / reference_temperature_ * conducted;
     std::copy(sum.begin(), sum.end(), &y[unknown<dim>(i, 0)]);
   }
+  parallel::sum(y);
 }
 
 template <int dim>
 void Operator<dim>::add_history(std::span<const double> x, std::span<double> y) const {
   constexpr int theta = Fields<dim>::temperature;
-  for (Node i = 0; i < graph_.n_nodes(); ++i) {
-    double sum = 0;
+  std::vector<double> heat(graph_.n_nodes(), 0.);
+  for (Node i = 0; i < graph_.n_nodes(); ++i)
     for (std::size_t e = graph_.row[i]; e < graph_.row[i + 1]; ++e)
-      sum += storage_[e].row(theta).dot(
+      heat[i] += storage_[e].row(theta).dot(
           Eigen::Map<const Vector<n>>(&x[unknown<dim>(graph_.column[e], 0)]));
-    y[unknown<dim>(i, theta)] += sum;
-  }
+  parallel::sum(heat);
+  for (Node i = 0; i < graph_.n_nodes(); ++i)
+    y[unknown<dim>(i, theta)] += heat[i];
 }
 
 template <int dim>
@@ -168,16 +205,46 @@ double Operator<dim>::row_times(std::size_t row, double step, std::span<const do
   for (std::size_t e = graph_.row[i]; e < graph_.row[i + 1]; ++e)
     sum += step_block(e, step).row(row % n).dot(
         Eigen::Map<const Vector<n>>(&x[unknown<dim>(graph_.column[e], 0)]));
-  return sum;
+  return parallel::sum(sum);
 }
 
 template <int dim>
-void Operator<dim>::subtract_column(std::size_t column, double step, double value,
-                                    std::span<double> y) const {
-  const Node j = static_cast<Node>(column / n);
-  for (std::size_t e = graph_.row[j]; e < graph_.row[j + 1]; ++e)
-    Eigen::Map<Vector<n>>(&y[unknown<dim>(graph_.column[e], 0)]) -=
-        value * step_block(e, step).row(column % n).transpose();
+void Operator<dim>::subtract_columns(std::span<const std::size_t> columns, double step,
+                                     std::span<const double> x, std::span<double> y) const {
+  if (std::all_of(columns.begin(), columns.end(), [&](std::size_t c) { return x[c] == 0; }))
+    return;
+  if (!parallel::is_first())
+    std::fill(y.begin(), y.end(), 0.);
+  for (const std::size_t column : columns) {
+    const Node j = static_cast<Node>(column / n);
+    for (std::size_t e = graph_.row[j]; e < graph_.row[j + 1]; ++e)
+      Eigen::Map<Vector<n>>(&y[unknown<dim>(graph_.column[e], 0)]) -=
+          x[column] * step_block(e, step).row(column % n).transpose();
+  }
+  parallel::sum(y);
+}
+
+template <int dim>
+std::vector<double> Operator<dim>::diagonal(double step) const {
+  std::vector<double> diagonal(graph_.n_nodes() * n, 0.);
+  for (Node i = 0; i < graph_.n_nodes(); ++i)
+    for (std::size_t e = graph_.row[i]; e < graph_.row[i + 1]; ++e)
+      if (graph_.column[e] == i)
+        Vector<n>::Map(&diagonal[unknown<dim>(i, 0)]) = step_block(e, step).diagonal();
+  parallel::sum(diagonal);
+  return diagonal;
+}
+
+template <int dim>
+std::vector<double> Operator<dim>::sizes(double step, std::span<const double> x) const {
+  std::vector<double> sums(x.size(), 0.);
+  for (Node i = 0; i < graph_.n_nodes(); ++i)
+    for (std::size_t e = graph_.row[i]; e < graph_.row[i + 1]; ++e)
+      Eigen::Map<Vector<n>>(&sums[unknown<dim>(i, 0)]) +=
+          step_block(e, step).cwiseAbs() *
+          Eigen::Map<const Vector<n>>(&x[unknown<dim>(graph_.column[e], 0)]).cwiseAbs();
+  parallel::sum(sums);
+  return sums;
 }
 
 template <int dim>
@@ -196,6 +263,8 @@ void Operator<dim>::multiply_by_field(std::span<const double> x, FieldProducts &
     std::copy(phi.begin(), phi.end(), &products.of[1][unknown<dim>(i, 0)]);
     std::copy(theta.begin(), theta.end(), &products.of[2][unknown<dim>(i, 0)]);
   }
+  for (std::vector<double> &product : products.of)
+    parallel::sum(product);
 }
 
 template <int dim>
@@ -204,6 +273,7 @@ std::vector<double> Operator<dim>::conducted(std::span<const double> x) const {
   for (Node i = 0; i < graph_.n_nodes(); ++i)
     for (std::size_t e = graph_.row[i]; e < graph_.row[i + 1]; ++e)
       taken[i] += conduction_[e] * x[unknown<dim>(graph_.column[e], Fields<dim>::temperature)];
+  parallel::sum(taken);
   return taken;
 }
 

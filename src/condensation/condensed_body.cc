@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tourmaline/condensation/ordering.h"
+#include "tourmaline/parallel/ranks.h"
 
 namespace tourmaline::condensation {
 
@@ -19,7 +20,8 @@ CondensedBody<dim>::CondensedBody(const body::Operator<dim> &op, double step,
   number(prescribed, contact_nodes);
   scale_fields();
   factorisation_.emplace(matrix(), elimination_order(), contact_variables_, threads);
-  const auto n = static_cast<Eigen::Index>(contact_variables_.size());
+  const auto n =
+      static_cast<Eigen::Index>(parallel::is_first() ? contact_variables_.size() : std::size_t{0});
   stiffness_ = Eigen::Map<const Eigen::MatrixXd>(factorisation_->schur_complement().data(), n, n);
   for (Eigen::Index j = 0; j < n; ++j)
     for (Eigen::Index i = 0; i < n; ++i)
@@ -53,13 +55,11 @@ void CondensedBody<dim>::number(const std::vector<body::Prescribed> &prescribed,
 
 template <int dim>
 void CondensedBody<dim>::scale_fields() {
-  const body::NodeGraph &graph = operator_.graph();
+  const std::vector<double> diagonal = operator_.diagonal(step_);
   std::array<double, Fields<dim>::count> largest{};
-  for (Node i = 0; i < graph.n_nodes(); ++i)
-    for (std::size_t e = graph.row[i]; e < graph.row[i + 1]; ++e)
-      if (graph.column[e] == i)
-        for (int c = 0; c < Fields<dim>::count; ++c)
-          largest[c] = std::max(largest[c], std::abs(operator_.step_block(e, step_)(c, c)));
+  for (std::size_t i = 0; i < diagonal.size(); ++i)
+    largest[i % Fields<dim>::count] =
+        std::max(largest[i % Fields<dim>::count], std::abs(diagonal[i]));
   const double mechanical = *std::max_element(largest.begin(), largest.begin() + dim);
   std::fill(largest.begin(), largest.begin() + dim, mechanical);
   for (int c = 0; c < Fields<dim>::count; ++c)
@@ -124,9 +124,7 @@ template <int dim>
 Eigen::VectorXd CondensedBody<dim>::reduce(std::span<const double> right_side,
                                            std::span<const double> state) {
   lifted_.assign(right_side.begin(), right_side.end());
-  for (const std::size_t i : prescribed_)
-    if (state[i] != 0)
-      operator_.subtract_column(i, step_, state[i], lifted_);
+  operator_.subtract_columns(prescribed_, step_, state, lifted_);
   right_side_.resize(unknown_of_.size());
   for (std::size_t v = 0; v < unknown_of_.size(); ++v)
     right_side_[v] = lifted_[unknown_of_[v]] * scale(unknown_of_[v]);
@@ -159,17 +157,13 @@ double CondensedBody<dim>::backward_error(std::span<const double> right_side,
   std::vector<double> force(right_side.begin(), right_side.end());
   for (Eigen::Index i = 0; i < q.size(); ++i)
     force[unknown_of_[contact_variables_[i]]] += q[i];
-  const body::NodeGraph &graph = operator_.graph();
+  std::vector<double> scales(state.size());
+  for (std::size_t i = 0; i < scales.size(); ++i)
+    scales[i] = scale(i);
+  const std::vector<double> row_sums = operator_.sizes(step_, scales);
   double residual = 0, norm = 0, largest_x = 0, largest_b = 0;
   for (const std::size_t i : unknown_of_) {
-    double row_sum = 0;
-    const Node node = static_cast<Node>(i / Fields<dim>::count);
-    for (std::size_t e = graph.row[node]; e < graph.row[node + 1]; ++e) {
-      const auto block = operator_.step_block(e, step_);
-      for (int b = 0; b < Fields<dim>::count; ++b)
-        row_sum += std::abs(block(i % Fields<dim>::count, b)) * scale_[b];
-    }
-    norm = std::max(norm, row_sum * scale(i));
+    norm = std::max(norm, row_sums[i] * scale(i));
     residual = std::max(residual, std::abs(force[i] - product[i]) * scale(i));
     largest_b = std::max(largest_b, std::abs(force[i]) * scale(i));
     largest_x = std::max(largest_x, std::abs(state[i]) / scale(i));

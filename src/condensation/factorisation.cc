@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "tourmaline/error.h"
+#include "tourmaline/parallel/ranks.h"
 
 namespace tourmaline::condensation {
 
@@ -84,11 +85,19 @@ void Factorisation::Instance::set_controls(int threads) {
 
 void Factorisation::Instance::set_matrix() {
   mumps.n = matrix.size;
-  mumps.nnz = static_cast<MUMPS_INT8>(matrix.value.size());
-  mumps.irn = matrix.row.data();
-  mumps.jcn = matrix.column.data();
-  mumps.a = matrix.value.data();
   mumps.perm_in = position.data();
+  if (parallel::n_ranks() == 1) {
+    mumps.nnz = static_cast<MUMPS_INT8>(matrix.value.size());
+    mumps.irn = matrix.row.data();
+    mumps.jcn = matrix.column.data();
+    mumps.a = matrix.value.data();
+    return;
+  }
+  icntl(18) = 3;  // every rank brings entries of its own; those at equal places are added
+  mumps.nnz_loc = static_cast<MUMPS_INT8>(matrix.value.size());
+  mumps.irn_loc = matrix.row.data();
+  mumps.jcn_loc = matrix.column.data();
+  mumps.a_loc = matrix.value.data();
 }
 
 void Factorisation::Instance::set_schur() {
@@ -100,8 +109,9 @@ void Factorisation::Instance::set_schur() {
   mumps.listvar_schur = schur.data();
   mumps.nprow = mumps.npcol = 1;
   mumps.mblock = mumps.nblock = 100;
-  schur_complement.assign(std::size_t(n) * n, 0.);
   reduced.assign(n, 0.);
+  if (parallel::is_first())
+    schur_complement.assign(std::size_t(n) * n, 0.);
   mumps.schur = schur_complement.data();
   mumps.schur_lld = n;
   mumps.redrhs = reduced.data();
@@ -110,7 +120,7 @@ void Factorisation::Instance::set_schur() {
 
 // MUMPS leaves one triangle; which one depends on how its columns are read.
 void Factorisation::Instance::mirror_schur() {
-  const std::size_t n = schur.size();
+  const std::size_t n = schur_complement.empty() ? 0 : schur.size();
   for (std::size_t column = 0; column < n; ++column)
     for (std::size_t row = column + 1; row < n; ++row)
       schur_complement[row * n + column] = schur_complement[column * n + row];
@@ -141,8 +151,8 @@ Factorisation::Factorisation(SymmetricMatrix matrix, const std::vector<int> &pos
                    in.mumps.rinfog[2]};
   in.mirror_schur();
   in.matrix = {};  // MUMPS keeps the factor only
-  in.mumps.irn = in.mumps.jcn = nullptr;
-  in.mumps.a = nullptr;
+  in.mumps.irn = in.mumps.jcn = in.mumps.irn_loc = in.mumps.jcn_loc = nullptr;
+  in.mumps.a = in.mumps.a_loc = nullptr;
 }
 
 Factorisation::~Factorisation() = default;
@@ -164,6 +174,7 @@ std::vector<double> Factorisation::reduce(std::vector<double> &right_side) {
     return {};
   in.icntl(26) = 1;
   in.call(solve);
+  parallel::from_first(std::span<double>(in.reduced));
   return in.reduced;
 }
 
@@ -172,6 +183,7 @@ void Factorisation::expand(std::span<const double> interface) {
   std::copy(interface.begin(), interface.end(), in.reduced.begin());
   in.icntl(26) = in.schur.empty() ? 0 : 2;
   in.call(solve);
+  parallel::from_first(std::span(in.mumps.rhs, static_cast<std::size_t>(in.mumps.n)));
 }
 
 }  // namespace tourmaline::condensation

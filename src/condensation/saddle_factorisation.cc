@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "tourmaline/error.h"
+#include "tourmaline/parallel/ranks.h"
 
 namespace tourmaline::condensation {
 
@@ -98,11 +99,19 @@ void SaddleFactorisation::Instance::set_controls(int threads) {
 
 void SaddleFactorisation::Instance::set_matrix() {
   mumps.n = matrix.size;
-  mumps.nnz = static_cast<MUMPS_INT8>(matrix.value.size());
-  mumps.irn = matrix.row.data();
-  mumps.jcn = matrix.column.data();
-  mumps.a = matrix.value.data();
   mumps.perm_in = position.data();
+  if (parallel::n_ranks() == 1) {
+    mumps.nnz = static_cast<MUMPS_INT8>(matrix.value.size());
+    mumps.irn = matrix.row.data();
+    mumps.jcn = matrix.column.data();
+    mumps.a = matrix.value.data();
+    return;
+  }
+  icntl(18) = 3;  // every rank brings entries of its own
+  mumps.nnz_loc = static_cast<MUMPS_INT8>(matrix.value.size());
+  mumps.irn_loc = matrix.row.data();
+  mumps.jcn_loc = matrix.column.data();
+  mumps.a_loc = matrix.value.data();
 }
 
 SaddleFactorisation::SaddleFactorisation(SymmetricMatrix matrix, const std::vector<int> &position,
@@ -146,6 +155,7 @@ void SaddleFactorisation::solve(std::vector<double> &right_side) {
   in.mumps.nrhs = 1;
   in.mumps.lrhs = in.mumps.n;
   in.call(Job::solve);
+  parallel::from_first(std::span<double>(right_side));
 }
 
 int SaddleFactorisation::count() const {

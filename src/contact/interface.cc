@@ -5,6 +5,7 @@
 #include <map>
 
 #include "tourmaline/error.h"
+#include "tourmaline/parallel/ranks.h"
 
 namespace tourmaline::contact {
 
@@ -18,6 +19,22 @@ struct Integrals {
   double weight = 0, size = 0;
   Normal<dim> normal = Normal<dim>::Zero();
 };
+
+// Every rank has all nodes, and of their integrals what its facets contribute.
+template <int dim>
+void sum_over_ranks(std::map<body::Node, Integrals<dim>> &by_node) {
+  std::vector<double> plain;
+  for (const auto &[node, integrals] : by_node) {
+    plain.insert(plain.end(), {integrals.weight, integrals.size});
+    plain.insert(plain.end(), integrals.normal.begin(), integrals.normal.end());
+  }
+  parallel::sum(plain);
+  const double *next = plain.data();
+  for (auto &[node, integrals] : by_node) {
+    integrals = {next[0], next[1], Eigen::Map<const Normal<dim>>(next + 2)};
+    next += 2 + dim;
+  }
+}
 
 template <int dim>
 std::map<body::Node, Integrals<dim>> integrate(const body::Discretisation<dim> &body,
@@ -38,6 +55,7 @@ std::map<body::Node, Integrals<dim>> integrate(const body::Discretisation<dim> &
       }
     }
   });
+  sum_over_ranks(by_node);
   return by_node;
 }
 
@@ -87,7 +105,7 @@ std::vector<InterfaceNode<dim>> interface_nodes(const body::Discretisation<dim> 
                       point[0], point[1], point[2]));
     nodes.push_back({node, point, integrals.weight, integrals.normal.normalized()});
   }
-  check_normals(body, boundaries, nodes);
+  parallel::together([&] { check_normals(body, boundaries, nodes); });
   return nodes;
 }
 

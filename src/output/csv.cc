@@ -63,26 +63,27 @@ class Line {
   bool first_ = true;
 };
 
-void check_sizes(const Grid &grid, const PointFields &fields) {
+void check_sizes(const std::vector<Vector> &points, const PointFields &fields) {
   for (const std::size_t size :
        {fields.displacement.size(), fields.potential.size(), fields.temperature.size()})
-    if (size != grid.points.size())
+    if (size != points.size())
       throw std::invalid_argument(
-          fmt::format("nodes.csv: {} values for {} points", size, grid.points.size()));
+          fmt::format("nodes.csv: {} values for {} points", size, points.size()));
 }
 
 }  // namespace
 
-std::string nodes_table(int dimension, const Grid &grid, const PointFields &fields) {
-  check_sizes(grid, fields);
+std::string nodes_table(int dimension, const std::vector<Vector> &points,
+                        const PointFields &fields) {
+  check_sizes(points, fields);
   std::string text;
   Line header(text);
   header.put_names(dimension, "").put_names(dimension, "u_") << "potential"
                                                              << "temperature";
   header.end();
-  for (std::size_t i = 0; i < grid.points.size(); ++i) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
     Line line(text);
-    line.put(dimension, grid.points[i]).put(dimension, fields.displacement[i])
+    line.put(dimension, points[i]).put(dimension, fields.displacement[i])
         << fields.potential[i] << fields.temperature[i];
     line.end();
   }

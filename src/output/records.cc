@@ -1,5 +1,7 @@
 #include "tourmaline/output/records.h"
 
+#include <algorithm>
+
 namespace tourmaline::output {
 
 const char *name_of(ContactStatus status) {
@@ -12,6 +14,22 @@ const char *name_of(ContactStatus status) {
       return "slip";
   }
   return "unknown";
+}
+
+std::vector<std::uint32_t> keep_used_points(Grid &grid) {
+  std::vector<std::uint32_t> used(grid.connectivity);
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  std::vector<Vector> points;
+  std::vector<std::uint32_t> number(grid.points.size());
+  for (const std::uint32_t point : used) {
+    number[point] = static_cast<std::uint32_t>(points.size());
+    points.push_back(grid.points[point]);
+  }
+  for (std::uint32_t &point : grid.connectivity)
+    point = number[point];
+  grid.points = std::move(points);
+  return used;
 }
 
 }  // namespace tourmaline::output

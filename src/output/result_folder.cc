@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <regex>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -31,15 +32,15 @@ void check_writable(const fs::path &directory) {
   AtomicFile probe(directory / "tourmaline-probe");
 }
 
-/// result_NNNN.vtu, with at least four digits.
-bool is_field_file(std::string_view name) {
-  constexpr std::string_view head = "result_", tail = ".vtu";
-  if (name.size() < head.size() + 4 + tail.size() || !name.starts_with(head) ||
-      !name.ends_with(tail))
-    return false;
-  name.remove_prefix(head.size());
-  name.remove_suffix(tail.size());
-  return name.find_first_not_of("0123456789") == std::string_view::npos;
+std::string piece_name(int step, int piece, int pieces) {
+  return pieces == 1 ? fmt::format("result_{:04}.vtu", step)
+                     : fmt::format("result_{:04}_{}.vtu", step, piece);
+}
+
+/// result_NNNN.vtu, result_NNNN.pvtu or result_NNNN_PIECE.vtu, with at least four digits.
+bool is_field_file(const std::string &name) {
+  static const std::regex pattern("result_[0-9]{4,}(\\.p?vtu|_[0-9]+\\.vtu)");
+  return std::regex_match(name, pattern);
 }
 
 /// Whether a run gives a file this name, in its place or while it is being written.
@@ -50,7 +51,8 @@ bool is_ours(std::string_view name) {
                                                    "report.html"};
   if (name.ends_with(part))
     name.remove_suffix(part.size());
-  return is_field_file(name) || std::find(others.begin(), others.end(), name) != others.end();
+  return is_field_file(std::string(name)) ||
+         std::find(others.begin(), others.end(), name) != others.end();
 }
 
 void remove_file(const fs::path &file) {
@@ -84,8 +86,10 @@ std::unique_ptr<AtomicFile> begin_table(const fs::path &path, const std::string 
 
 }  // namespace
 
-ResultFolder::ResultFolder(fs::path directory, int dimension)
-    : directory_(std::move(directory)), dimension_(dimension) {
+ResultFolder::ResultFolder(fs::path directory, int dimension, Piece piece)
+    : directory_(std::move(directory)), dimension_(dimension), piece_(piece) {
+  if (piece.number > 0)
+    return;
   make(directory_);
   check_writable(directory_);
   remove_old_results(directory_);
@@ -101,8 +105,18 @@ void ResultFolder::put_fields(int step, double time, const Grid &grid, const Poi
     vtu_.emplace(grid);
   else if (grid.points.size() != vtu_->n_points() || grid.n_cells() != vtu_->n_cells())
     throw std::invalid_argument("put_fields: not the grid of the first call");
-  const std::string name = fmt::format("result_{:04}.vtu", step);
-  vtu_->write(directory_ / name, time, points, cells);
+  vtu_->write(directory_ / piece_name(step, piece_.number, piece_.count), time, points, cells);
+}
+
+void ResultFolder::list_fields(int step, double time) {
+  std::string name = piece_name(step, 0, 1);
+  if (piece_.count > 1) {
+    std::vector<std::string> pieces;
+    for (int i = 0; i < piece_.count; ++i)
+      pieces.push_back(piece_name(step, i, piece_.count));
+    name = fmt::format("result_{:04}.pvtu", step);
+    write_file(directory_ / name, pvtu_text(time, pieces));
+  }
   series_.push_back({time, name});
   write_file(directory_ / "result.pvd", pvd_text(series_));
 }
@@ -124,8 +138,8 @@ void ResultFolder::put_history(const HistoryRow &row) {
   history_->append(history_line(row));
 }
 
-void ResultFolder::put_nodes(const Grid &grid, const PointFields &fields) {
-  write_file(directory_ / "nodes.csv", nodes_table(dimension_, grid, fields));
+void ResultFolder::put_nodes(const std::vector<Vector> &points, const PointFields &fields) {
+  write_file(directory_ / "nodes.csv", nodes_table(dimension_, points, fields));
 }
 
 void ResultFolder::put_summary(const Summary &summary) {

@@ -133,4 +133,36 @@ void VtuWriter::write(const std::filesystem::path &path, double time, const Poin
   file.finish();
 }
 
+namespace {
+
+std::string declared(const char *name, std::string_view attributes) {
+  return fmt::format("<PDataArray type=\"Float64\" Name=\"{}\"{}/>\n", name, attributes);
+}
+
+}  // namespace
+
+std::string pvtu_text(double time, std::span<const std::string> pieces) {
+  std::string text = fmt::format(
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" "
+      "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n"
+      "<PUnstructuredGrid GhostLevel=\"0\">\n"
+      "<FieldData>\n"
+      "<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">\n"
+      "{:.17g}\n</DataArray>\n"
+      "</FieldData>\n"
+      "<PPointData Scalars=\"potential\" Vectors=\"displacement\">\n",
+      std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian", time);
+  text += declared("displacement", vector_components) + declared("potential", "") +
+          declared("temperature", "") + "</PPointData>\n<PCellData>\n" +
+          declared("stress", tensor_components) + declared("von_mises", "") +
+          declared("strain", tensor_components) +
+          declared("electric_displacement", vector_components) +
+          declared("heat_flux", vector_components) + "</PCellData>\n<PPoints>\n" +
+          declared("Points", vector_components) + "</PPoints>\n";
+  for (const std::string &piece : pieces)
+    text += fmt::format("<Piece Source=\"{}\"/>\n", piece);
+  return text + "</PUnstructuredGrid>\n</VTKFile>\n";
+}
+
 }  // namespace tourmaline::output

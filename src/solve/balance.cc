@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "tourmaline/parallel/ranks.h"
+
 namespace tourmaline::solve {
 
 using body::Fields;
@@ -119,16 +121,27 @@ Balance<dim>::Balance(const Model<dim> &model, std::span<const double> initial)
     return;
   for (const std::string &name : model.asked.contact->on) {
     add_once(heat_boundaries_, name);
-    std::map<body::Node, double> weights;
-    model.body.for_each_facet({name}, [&](const body::Quadrature<dim> &facet) {
-      for (std::size_t q = 0; q < facet.jxw.size(); ++q)
-        for (std::size_t a = 0; a < facet.nodes.size(); ++a)
-          weights[facet.nodes[a]] +=
-              model.asked.contact->heat.coefficient.value(facet.points[q], 0) * facet.jxw[q] *
-              facet.value(q, a);
-    });
-    exchange_[name].assign(weights.begin(), weights.end());
+    exchange_[name] = exchange_weights(name);
   }
+}
+
+// The integral of k_c times each node's shape function over a boundary.
+template <int dim>
+std::vector<std::pair<body::Node, double>> Balance<dim>::exchange_weights(
+    const std::string &boundary) const {
+  std::vector<double> by_node(model_.body.n_nodes(), 0.);
+  model_.body.for_each_facet({boundary}, [&](const body::Quadrature<dim> &facet) {
+    for (std::size_t q = 0; q < facet.jxw.size(); ++q)
+      for (std::size_t a = 0; a < facet.nodes.size(); ++a)
+        by_node[facet.nodes[a]] +=
+            model_.asked.contact->heat.coefficient.value(facet.points[q], 0) * facet.jxw[q] *
+            facet.value(q, a);
+  });
+  parallel::sum(by_node);
+  std::vector<std::pair<body::Node, double>> weights;
+  for (const body::Node node : model_.body.nodes_on({boundary}))
+    weights.emplace_back(node, by_node[node]);
+  return weights;
 }
 
 template <int dim>

@@ -8,6 +8,7 @@
 #include "tourmaline/condensation/condensed_body.h"
 #include "tourmaline/contact/bilateral.h"
 #include "tourmaline/error.h"
+#include "tourmaline/parallel/ranks.h"
 #include "tourmaline/solve/interface_newton.h"
 #include "tourmaline/solve/stopwatch.h"
 
@@ -27,6 +28,21 @@ std::vector<body::Node> nodes_of(const std::vector<contact::InterfaceNode<dim>> 
   return nodes;
 }
 
+// From the first rank to the others.
+void share(StepOutcome &outcome) {
+  std::vector<double> numbers{static_cast<double>(outcome.newton_iterations), outcome.residual};
+  for (const auto status : outcome.status)
+    numbers.push_back(static_cast<double>(status));
+  numbers.insert(numbers.end(), outcome.contact_forces.begin(), outcome.contact_forces.end());
+  parallel::from_first(std::span<double>(numbers));
+  outcome.newton_iterations = static_cast<int>(numbers[0]);
+  outcome.residual = numbers[1];
+  const double *next = &numbers[2];
+  for (auto &status : outcome.status)
+    status = static_cast<output::ContactStatus>(*next++);
+  std::copy_n(next, outcome.contact_forces.size(), outcome.contact_forces.begin());
+}
+
 template <int dim>
 class CondensedRoute : public Route {
  public:
@@ -41,6 +57,8 @@ class CondensedRoute : public Route {
   contact::Admissible<dim> admissible(std::size_t node, std::span<const double> state) const;
   VectorXd contact_displacements(std::span<const double> state) const;
   VectorXd admissible_base(std::span<const double> state) const;
+  void advance_contact(double time, const VectorXd &s, std::span<const double> before,
+                       std::span<const double> state, VectorXd &c, StepOutcome &outcome);
   InterfaceSolution solve_contact(double time, const VectorXd &s, const VectorXd &held,
                                   const VectorXd &before);
   [[noreturn]] void give_up(double time, const InterfaceSolution &solution) const;
@@ -66,7 +84,7 @@ CondensedRoute<dim>::CondensedRoute(const Model<dim> &model)
   for (const body::Prescribed &p : model.prescribed)
     is_prescribed_[p.unknown] = true;
   Stopwatch watch;
-  condense_onto_slips();
+  parallel::on_first([&] { condense_onto_slips(); });
   condense_seconds_ = watch.lap();
 }
 
@@ -155,6 +173,29 @@ void CondensedRoute<dim>::give_up(double time, const InterfaceSolution &solution
                   solution.unsettled.size(), places));
 }
 
+// On the first rank, which holds the condensed stiffness: c and what is known with it.
+template <int dim>
+void CondensedRoute<dim>::advance_contact(double time, const VectorXd &s,
+                                          std::span<const double> before,
+                                          std::span<const double> state, VectorXd &c,
+                                          StepOutcome &outcome) {
+  const VectorXd held = admissible_base(state);
+  const VectorXd c_before = contact_displacements(before);
+  const InterfaceSolution solution = solve_contact(time, s, held, c_before);
+  last_increment_ = solution.increment;
+  // Adding the increment to the very values of the last step keeps a sticking point in its place
+  // exactly.
+  const VectorXd slips = directions_.transpose() * c_before + solution.increment;
+  c = held + directions_ * slips;
+  outcome.contact_forces = condensed_.stiffness() * c - s;
+  // Friction forces are the law's; the rest of q holds the normal and prescribed displacements.
+  outcome.contact_forces -=
+      directions_ * (directions_.transpose() * outcome.contact_forces + solution.force);
+  outcome.status = solution.status;
+  outcome.newton_iterations = solution.iterations;
+  outcome.residual = solution.residual;
+}
+
 template <int dim>
 StepOutcome CondensedRoute<dim>::advance(double time, std::span<const double> right_side,
                                          std::span<const double> before, std::span<double> state) {
@@ -164,23 +205,13 @@ StepOutcome CondensedRoute<dim>::advance(double time, std::span<const double> ri
   StepOutcome outcome;
   VectorXd c = s;
   if (!model_.interface.empty()) {
-    const VectorXd held = admissible_base(state);
-    const VectorXd c_before = contact_displacements(before);
-    const InterfaceSolution solution = solve_contact(time, s, held, c_before);
-    last_increment_ = solution.increment;
-    // Adding the increment to the very values of the last step keeps a sticking point in its place
-    // exactly.
-    const VectorXd slips = directions_.transpose() * c_before + solution.increment;
-    c = held + directions_ * slips;
-    outcome.contact_forces = condensed_.stiffness() * c - s;
-    // Friction forces are the law's; the rest of q holds the normal and prescribed displacements.
-    outcome.contact_forces -=
-        directions_ * (directions_.transpose() * outcome.contact_forces + solution.force);
-    outcome.status = solution.status;
-    outcome.newton_iterations = solution.iterations;
-    outcome.residual = solution.residual;
+    outcome.contact_forces = VectorXd::Zero(s.size());
+    outcome.status.resize(model_.interface.size());
+    parallel::on_first([&] { advance_contact(time, s, before, state, c, outcome); });
+    share(outcome);
   }
   contact_seconds_ += watch.lap();
+  parallel::from_first(std::span(c.data(), static_cast<std::size_t>(c.size())));
   condensed_.expand(c, state);
   substitution_seconds_ += watch.lap();
   if (!measured_) {

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "tourmaline/material/orientation.h"
+#include "tourmaline/mesh/distribute.h"
 #include "tourmaline/solve/stopwatch.h"
 
 namespace tourmaline::solve {
@@ -12,11 +13,21 @@ material::Constants body_material(const casefile::Case &asked) {
                            material::crystal_axes(asked.material, asked.dimension));
 }
 
+namespace {
+
+template <int dim>
+mesh::Mesh<dim> shared_out(mesh::Mesh<dim> mesh) {
+  mesh::distribute(mesh);
+  return mesh;
+}
+
+}  // namespace
+
 template <int dim>
 struct Model<dim>::Built {
   Built(const casefile::Case &asked, const std::function<mesh::Mesh<dim>()> &make_mesh)
       : material(body_material(asked)),
-        body(make_mesh(), asked.mesh.degree),
+        body(shared_out(make_mesh()), asked.mesh.degree),
         mesh_seconds(watch.lap()) {}
 
   Stopwatch watch;

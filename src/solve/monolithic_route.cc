@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tourmaline/error.h"
+#include "tourmaline/parallel/ranks.h"
 #include "tourmaline/solve/saddle_newton.h"
 
 namespace tourmaline::solve {
@@ -27,6 +28,10 @@ std::vector<contact::MultiplierPoint<dim>> multiplier_points(const Model<dim> &m
     is_prescribed[p.unknown] = true;
   if (model.asked.solver.multiplier == "nodal")
     return contact::nodal_multipliers(model.interface, is_prescribed);
+  if (parallel::n_ranks() > 1)
+    throw CaseError(model.asked.source +
+                    ": [solver] multiplier: \"piecewise-constant\" is not available on several MPI "
+                    "ranks; start the program without mpirun, or take \"nodal\"");
   return contact::facet_multipliers(model.body, model.asked.contact->on, is_prescribed);
 }
 

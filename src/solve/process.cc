@@ -43,13 +43,6 @@ Process::Process(int threads) {
   }
   openblas_set_num_threads(threads);
   dealii::MultithreadInfo::set_thread_limit(threads);
-  int ranks = 1;
-  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  if (ranks > 1) {
-    if (owns_mpi_)
-      MPI_Finalize();
-    throw CaseError("several MPI ranks are not available yet; start the program without mpirun");
-  }
 }
 
 double process_age() {

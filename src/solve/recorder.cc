@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "tourmaline/body/derived.h"
+#include "tourmaline/parallel/ranks.h"
 #include "tourmaline/solve/stopwatch.h"
 
 namespace tourmaline::solve {
@@ -34,7 +36,10 @@ Vector<dim> tangential(const Vector<dim> &v, const Vector<dim> &normal) {
 
 template <int dim>
 Recorder<dim>::Recorder(const Model<dim> &model, output::ResultFolder &folder)
-    : model_(model), folder_(folder), grid_(model.body.grid()) {}
+    : model_(model),
+      folder_(folder),
+      grid_(model.body.grid()),
+      nodes_(output::keep_used_points(grid_)) {}
 
 template <int dim>
 void Recorder<dim>::initial(std::span<const double> state) {
@@ -62,14 +67,14 @@ output::HistoryRow Recorder<dim>::step(int n, const StepOutcome &outcome,
   row.open = std::count(outcome.status.begin(), outcome.status.end(), output::ContactStatus::open);
   if (model_.asked.contact) {
     const std::vector<output::ContactRow> rows = contact_rows(n, outcome, before, state);
-    folder_.put_contact(n, time, rows);
+    parallel::on_first([&] { folder_.put_contact(n, time, rows); });
   }
   row.quantities = balance_->step(time, loads, outcome.contact_forces, state);
   for (const output::Extreme &e : extremes(state)) {
     row.quantities.emplace_back("min_" + e.field, e.minimum);
     row.quantities.emplace_back("max_" + e.field, e.maximum);
   }
-  folder_.put_history(row);
+  parallel::on_first([&] { folder_.put_history(row); });
   if (n % model_.asked.output.every == 0 || n == model_.asked.time.steps)
     put_fields(n, state);
   seconds_ += watch.lap();
@@ -79,22 +84,31 @@ output::HistoryRow Recorder<dim>::step(int n, const StepOutcome &outcome,
 template <int dim>
 void Recorder<dim>::finish(std::span<const double> state) {
   Stopwatch watch;
-  folder_.put_nodes(grid_, point_fields(state));
-  folder_.finish();
+  parallel::on_first([&] {
+    std::vector<body::Node> all(model_.body.n_nodes());
+    std::iota(all.begin(), all.end(), body::Node{0});
+    folder_.put_nodes(model_.body.points(), point_fields(state, all));
+    folder_.finish();
+  });
   seconds_ += watch.lap();
 }
 
 template <int dim>
 void Recorder<dim>::put_fields(int n, std::span<const double> state) {
-  if (model_.asked.output.fields)
-    folder_.put_fields(n, model_.time(n), grid_, point_fields(state),
+  if (!model_.asked.output.fields)
+    return;
+  parallel::together([&] {
+    folder_.put_fields(n, model_.time(n), grid_, point_fields(state, nodes_),
                        body::derived_fields(model_.body, model_.material, state));
+  });
+  parallel::on_first([&] { folder_.list_fields(n, model_.time(n)); });
 }
 
 template <int dim>
-output::PointFields Recorder<dim>::point_fields(std::span<const double> state) const {
+output::PointFields Recorder<dim>::point_fields(std::span<const double> state,
+                                                std::span<const body::Node> nodes) const {
   output::PointFields fields;
-  for (body::Node node = 0; node < model_.body.n_nodes(); ++node) {
+  for (const body::Node node : nodes) {
     fields.displacement.push_back(in_space<dim>(displacement<dim>(state, node)));
     fields.potential.push_back(state[body::unknown<dim>(node, body::Fields<dim>::potential)]);
     fields.temperature.push_back(state[body::unknown<dim>(node, body::Fields<dim>::temperature)]);

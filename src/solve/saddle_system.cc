@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tourmaline/condensation/ordering.h"
+#include "tourmaline/parallel/ranks.h"
 #include "tourmaline/solve/stopwatch.h"
 
 namespace tourmaline::solve {
@@ -40,11 +41,13 @@ SaddleSystem<dim>::SaddleSystem(const body::Operator<dim> &op, double step,
                                 std::vector<Point> points, int threads)
     : operator_(op), step_(step), points_(std::move(points)) {
   number(prescribed);
-  set_scales();
+  const std::vector<double> diagonal = operator_.diagonal(step_);
+  set_scales(diagonal);
   for (const Point &point : points_) {
     double stiffness = 0;
     for (const auto &share : point.mean)
-      stiffness += share.factor * node_stiffness(share.node);
+      for (int c = 0; c < dim; ++c)
+        stiffness += share.factor * diagonal[unknown<dim>(share.node, c)] / dim;
     stiffness_.push_back(stiffness / point.weight);
   }
   condensation::SymmetricMatrix matrix = body_matrix();
@@ -71,30 +74,15 @@ void SaddleSystem<dim>::number(const std::vector<body::Prescribed> &prescribed) 
 }
 
 template <int dim>
-void SaddleSystem<dim>::set_scales() {
-  const body::NodeGraph &graph = operator_.graph();
+void SaddleSystem<dim>::set_scales(const std::vector<double> &diagonal) {
   std::array<double, 3> largest{};
-  for (Node i = 0; i < graph.n_nodes(); ++i)
-    for (std::size_t e = graph.row[i]; e < graph.row[i + 1]; ++e)
-      if (graph.column[e] == i)
-        for (int c = 0; c < Fields<dim>::count; ++c) {
-          double &field = largest[field_of<dim>(c)];
-          field = std::max(field, std::abs(operator_.step_block(e, step_)(c, c)));
-        }
+  for (std::size_t i = 0; i < diagonal.size(); ++i)
+    largest[field_of<dim>(i)] = std::max(largest[field_of<dim>(i)], std::abs(diagonal[i]));
   for (const std::size_t i : unknown_of_)
     scale_.push_back(1 / std::sqrt(largest[field_of<dim>(i)]));
   // The coupling w dy/du between a multiplier and a displacement then has entries of the size 1.
   for (const Point &point : points_)
     scale_.insert(scale_.end(), point.n_multipliers(), std::sqrt(largest[0]) / point.weight);
-}
-
-template <int dim>
-double SaddleSystem<dim>::node_stiffness(Node node) const {
-  const body::NodeGraph &graph = operator_.graph();
-  for (std::size_t e = graph.row[node]; e < graph.row[node + 1]; ++e)
-    if (graph.column[e] == node)
-      return operator_.step_block(e, step_).template topLeftCorner<dim, dim>().trace() / dim;
-  return 0;
 }
 
 template <int dim>
@@ -234,18 +222,11 @@ double SaddleSystem<dim>::largest_displacement(const SaddlePoint &x) const {
 template <int dim>
 std::array<double, 3> SaddleSystem<dim>::row_sizes(const StepData &data,
                                                    const SaddlePoint &x) const {
-  const body::NodeGraph &graph = operator_.graph();
-  using Row = Eigen::Matrix<double, Fields<dim>::count, 1>;
+  const std::vector<double> terms = operator_.sizes(step_, x.body);
   std::array<double, 3> sizes{};
-  for (Node i = 0; i < graph.n_nodes(); ++i) {
-    Row sum = Eigen::Map<const Row>(&data.right_side[unknown<dim>(i, 0)]).cwiseAbs();
-    for (std::size_t e = graph.row[i]; e < graph.row[i + 1]; ++e)
-      sum += operator_.step_block(e, step_).cwiseAbs() *
-             Eigen::Map<const Row>(&x.body[unknown<dim>(graph.column[e], 0)]).cwiseAbs();
-    for (int c = 0; c < Fields<dim>::count; ++c)
-      if (is_free(unknown<dim>(i, c)))
-        sizes[field_of<dim>(c)] = std::max(sizes[field_of<dim>(c)], sum[c]);
-  }
+  for (const std::size_t i : unknown_of_)
+    sizes[field_of<dim>(i)] =
+        std::max(sizes[field_of<dim>(i)], std::abs(data.right_side[i]) + terms[i]);
   return sizes;
 }
 
@@ -268,12 +249,13 @@ MatrixXd SaddleSystem<dim>::local_tangent(
 }
 
 // The body's part of the tangent never changes; the contact tangent T stands behind it and is
-// written anew in the order of `add_contact_pattern`.
+// written anew in the order of `add_contact_pattern`, on the first rank: entries of all ranks are
+// added.
 template <int dim>
 void SaddleSystem<dim>::factorise(const StepData &data, const SaddlePoint &x) {
   std::size_t entry = n_body_entries_;
   std::vector<double> &values = factorisation_->values();
-  for (std::size_t p = 0; p < points_.size(); ++p) {
+  for (std::size_t p = 0; parallel::is_first() && p < points_.size(); ++p) {
     const std::vector<int> variables = local_variables(p);
     const MatrixXd tangent = local_tangent(
         points_[p], data.laws[p].hessian(displacement(p, x, data.before), multiplier(p, x)));

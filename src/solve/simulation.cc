@@ -3,12 +3,14 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <iostream>
 
 #include "tourmaline/case/resolved.h"
 #include "tourmaline/contact/friction.h"
 #include "tourmaline/error.h"
 #include "tourmaline/material/plane.h"
 #include "tourmaline/output/progress.h"
+#include "tourmaline/parallel/ranks.h"
 #include "tourmaline/solve/condensed_route.h"
 #include "tourmaline/solve/memory.h"
 #include "tourmaline/solve/monolithic_route.h"
@@ -28,6 +30,7 @@ class Simulation {
   void run();
 
  private:
+  void open_folder(const std::filesystem::path &directory);
   void prescribe(double time, std::vector<double> &state) const;
   void sum_loads(double time);
   void step(int n);
@@ -58,18 +61,29 @@ std::unique_ptr<Route> make_route(const Model<dim> &model) {
 template <int dim>
 Simulation<dim>::Simulation(const casefile::Case &asked, const std::filesystem::path &directory,
                             bool quiet)
-    : progress_(asked.time.steps, quiet), model_((progress_.stage("mesh and operator"), asked)) {
+    : progress_(asked.time.steps, quiet || !parallel::is_first()),
+      model_((progress_.stage("mesh and operator"), asked)) {
   state_ = body::initial_state(model_.body, asked.initial);
   std::vector<double> trial = state_;
   prescribe(model_.time(1), trial);
   sum_loads(model_.time(1));
   for (const auto &node : model_.interface)
     contact::friction_at(asked.contact->friction, node.point, model_.time(1));
-  folder_.emplace(directory, dim);
-  folder_->put_case(casefile::resolved(asked));
+  open_folder(directory);
   recorder_.emplace(model_, *folder_);
   progress_.stage("factorisation");
   route_ = make_route(model_);
+}
+
+template <int dim>
+void Simulation<dim>::open_folder(const std::filesystem::path &directory) {
+  const output::Piece piece{parallel::rank(), parallel::n_ranks()};
+  parallel::on_first([&] {
+    folder_.emplace(directory, dim, piece);
+    folder_->put_case(casefile::resolved(model_.asked));
+  });
+  if (!folder_)
+    folder_.emplace(directory, dim, piece);
 }
 
 template <int dim>
@@ -113,7 +127,8 @@ void Simulation<dim>::run() {
       throw;
     }
   recorder_->finish(state_);
-  folder_->put_summary(summary());
+  const output::Summary done = summary();
+  parallel::on_first([&] { folder_->put_summary(done); });
   progress_.done();
 }
 
@@ -123,10 +138,10 @@ void Simulation<dim>::keep_what_there_is() {
   recorder_->finish(state_);
 }
 
-std::uint64_t peak_memory() {
+std::size_t peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  return 1024 * static_cast<std::uint64_t>(usage.ru_maxrss);
+  return 1024 * static_cast<std::size_t>(usage.ru_maxrss);
 }
 
 template <int dim>
@@ -144,7 +159,8 @@ output::Summary Simulation<dim>::summary() const {
                    {"contact_nodes", model_.interface.size()},
                    {"factor_entries", report.factor_entries},
                    {"factor_flops", static_cast<std::int64_t>(report.factor_flops)},
-                   {"steps", model_.asked.time.steps}};
+                   {"steps", model_.asked.time.steps},
+                   {"ranks", parallel::n_ranks()}};
   summary.iterations = {{"newton_total", newton_total_},
                         {"newton_max", newton_max_},
                         {"newton_first", newton_first_}};
@@ -163,7 +179,7 @@ output::Summary Simulation<dim>::summary() const {
   summary.seconds.start = start_seconds_;
   summary.seconds.total = process_age();
   summary.seconds.output = recorder_->seconds();
-  summary.peak_memory_bytes = peak_memory();
+  summary.peak_memory_bytes = parallel::sum(peak_memory());
   return summary;
 }
 
@@ -177,12 +193,25 @@ void check(const casefile::Case &asked) {
 }
 
 void simulate(const casefile::Case &asked, const std::filesystem::path &directory, bool quiet) {
-  check(asked);
   const Process process(asked.solver.threads);
-  if (asked.dimension == 2)
-    Simulation<2>(asked, directory, quiet).run();
-  else
-    Simulation<3>(asked, directory, quiet).run();
+  check(asked);
+  try {
+    if (asked.dimension == 2)
+      Simulation<2>(asked, directory, quiet).run();
+    else
+      Simulation<3>(asked, directory, quiet).run();
+  } catch (const CaseError &) {
+    throw;  // the three kinds of errors are those of all ranks
+  } catch (const SolveError &) {
+    throw;
+  } catch (const MachineError &) {
+    throw;
+  } catch (const std::exception &error) {
+    if (parallel::n_ranks() == 1)
+      throw;
+    std::cerr << "tourmaline: on rank " << parallel::rank() << ": " << error.what() << '\n';
+    parallel::end_all(4);
+  }
 }
 
 }  // namespace tourmaline::solve

@@ -162,12 +162,12 @@ TEST(Operator, RowsColumnsAndHistoryArePartsOfTheSameMatrix) {
     EXPECT_NEAR(history[i], i % 4 == 3 ? storage_x[i] : 0, 1e-13 * size);
   }
   std::vector<double> minus_column(n, 0.);
-  op.subtract_column(7, 0.01, 2., minus_column);
   std::vector<double> unit(n, 0.), column(n);
-  unit[7] = 1;
+  unit[7] = 2;
+  op.subtract_columns(std::vector<std::size_t>{7}, 0.01, unit, minus_column);
   op.multiply(0.01, unit, column);
   for (std::size_t i = 0; i < n; ++i)
-    EXPECT_NEAR(minus_column[i], -2 * column[i], 1e-13 * size);
+    EXPECT_NEAR(minus_column[i], -column[i], 1e-13 * size);
 }
 
 TEST(Operator, TheExchangeTermIsTheBoundaryMassOfThatSide) {

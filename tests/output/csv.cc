@@ -60,9 +60,9 @@ TEST(NodesTable, TheThirdDirectionAppearsInThreeDimensionsOnly) {
   Grid grid;
   grid.points = {{0.5, 1, 2}};
   const PointFields fields{{{-0.25, -0., 4}}, {8}, {-16}};
-  EXPECT_EQ(nodes_table(2, grid, fields),
+  EXPECT_EQ(nodes_table(2, grid.points, fields),
             "x,y,u_x,u_y,potential,temperature\n0.5,1,-0.25,0,8,-16\n");
-  EXPECT_EQ(nodes_table(3, grid, fields),
+  EXPECT_EQ(nodes_table(3, grid.points, fields),
             "x,y,z,u_x,u_y,u_z,potential,temperature\n0.5,1,2,-0.25,0,4,8,-16\n");
 }
 
@@ -75,7 +75,7 @@ TEST(NodesTable, EveryNumberReadsBackAsItWas) {
     fields.potential.push_back(value(i, int(i % 30) - 10));
     fields.temperature.push_back(1. / 3);
   }
-  const std::string table = nodes_table(2, grid, fields);
+  const std::string table = nodes_table(2, grid.points, fields);
   std::size_t line = table.find('\n') + 1;
   for (const double expected : fields.potential) {
     EXPECT_EQ(std::strtod(table.c_str() + line + std::string("0,0,0,0,").size(), nullptr),
@@ -89,14 +89,14 @@ TEST(NodesTable, WhatIsNotANumberIsWrittenWithoutSign) {
   const double infinity = std::numeric_limits<double>::infinity();
   Grid grid;
   grid.points = {{0, 0, 0}};
-  EXPECT_EQ(nodes_table(2, grid, {{{nan, -nan, 0}}, {infinity}, {-infinity}}),
+  EXPECT_EQ(nodes_table(2, grid.points, {{{nan, -nan, 0}}, {infinity}, {-infinity}}),
             "x,y,u_x,u_y,potential,temperature\n0,0,nan,nan,inf,-inf\n");
 }
 
 TEST(NodesTable, FieldsThatDoNotFitTheGridAreRefused) {
   Grid grid;
   grid.points = {{0, 0, 0}, {1, 0, 0}};
-  EXPECT_THROW(nodes_table(2, grid, {{{}, {}}, {0, 0}, {0}}), std::invalid_argument);
+  EXPECT_THROW(nodes_table(2, grid.points, {{{}, {}}, {0, 0}, {0}}), std::invalid_argument);
 }
 
 }  // namespace

@@ -31,10 +31,11 @@ class Results : public testing::Test {
     results.put_case("title = \"a\"\n");
     for (int step = 1; step <= 2; ++step) {
       results.put_fields(step, 0.1 * step, grid, points, cells);
+      results.list_fields(step, 0.1 * step);
       results.put_contact(step, 0.1 * step, one_row);
       results.put_history(history_row(step));
     }
-    results.put_nodes(grid, points);
+    results.put_nodes(grid.points, points);
     results.put_summary({});
   }
 
@@ -66,6 +67,7 @@ TEST_F(Results, TheCollectionIsValidAfterEveryFieldFile) {
   ResultFolder results(directory, 2);
   for (int step : {1, 2}) {
     results.put_fields(step, 0.1 * step, grid, points, cells);
+    results.list_fields(step, 0.1 * step);
     const std::string pvd = content_of(directory / "result.pvd");
     EXPECT_THAT(pvd, HasSubstr(step == 1 ? "result_0001.vtu" : "result_0002.vtu"));
     EXPECT_TRUE(pvd.ends_with("</VTKFile>\n"));

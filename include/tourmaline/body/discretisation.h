@@ -34,7 +34,8 @@ struct Quadrature {
 };
 
 /// Neighbourhood of the nodes in compressed rows: node i shares a cell with column[row[i]] ...
-/// column[row[i+1] - 1], sorted, itself included.
+/// column[row[i+1] - 1], sorted, itself included. On several ranks that of this rank's cells; rows
+/// of nodes that these do not touch are empty.
 struct NodeGraph {
   std::vector<std::size_t> row;
   std::vector<Node> column;
@@ -44,8 +45,9 @@ struct NodeGraph {
 
 /// One Lagrange space of degree 1 or 2 (28)-(30), shared by all components of u, by phi and by
 /// theta: a node carries dim + 2 unknowns. Nodes are numbered by x, then y, then z, whatever the
-/// mesh's own order is, so every table lists them alike. This is the only place that asks deal.II
-/// for shape functions; the rest of the body sees plain numbers.
+/// mesh's own order is and however many ranks share it, so every table lists them alike. Nodes and
+/// their places are whole on every rank, cells are shared out. This is the only place that asks
+/// deal.II for shape functions; the rest of the body sees plain numbers.
 template <int dim>
 class Discretisation {
  public:
@@ -59,15 +61,17 @@ class Discretisation {
   const std::vector<output::Vector> &points() const;
   NodeGraph graph() const;
 
-  /// Calls `visit` for every cell, with a quadrature exact for the mass matrix on affine cells.
+  /// Calls `visit` for every cell of this rank, with a quadrature exact for the mass matrix on
+  /// affine cells.
   void for_each_cell(const std::function<void(const Quadrature<dim> &)> &visit) const;
-  /// Calls `visit` for every facet of the named boundaries. Throws CaseError for an unknown name.
+  /// Calls `visit` for every facet of the named boundaries on this rank. Throws CaseError for an
+  /// unknown name.
   void for_each_facet(const std::vector<std::string> &boundaries,
                       const std::function<void(const Quadrature<dim> &)> &visit) const;
-  /// Nodes on the closure of the named boundaries, ascending.
+  /// Nodes on the closure of the named boundaries, ascending, of all ranks.
   std::vector<Node> nodes_on(const std::vector<std::string> &boundaries) const;
 
-  /// The grid as the output wants it, points in the order of the nodes, cells in the order of
+  /// The grid as the output wants it: all nodes, and this rank's cells in the order of
   /// `for_each_cell`.
   output::Grid grid() const;
 

@@ -32,10 +32,15 @@ class Load {
 
   const LoadKind &kind() const { return kind_; }
   void add(Share share);
+  /// Sums what was integrated here and now over the ranks; once, when all shares are there.
+  void sum_over_ranks(std::size_t n_nodes);
+  /// Whether `integrate` gives this rank's share only: shares of a density that depends on place
+  /// and time stay with the rank that owns their cells.
+  bool is_distributed() const;
   /// Adds the load at time t to `right_side`.
   void integrate(double t, std::vector<double> &right_side) const;
-  /// The integral of the density itself, without `factor`: a resultant force [N], charge [C], heat
-  /// flow [W].
+  /// The integral of the density itself, without `factor`, over all ranks: a resultant force [N],
+  /// charge [C], heat flow [W].
   double resultant(double t) const;
 
  private:
@@ -59,7 +64,7 @@ class Loads {
   Loads(const Discretisation<dim> &body, const casefile::Case &asked, double step,
         double reference_temperature);
 
-  /// Adds all loads at time t; one entry for each unknown of the body.
+  /// Adds all loads at time t, of all ranks; one entry for each unknown of the body.
   void integrate(double t, std::vector<double> &right_side) const;
 
   const std::vector<Load> &each() const { return loads_; }

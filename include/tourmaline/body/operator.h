@@ -44,6 +44,9 @@ struct FieldProducts {
 ///
 /// so that the step of (31)-(33) has the operator storage - (k / theta_ref) G, and its heat rows
 /// see the state before through the heat rows of `storage`.
+///
+/// Every rank holds what its cells contribute; products are summed over the ranks, so all of them
+/// must ask for one.
 template <int dim>
 class Operator {
  public:
@@ -60,7 +63,8 @@ class Operator {
   const NodeGraph &graph() const { return graph_; }
   double reference_temperature() const { return reference_temperature_; }
 
-  /// Block of storage - step / theta_ref G at place `entry` of the graph; `step` = k [s].
+  /// Block of storage - step / theta_ref G at place `entry` of the graph; `step` = k [s]. On
+  /// several ranks this rank's share of it.
   Block step_block(std::size_t entry, double step) const;
 
   /// y = (storage - step / theta_ref G) x.
@@ -73,8 +77,16 @@ class Operator {
   /// Row `row` of (storage - step / theta_ref G) times x.
   double row_times(std::size_t row, double step, std::span<const double> x) const;
 
-  /// Column `column` times `value`, subtracted from y (the operator is symmetric).
-  void subtract_column(std::size_t column, double step, double value, std::span<double> y) const;
+  /// Subtracts `columns` of storage - step / theta_ref G, times their entries of x, from y.
+  void subtract_columns(std::span<const std::size_t> columns, double step,
+                        std::span<const double> x, std::span<double> y) const;
+
+  /// The diagonal of storage - step / theta_ref G.
+  std::vector<double> diagonal(double step) const;
+
+  /// |storage - step / theta_ref G| |x|, entry by entry, the size of the terms of a product; on
+  /// several ranks at most that of their shares.
+  std::vector<double> sizes(double step, std::span<const double> x) const;
 
   /// storage x, field by field; `products` is overwritten.
   void multiply_by_field(std::span<const double> x, FieldProducts &products) const;
@@ -83,6 +95,7 @@ class Operator {
   std::vector<double> conducted(std::span<const double> x) const;
 
  private:
+  void add_cell(const Quadrature<dim> &cell, const material::BodyConstants<dim> &material);
   std::size_t entry_of(Node row, Node column) const;
 
   NodeGraph graph_;

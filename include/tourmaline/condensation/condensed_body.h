@@ -27,13 +27,16 @@ class CondensedBody {
                 const std::vector<body::Prescribed> &prescribed,
                 const std::vector<body::Node> &contact_nodes, int threads);
 
-  /// dim entries for each contact node, in the order of `contact_nodes`.
+  /// dim entries for each contact node, in the order of `contact_nodes`. Only on the first rank;
+  /// empty on the others.
   const Eigen::MatrixXd &stiffness() const { return stiffness_; }
 
-  /// s [N] from the right-hand side of a step; `state` holds the values of prescribed unknowns.
+  /// s [N] from the right-hand side of a step, on every rank; `state` holds the values of
+  /// prescribed unknowns.
   Eigen::VectorXd reduce(std::span<const double> right_side, std::span<const double> state);
 
-  /// Fills the unknowns of `state` that are not prescribed, from the contact displacements c [m].
+  /// Fills the unknowns of `state` that are not prescribed, from the contact displacements c [m],
+  /// on every rank.
   void expand(const Eigen::VectorXd &c, std::span<double> state);
 
   /// |b - K x| / (|K| |x| + |b|) over the free unknowns, scaled, in the maximum norm; q [N] are the

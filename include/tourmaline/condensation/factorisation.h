@@ -8,7 +8,7 @@
 namespace tourmaline::condensation {
 
 /// The lower triangle of a symmetric matrix by entries, numbered from 1 as MUMPS wants it; each
-/// entry once.
+/// entry once. On several ranks it is the sum of what they hold.
 struct SymmetricMatrix {
   int size = 0;
   std::vector<int> row, column;
@@ -29,7 +29,8 @@ struct FactorisationStatistics {
 ///     K = [K_ii K_ic; K_ci K_cc],   S = K_cc - K_ci K_ii^-1 K_ic
 ///
 /// `reduce` is the forward substitution, s = b_c - K_ci K_ii^-1 b_i; `expand` the backward one, x_i
-/// from x_c. Every `expand` belongs to the `reduce` before it. Needs MPI to be initialised.
+/// from x_c. Every `expand` belongs to the `reduce` before it. Needs MPI to be initialised; on
+/// several ranks the factor is distributed, right-hand sides and solutions are whole on every rank.
 class Factorisation {
  public:
   /// `position[v]`: place of variable v (from 0) in the order of elimination; the variables `schur`
@@ -41,7 +42,7 @@ class Factorisation {
   Factorisation(const Factorisation &) = delete;
   Factorisation &operator=(const Factorisation &) = delete;
 
-  /// Column-major, symmetric, both triangles filled; schur.size() squared.
+  /// Column-major, symmetric, both triangles filled; schur.size() squared, on the first rank.
   const std::vector<double> &schur_complement() const;
   const FactorisationStatistics &statistics() const;
 

@@ -12,7 +12,8 @@ namespace tourmaline::output {
 
 /// x,y[,z],u_x,u_y[,u_z],potential,temperature: one row for each point, in the order of the grid.
 /// Throws std::invalid_argument when a field does not have one value for each point.
-std::string nodes_table(int dimension, const Grid &grid, const PointFields &fields);
+std::string nodes_table(int dimension, const std::vector<Vector> &points,
+                        const PointFields &fields);
 
 /// step,time,x,y[,z],normal_traction,tangential_traction_x,tangential_traction_y[,..._z],
 /// normal_displacement,slip_x,slip_y[,slip_z],slip_rate,status,temperature,potential,heat_flux

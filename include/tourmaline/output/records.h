@@ -37,6 +37,9 @@ struct Grid {
   std::size_t n_cells() const { return connectivity.size() / nodes_per_cell; }
 };
 
+/// Takes out of a grid the points that none of its cells uses; returns which are left, ascending.
+std::vector<std::uint32_t> keep_used_points(Grid &grid);
+
 /// Values at the nodes of the grid.
 struct PointFields {
   std::vector<Vector> displacement;  // m

@@ -15,23 +15,34 @@
 
 namespace tourmaline::output {
 
+/// Which part of the cells a process writes, of how many.
+struct Piece {
+  int number = 0, count = 1;
+};
+
 /// The folder that a run leaves behind. Every file in it is whole at every moment: one that is
-/// being written is called NAME.part. In a parallel run only one rank owns this. Whatever fails to
-/// be written is a MachineError with the file's name and the reason.
+/// being written is called NAME.part. Whatever fails to be written is a MachineError with the
+/// file's name and the reason. In a parallel run every rank has one, in turn: the first makes the
+/// folder, and alone writes everything but the fields of the others' cells.
 class ResultFolder {
  public:
   /// Makes the folder, with its parents, checks that it can be written to, and removes the files
   /// that an earlier run left there (by the names that this program gives them, and no others).
-  ResultFolder(std::filesystem::path directory, int dimension);
+  /// Of several pieces only number 0 does so; the folder of the others must be there.
+  ResultFolder(std::filesystem::path directory, int dimension, Piece piece = {});
 
   /// resolved.toml: the case with every default filled in.
   void put_case(const std::string &resolved_toml);
 
-  /// result_NNNN.vtu, and result.pvd with all field files so far. The grid is encoded at the first
+  /// result_NNNN.vtu, of several pieces result_NNNN_PIECE.vtu. The grid is encoded at the first
   /// call: every call of a run passes the same one. Throws std::invalid_argument when sizes
   /// disagree.
   void put_fields(int step, double time, const Grid &grid, const PointFields &points,
                   const CellFields &cells);
+
+  /// result.pvd with all field files so far, and of several pieces result_NNNN.pvtu, when all of
+  /// them have been put.
+  void list_fields(int step, double time);
 
   /// Rows of contact.csv. The file exists only if this was called: without a contact boundary, do
   /// not.
@@ -41,8 +52,8 @@ class ResultFolder {
   /// first row.
   void put_history(const HistoryRow &row);
 
-  /// nodes.csv; rows in the order of the grid's points.
-  void put_nodes(const Grid &grid, const PointFields &fields);
+  /// nodes.csv; rows in the order of the points.
+  void put_nodes(const std::vector<Vector> &points, const PointFields &fields);
 
   /// summary.json
   void put_summary(const Summary &summary);
@@ -56,6 +67,7 @@ class ResultFolder {
  private:
   std::filesystem::path directory_;
   int dimension_;
+  Piece piece_;
   std::optional<VtuWriter> vtu_;
   std::vector<PvdEntry> series_;
   std::unique_ptr<AtomicFile> contact_, history_;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <span>
 #include <string>
 
 #include "tourmaline/output/records.h"
@@ -28,5 +29,8 @@ class VtuWriter {
   std::size_t n_points_, n_cells_;
   std::string topology_;  // the elements <Points> and <Cells>
 };
+
+/// The file (.pvtu) that joins the pieces of one step, given by their names.
+std::string pvtu_text(double time, std::span<const std::string> pieces);
 
 }  // namespace tourmaline::output

@@ -42,6 +42,7 @@ class Balance {
   void add_charges(const Step &step, Columns &columns) const;
   void add_heat(const Step &step, Columns &columns) const;
   void add_energy(const Step &step, Columns &columns);
+  std::vector<std::pair<body::Node, double>> exchange_weights(const std::string &boundary) const;
   double exchanged(const std::string &boundary, const Step &step) const;
 
   const Model<dim> &model_;

@@ -3,8 +3,7 @@
 namespace tourmaline::solve {
 
 /// MPI for as long as it lives, and the number of threads of OpenBLAS and deal.II. MUMPS needs MPI
-/// even on one rank. Throws CaseError under `mpirun` with several ranks, which are not available
-/// yet.
+/// even on one rank.
 class Process {
  public:
   explicit Process(int threads);

@@ -14,6 +14,7 @@ namespace tourmaline::solve {
 template <int dim>
 class Recorder {
  public:
+  /// All ranks make one and call it together; the first writes the tables, each its own cells.
   Recorder(const Model<dim> &model, output::ResultFolder &folder);
 
   void initial(std::span<const double> state);
@@ -28,7 +29,8 @@ class Recorder {
   double seconds() const { return seconds_; }
 
  private:
-  output::PointFields point_fields(std::span<const double> state) const;
+  output::PointFields point_fields(std::span<const double> state,
+                                   std::span<const body::Node> nodes) const;
   std::vector<output::ContactRow> contact_rows(int n, const StepOutcome &outcome,
                                                std::span<const double> before,
                                                std::span<const double> state) const;
@@ -37,7 +39,8 @@ class Recorder {
 
   const Model<dim> &model_;
   output::ResultFolder &folder_;
-  output::Grid grid_;
+  output::Grid grid_;              // this rank's cells and the nodes they use
+  std::vector<body::Node> nodes_;  // of the grid
   std::optional<Balance<dim>> balance_;
   double seconds_ = 0;
 };

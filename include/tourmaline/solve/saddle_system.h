@@ -77,8 +77,7 @@ class SaddleSystem {
 
  private:
   void number(const std::vector<body::Prescribed> &prescribed);
-  void set_scales();
-  double node_stiffness(body::Node node) const;
+  void set_scales(const std::vector<double> &diagonal);
   condensation::SymmetricMatrix body_matrix() const;
   void add_contact_pattern(condensation::SymmetricMatrix &matrix) const;
   std::vector<int> elimination_order() const;

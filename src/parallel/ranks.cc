@@ -1,0 +1,195 @@
+#include "tourmaline/parallel/ranks.h"
+
+#include <mpi.h>
+
+#include <array>
+#include <cstdlib>
+#include <new>
+#include <numeric>
+#include <string>
+
+#include "tourmaline/error.h"
+
+namespace tourmaline::parallel {
+
+namespace {
+
+bool mpi_runs() {
+  int started = 0, finished = 0;
+  MPI_Initialized(&started);
+  MPI_Finalized(&finished);
+  return started && !finished;
+}
+
+template <class Number>
+std::vector<Number> gathered(const std::vector<Number> &mine, MPI_Datatype type, bool on_all) {
+  if (n_ranks() == 1)
+    return mine;
+  const int count = static_cast<int>(mine.size());
+  std::vector<int> counts(n_ranks()), offsets(n_ranks());
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, MPI_COMM_WORLD);
+  std::exclusive_scan(counts.begin(), counts.end(), offsets.begin(), 0);
+  std::vector<Number> all(on_all || is_first() ? offsets.back() + counts.back() : 0);
+  if (on_all)
+    MPI_Allgatherv(mine.data(), count, type, all.data(), counts.data(), offsets.data(), type,
+                   MPI_COMM_WORLD);
+  else
+    MPI_Gatherv(mine.data(), count, type, all.data(), counts.data(), offsets.data(), type, 0,
+                MPI_COMM_WORLD);
+  return all;
+}
+
+// What went wrong on a rank, in a form that can be sent.
+struct Failure {
+  enum Kind { none, wrong_case, solve, machine, other } kind = none;
+  std::string text;
+};
+
+Failure failure_of(const std::function<void()> &work) {
+  try {
+    work();
+    return {};
+  } catch (const CaseError &error) {
+    return {Failure::wrong_case, error.what()};
+  } catch (const SolveError &error) {
+    return {Failure::solve, error.what()};
+  } catch (const MachineError &error) {
+    return {Failure::machine, error.what()};
+  } catch (const std::bad_alloc &) {
+    return {Failure::machine, "not enough memory"};
+  } catch (const std::exception &error) {
+    return {Failure::other, error.what()};
+  }
+}
+
+[[noreturn]] void raise(const Failure &failure) {
+  switch (failure.kind) {
+    case Failure::wrong_case:
+      throw CaseError(failure.text);
+    case Failure::solve:
+      throw SolveError(failure.text);
+    case Failure::machine:
+      throw MachineError(failure.text);
+    default:
+      throw std::runtime_error(failure.text);
+  }
+}
+
+void send_from(int rank, Failure &failure) {
+  std::array<int, 2> head{failure.kind, static_cast<int>(failure.text.size())};
+  MPI_Bcast(head.data(), 2, MPI_INT, rank, MPI_COMM_WORLD);
+  failure.kind = static_cast<Failure::Kind>(head[0]);
+  failure.text.resize(head[1]);
+  MPI_Bcast(failure.text.data(), head[1], MPI_CHAR, rank, MPI_COMM_WORLD);
+}
+
+}  // namespace
+
+int rank() {
+  int rank = 0;
+  if (mpi_runs())
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  return rank;
+}
+
+bool speaks() {
+  if (mpi_runs())
+    return is_first();
+  const char *launched_as = std::getenv("OMPI_COMM_WORLD_RANK");
+  return !launched_as || std::string(launched_as) == "0";
+}
+
+int n_ranks() {
+  int ranks = 1;
+  if (mpi_runs())
+    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  return ranks;
+}
+
+// Summed on one rank and sent from there: the order of the terms, and so the last bit, may differ
+// between ranks otherwise.
+void sum(std::span<double> values) {
+  if (n_ranks() == 1)
+    return;
+  MPI_Reduce(is_first() ? MPI_IN_PLACE : values.data(), values.data(),
+             static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM, 0, MPI_COMM_WORLD);
+  from_first(values);
+}
+
+double sum(double value) {
+  sum(std::span(&value, 1));
+  return value;
+}
+
+std::size_t sum(std::size_t value) {
+  if (n_ranks() > 1)
+    MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_UNSIGNED_LONG, MPI_SUM, MPI_COMM_WORLD);
+  return value;
+}
+
+void largest(std::span<double> values) {
+  if (n_ranks() > 1)
+    MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_MAX,
+                  MPI_COMM_WORLD);
+}
+
+void from_first(std::span<double> values) {
+  if (n_ranks() > 1)
+    MPI_Bcast(values.data(), static_cast<int>(values.size()), MPI_DOUBLE, 0, MPI_COMM_WORLD);
+}
+
+void from_first(std::vector<double> &values) {
+  values.resize(from_first(static_cast<int>(values.size())));
+  from_first(std::span<double>(values));
+}
+
+void from_first(std::span<int> values) {
+  if (n_ranks() > 1)
+    MPI_Bcast(values.data(), static_cast<int>(values.size()), MPI_INT, 0, MPI_COMM_WORLD);
+}
+
+int from_first(int value) {
+  from_first(std::span(&value, 1));
+  return value;
+}
+
+std::vector<double> joined(const std::vector<double> &mine) {
+  return gathered(mine, MPI_DOUBLE, true);
+}
+
+std::vector<std::uint32_t> joined(const std::vector<std::uint32_t> &mine) {
+  return gathered(mine, MPI_UINT32_T, true);
+}
+
+std::vector<std::uint32_t> joined_on_first(const std::vector<std::uint32_t> &mine) {
+  return gathered(mine, MPI_UINT32_T, false);
+}
+
+void together(const std::function<void()> &work) {
+  if (n_ranks() == 1) {
+    work();
+    return;
+  }
+  Failure failure = failure_of(work);
+  int first = failure.kind == Failure::none ? n_ranks() : rank();
+  MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
+  if (first == n_ranks())
+    return;
+  send_from(first, failure);
+  raise(failure);
+}
+
+void on_first(const std::function<void()> &work) {
+  together([&] {
+    if (is_first())
+      work();
+  });
+}
+
+void end_all(int exit_status) {
+  if (n_ranks() > 1)
+    MPI_Abort(MPI_COMM_WORLD, exit_status);
+  std::exit(exit_status);
+}
+
+}  // namespace tourmaline::parallel
