@@ -269,16 +269,30 @@ struct Body {
 };
 
 Key on_boundaries(const std::string &description, const Body &body) {
-  Key key = {.name = "on",
-             .description = description,
-             .required = true,
-             .choices = boundary_names(body.mesh, body.dimension),
-             .choices_words =
-                 "left, right, bottom, top, in 3D also front, back; the names of a "
-                 "mesh file"};
-  if (body.mesh.content)
-    key.foreseen = body.mesh.content->inner_names();
-  return key;
+  std::vector<std::string> names = boundary_names(body.mesh, body.dimension);
+  if (body.mesh.content)  // a complaint of their own awaits those that lie inside
+    for (const std::string &name : body.mesh.content->inner_names())
+      names.push_back(name);
+  return {.name = "on",
+          .description = description,
+          .required = true,
+          .choices = names,
+          .choices_words =
+              "left, right, bottom, top, in 3D also front, back; the names of a "
+              "mesh file"};
+}
+
+// Of names in a mesh file that lie inside, where a condition would mean something else.
+std::string inside_complaint(const std::vector<std::string> &on, const Body &body) {
+  if (!body.mesh.content)
+    return "";
+  const std::vector<std::string> inner = body.mesh.content->inner_names();
+  for (const std::string &name : on)
+    if (std::find(inner.begin(), inner.end(), name) != inner.end())
+      return fmt::format(
+          "\"{}\" lies inside the body, at least in part; conditions are possible on its boundary",
+          name);
+  return "";
 }
 
 void declare_mechanics(Visitor &v, BoundaryCase &boundary, int dimension) {
@@ -300,6 +314,7 @@ void declare(Visitor &v, BoundaryCase &boundary, const Body &body) {
   v.place(boundary.where);
   v.key(on_boundaries("boundary, or list of boundaries, that the conditions hold on", body),
         &boundary.on);
+  v.check("on", [&] { return inside_complaint(boundary.on, body); });
   declare_mechanics(v, boundary, body.dimension);
   v.optional({.name = "potential", .description = "prescribed electric potential", .unit = "V"},
              boundary.potential);
@@ -364,6 +379,7 @@ void declare(Visitor &v, ContactCase &contact, const Body &body) {
   v.place(contact.where);
   v.key(on_boundaries("boundary, or list of boundaries, in contact with the foundation", body),
         &contact.on);
+  v.check("on", [&] { return inside_complaint(contact.on, body); });
   v.key({.name = "normal",
          .description = "bilateral: contact is never lost, u_nu = 0 (9)",
          .choices = {"bilateral"},
