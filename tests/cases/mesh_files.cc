@@ -85,7 +85,7 @@ TEST_F(MeshFileCase, ASquareFromGmshGivesTheResultsOfTheSameBox) {
   put("square.geo", square + of_equal_squares);
   const RunCase file(read(rubbed)), box(read(on_a_box(rubbed)));
   for (const char *column : {"x", "y", "u_x", "u_y", "potential", "temperature"}) {
-    const auto a = file.nodes().column(column), b = box.nodes().column(column);
+    const auto a = file.nodes().numbers(column), b = box.nodes().numbers(column);
     ASSERT_EQ(a.size(), b.size());
     double size = 0;
     for (const double value : b)
@@ -93,7 +93,7 @@ TEST_F(MeshFileCase, ASquareFromGmshGivesTheResultsOfTheSameBox) {
     for (std::size_t i = 0; i < a.size(); ++i)
       EXPECT_NEAR(a[i], b[i], 1e-9 * size) << column << " at node " << i;
   }
-  EXPECT_EQ(file.contact().column("x").size(), box.contact().column("x").size());
+  EXPECT_EQ(file.contact().numbers("x").size(), box.contact().numbers("x").size());
 }
 
 // A linear state is in the space of every mesh and obeys the equations: it must come back to
@@ -101,13 +101,13 @@ TEST_F(MeshFileCase, ASquareFromGmshGivesTheResultsOfTheSameBox) {
 void expect_patch(const casefile::Case &asked) {
   const RunCase run(asked);
   const auto nodes = run.nodes();
-  const auto x = nodes.column("x"), y = nodes.column("y");
+  const auto x = nodes.numbers("x"), y = nodes.numbers("y");
   const bool solid = asked.dimension == 3;
-  const auto z = solid ? nodes.column("z") : std::vector<double>(x.size(), 0.);
+  const auto z = solid ? nodes.numbers("z") : std::vector<double>(x.size(), 0.);
   for (std::size_t i = 0; i < x.size(); ++i) {
-    EXPECT_NEAR(nodes.column("u_x")[i], 1e-6 * (x[i] + 2 * y[i] + z[i]), 1e-17);
-    EXPECT_NEAR(nodes.column("u_y")[i], 1e-6 * (3 * x[i] - y[i]), 1e-17);
-    EXPECT_NEAR(nodes.column("potential")[i], 10 * (x[i] - 4 * y[i] + z[i]), 1e-11);
+    EXPECT_NEAR(nodes.numbers("u_x")[i], 1e-6 * (x[i] + 2 * y[i] + z[i]), 1e-17);
+    EXPECT_NEAR(nodes.numbers("u_y")[i], 1e-6 * (3 * x[i] - y[i]), 1e-17);
+    EXPECT_NEAR(nodes.numbers("potential")[i], 10 * (x[i] - 4 * y[i] + z[i]), 1e-11);
   }
 }
 
@@ -199,7 +199,7 @@ TEST_F(MeshFileCase, TheResolvedCaseFindsTheMeshFromAnotherFolder) {
   const RunCase first(read(rubbed));
   const RunCase again(
       casefile::read_file(first.folder() / "resolved.toml", {}, mesh::read_mesh_file));
-  EXPECT_EQ(first.nodes().column("u_x"), again.nodes().column("u_x"));
+  EXPECT_EQ(first.nodes().numbers("u_x"), again.nodes().numbers("u_x"));
 }
 
 }  // namespace
