@@ -7,6 +7,7 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 
 #include "tourmaline/error.h"
@@ -28,7 +29,10 @@ class Session {
     gmsh::option::setNumber("General.Terminal", 0);
     gmsh::logger::start();
   }
-  ~Session() { gmsh::finalize(); }
+  ~Session() {
+    gmsh::logger::stop();  // what it holds would outlive the session
+    gmsh::finalize();
+  }
   Session(const Session &) = delete;
   Session &operator=(const Session &) = delete;
 
@@ -51,17 +55,24 @@ std::string extension(const std::filesystem::path &file) {
   return text;
 }
 
+// libgmsh takes what there is of a file that was cut off.
+void check_whole(std::ifstream &in) {
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (text.find("$EndNodes") == std::string::npos || text.find("$EndElements") == std::string::npos)
+    throw CaseError("is not whole: it does not end its lists of nodes and elements");
+}
+
 Format format_of_msh(const std::filesystem::path &file) {
   std::ifstream in(file, std::ios::binary);
   std::string head;
   double version = 0;
   if (!(in >> head >> version) || head != "$MeshFormat")
     throw CaseError("is no Gmsh file: it does not begin with $MeshFormat");
-  if (version >= 2 && version < 3)
-    return Format::msh2;
-  if (version >= 4 && version < 5)
-    return Format::msh4;
-  throw CaseError(fmt::format("has Gmsh's format {}; 2.2 and 4.1 can be read", version));
+  const bool old = version >= 2 && version < 3;
+  if (!old && !(version >= 4 && version < 5))
+    throw CaseError(fmt::format("has Gmsh's format {}; 2.2 and 4.1 can be read", version));
+  check_whole(in);
+  return old ? Format::msh2 : Format::msh4;
 }
 
 Format format_of(const std::filesystem::path &file) {
@@ -76,6 +87,16 @@ Format format_of(const std::filesystem::path &file) {
   throw CaseError(
       "is of an unknown kind; .msh (mesh), .geo, .step, .stp, .iges, .igs and .brep (geometries) "
       "can be read");
+}
+
+// libgmsh does not see what stands behind the last end of a line.
+void check_last_line(Format format, const std::string &file) {
+  if (format != Format::geo)
+    return;
+  std::ifstream in(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (!text.empty() && text.back() != '\n')
+    throw CaseError("does not end with the end of a line; Gmsh would not see its last line");
 }
 
 void check_size(Format format, const casefile::MeshCase &asked) {
@@ -302,6 +323,7 @@ MeshFile listed(Format format, const casefile::MeshCase &asked) {
 MeshFile read(const casefile::MeshCase &asked) {
   const Format format = format_of(*asked.file);
   check_size(format, asked);
+  check_last_line(format, *asked.file);
   const Session session;
   try {
     open(format, asked);
