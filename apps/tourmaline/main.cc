@@ -11,10 +11,11 @@
 #include "tourmaline/case/reference.h"
 #include "tourmaline/case/resolved.h"
 #include "tourmaline/error.h"
-#include "tourmaline/material/library.h"
+#include "tourmaline/material/description.h"
 #include "tourmaline/mesh/gmsh.h"
 #include "tourmaline/parallel/ranks.h"
 #include "tourmaline/solve/simulation.h"
+#include "tourmaline/solve/survey.h"
 
 namespace {
 
@@ -24,7 +25,7 @@ enum ExitStatus { done = 0, wrong_case = 2, solve_failed = 3, machine_failed = 4
 struct Asked {
   std::filesystem::path file, directory;
   std::vector<std::string> overrides;
-  std::string material;
+  std::string material, materials_file;
   bool quiet = false;
 };
 
@@ -41,12 +42,19 @@ void check(const Asked &asked) {
   const auto read = tourmaline::casefile::read_file(asked.file, asked.overrides,
                                                     tourmaline::mesh::read_mesh_file);
   tourmaline::solve::check(read);
-  std::cout << tourmaline::casefile::resolved(read);
+  std::cout << tourmaline::casefile::resolved(read) << tourmaline::solve::survey(read);
 }
 
 void materials(const Asked &asked) {
-  std::cout << (asked.material.empty() ? tourmaline::material::describe_library()
-                                       : tourmaline::material::describe(asked.material));
+  if (asked.material.empty()) {
+    std::cout << tourmaline::material::describe_library(asked.materials_file);
+    return;
+  }
+  tourmaline::casefile::MaterialCase material;
+  material.library = asked.material;
+  if (!asked.materials_file.empty())
+    material.file = asked.materials_file;
+  std::cout << tourmaline::material::describe(material);
 }
 
 void add_case(CLI::App &command, Asked &asked) {
@@ -79,6 +87,7 @@ void add_check(CLI::App &app, Asked &asked) {
 void add_materials(CLI::App &app, Asked &asked) {
   CLI::App *command = app.add_subcommand("materials", "list the built-in materials, or show one");
   command->add_option("NAME", asked.material, "the material to show");
+  command->add_option("--file", asked.materials_file, "a file of materials instead of the library");
   command->callback([&asked] { materials(asked); });
 }
 

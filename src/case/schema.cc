@@ -244,8 +244,80 @@ void declare(Visitor &v, MeshCase &mesh) {
     return mesh.box && mesh.file ? "both mesh.box and mesh.file are given; a case has one mesh"
                                  : "";
   });
+  if (mesh.file)
+    v.locate("file", *mesh.file);
   v.load(mesh);
   v.check("file", [&] { return unnamed_complaint(mesh); });
+}
+
+// What regions and boundary conditions are checked against.
+struct Body {
+  const MeshCase &mesh;
+  int dimension;
+};
+
+std::string all_regions(const Body &body) {
+  if (!body.mesh.content)
+    return "";
+  std::string all;
+  for (const std::string &name : body.mesh.content->regions.names)
+    all += (all.empty() ? "\"" : ", \"") + name + "\"";
+  return all;
+}
+
+void declare(Visitor &v, RegionCase &region, const Body &body) {
+  v.place(region.place);
+  const Key on = {
+      .name = "on",
+      .description = "region, or list of regions, of a mesh file",
+      .choices = body.mesh.content ? body.mesh.content->regions.names : std::vector<std::string>{},
+      .choices_words = "the names of a mesh file",
+      .default_words = "none",
+      .used = !body.mesh.box,
+      .used_with = "mesh.file"};
+  v.key(on, &region.on);
+  v.optional({.name = "where",
+              .description = "formula: a cell belongs to the region when this is not 0 at its "
+                             "centre, as with \"y > 0.01\"",
+              .constant_in_time = true},
+             region.inside);
+  v.check("", [&]() -> std::string {
+    if (region.on.empty() == !region.inside)
+      return "give either `on`, a name in the mesh file, or `where`, a formula";
+    return "";
+  });
+  v.table({.name = "material",
+           .description = "What the region is made of; the keys are those of [material]",
+           .required = true},
+          [&](Visitor &inner) { declare(inner, region.material, body.dimension); });
+}
+
+// A region of the mesh that no entry names has no material.
+std::string uncovered_complaint(const std::vector<RegionCase> &regions, const Body &body) {
+  if (!body.mesh.content || regions.empty())
+    return "";
+  for (const RegionCase &region : regions)
+    if (region.inside)
+      return "";  // to be seen cell by cell
+  for (const std::string &name : body.mesh.content->regions.names)
+    if (std::none_of(regions.begin(), regions.end(), [&](const RegionCase &region) {
+          return std::find(region.on.begin(), region.on.end(), name) != region.on.end();
+        }))
+      return fmt::format("no entry says what \"{}\" is made of; the mesh has the regions {}", name,
+                         all_regions(body));
+  return "";
+}
+
+void declare_regions(Visitor &v, std::vector<RegionCase> &regions, const Body &body) {
+  const Key key = {.name = "region",
+                   .description =
+                       "A part of the body with a material of its own, instead of [material]. "
+                       "Every cell must be in exactly one region; where regions meet they are "
+                       "bonded"};
+  regions.resize(static_cast<std::size_t>(v.count(key, static_cast<int>(regions.size()))));
+  for (std::size_t i = 0; i < regions.size(); ++i)
+    v.entry(key, static_cast<int>(i), [&](Visitor &inner) { declare(inner, regions[i], body); });
+  v.check("region", [&] { return uncovered_complaint(regions, body); });
 }
 
 void declare(Visitor &v, TimeCase &time) {
@@ -261,12 +333,6 @@ void declare(Visitor &v, TimeCase &time) {
          .range = at_least(1)},
         &time.steps);
 }
-
-// What a boundary condition is checked against.
-struct Body {
-  const MeshCase &mesh;
-  int dimension;
-};
 
 Key on_boundaries(const std::string &description, const Body &body) {
   std::vector<std::string> names = boundary_names(body.mesh, body.dimension);
@@ -518,6 +584,27 @@ void declare_contact(Visitor &v, std::optional<ContactCase> &contact, const Body
   v.table(key, [&](Visitor &inner) { declare(inner, *contact, body); });
 }
 
+void declare_material(Visitor &v, Case &c, const Body &body) {
+  declare_regions(v, c.regions, body);
+  const Key key = {
+      .name = "material",
+      .description =
+          "What the whole body is made of: constants of (1)-(3) in crystal axes, sigma = F eps(u) "
+          "- "
+          "E^T E(phi) - M theta, D = E eps(u) + beta E(phi) + P theta, q = -K grad theta, with "
+          "E(phi) = -grad phi. Each of them may be given in the stress-charge form (c, e, "
+          "permittivity at constant strain) or in the strain-charge form of data sheets (s, d, "
+          "permittivity at constant stress), from which the first is computed. What is not given "
+          "is taken from the library's entry; without an entry it must be given",
+      .required = c.regions.empty()};
+  const bool given = v.given(key, c.regions.empty());
+  if (given)
+    v.table(key, [&](Visitor &inner) { declare(inner, c.material, c.dimension); });
+  v.check("material", [&] {
+    return given && !c.regions.empty() ? "stands beside [[region]]; a body has either of them" : "";
+  });
+}
+
 }  // namespace
 
 void declare(Visitor &v, Case &c) {
@@ -529,14 +616,7 @@ void declare(Visitor &v, Case &c) {
   if (c.mesh.content)
     c.dimension = c.mesh.content->dimension;
   const Body body{c.mesh, c.dimension};
-  v.table({.name = "material",
-           .description =
-               "Constants of (1)-(3) in crystal axes, in the stress-charge form at constant "
-               "strain: sigma = F eps(u) - E^T E(phi) - M theta, D = E eps(u) + beta E(phi) + "
-               "P theta, q = -K grad theta, with E(phi) = -grad phi. What is not given is "
-               "taken from the library's entry; without an entry it must be given",
-           .required = true},
-          [&](Visitor &inner) { declare(inner, c.material, c.dimension); });
+  declare_material(v, c, body);
   v.table({.name = "time", .description = "The simulated time", .required = true},
           [&](Visitor &inner) { declare(inner, c.time); });
   declare_boundaries(v, c.boundaries, body);

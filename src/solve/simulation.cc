@@ -8,7 +8,7 @@
 #include "tourmaline/case/resolved.h"
 #include "tourmaline/contact/friction.h"
 #include "tourmaline/error.h"
-#include "tourmaline/material/plane.h"
+#include "tourmaline/material/composition.h"
 #include "tourmaline/output/progress.h"
 #include "tourmaline/parallel/ranks.h"
 #include "tourmaline/solve/condensed_route.h"
@@ -186,9 +186,10 @@ output::Summary Simulation<dim>::summary() const {
 }  // namespace
 
 void check(const casefile::Case &asked) {
-  const material::Constants constants = body_material(asked);
   if (asked.dimension == 2)
-    material::restricted<2>(constants);
+    material::Composition<2>{asked};
+  else
+    material::Composition<3>{asked};
   require_memory(asked);
 }
 

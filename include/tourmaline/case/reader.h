@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tourmaline/case/case.h"
@@ -20,5 +21,11 @@ Case read_file(const std::filesystem::path &file, const std::vector<std::string>
 Case read_text(const std::string &text, const std::string &name,
                const std::vector<std::string> &overrides = {},
                const MeshFileReader &read_mesh = {});
+
+/// The entries of a file of materials, by name. Throws CaseError.
+std::vector<std::pair<std::string, MaterialCase>> read_materials(const std::filesystem::path &file);
+/// The same for its text; error texts call it `name`.
+std::vector<std::pair<std::string, MaterialCase>> read_materials(const std::string &text,
+                                                                 const std::string &name);
 
 }  // namespace tourmaline::casefile

@@ -24,6 +24,14 @@ struct Mesh {
 template <int dim>
 Mesh<dim> build(const casefile::MeshCase &asked);
 
+/// The same with the cells assigned to the case's regions: a cell's material id is the index of its
+/// region, 0 when the case has none. Throws CaseError for a cell in none or in several.
+template <int dim>
+Mesh<dim> build(const casefile::Case &asked);
+/// Assigns the cells of a mesh; by the names in `file`, if there is one.
+template <int dim>
+void assign_regions(Mesh<dim> &mesh, const casefile::Case &asked);
+
 template <int dim>
 Mesh<dim> box(const casefile::Box &asked);
 template <int dim>
