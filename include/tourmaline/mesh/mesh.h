@@ -20,13 +20,8 @@ struct Mesh {
   bool simplices = false;
 };
 
-/// The mesh that a case asks for: a box, or what was read from its mesh file.
+/// The mesh that a case asks for: a shape, or what was read from its mesh file.
 template <int dim>
 Mesh<dim> build(const casefile::MeshCase &asked);
-
-template <int dim>
-Mesh<dim> box(const casefile::Box &asked);
-template <int dim>
-Mesh<dim> imported(const casefile::MeshFile &file);
 
 }  // namespace tourmaline::mesh
