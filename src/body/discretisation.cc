@@ -2,14 +2,12 @@
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_handler.h>
-#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_fe.h>
 
 #include <algorithm>
-#include <map>
 #include <numeric>
 #include <set>
 
@@ -39,8 +37,9 @@ struct Discretisation<dim>::Parts {
 
   Parts(mesh::Mesh<dim> given, int degree);
 
+  std::vector<double> own_places() const;
   void number_nodes();
-  void list_cells();
+  void list_nodes_of_cells();
   std::span<const Node> nodes_of(std::size_t cell) const;
   template <class Values>
   void copy(const Values &from, std::span<const Node> cell_nodes, Quadrature<dim> &to) const;
@@ -101,24 +100,42 @@ Discretisation<dim>::Parts::Parts(mesh::Mesh<dim> given, int degree)
       facet_rule(gauss<dim - 1>(mesh.simplices, degree + 1)),
       dofs(*mesh.cells) {
   dofs.distribute_dofs(*element);
+  for (const auto &cell : dofs.active_cell_iterators())
+    if (cell->is_locally_owned())
+      cells.push_back(cell);
   number_nodes();
-  list_cells();
+  list_nodes_of_cells();
+}
+
+// Places of this rank's own nodes, in deal.II's order.
+template <int dim>
+std::vector<double> Discretisation<dim>::Parts::own_places() const {
+  const dealii::IndexSet &own = dofs.locally_owned_dofs();
+  std::vector<double> places(dim * own.n_elements());
+  dealii::FEValues<dim> at_nodes(*mapping, *element,
+                                 dealii::Quadrature<dim>(element->get_unit_support_points()),
+                                 dealii::update_quadrature_points);
+  Dofs of_cell(element->n_dofs_per_cell());
+  for (const auto &cell : cells) {
+    at_nodes.reinit(cell);
+    cell->get_dof_indices(of_cell);
+    for (unsigned int a = 0; a < of_cell.size(); ++a)
+      if (own.is_element(of_cell[a]))
+        for (int axis = 0; axis < dim; ++axis)
+          places[dim * own.index_within_set(of_cell[a]) + axis] =
+              at_nodes.quadrature_point(a)[axis];
+  }
+  return places;
 }
 
 // Every rank owns a range of deal.II's numbers; one behind the other, their places are those of all
 // nodes.
 template <int dim>
 void Discretisation<dim>::Parts::number_nodes() {
-  std::map<dealii::types::global_dof_index, dealii::Point<dim>> places;
-  dealii::DoFTools::map_dofs_to_support_points(*mapping, dofs, places);
-  std::vector<double> owned;
-  for (const auto dof : dofs.locally_owned_dofs())
-    for (int axis = 0; axis < dim; ++axis)
-      owned.push_back(places.at(dof)[axis]);
-  const std::vector<double> coordinates = parallel::joined(owned);
+  const std::vector<double> places = parallel::joined(own_places());
   std::vector<output::Vector> unsorted(dofs.n_dofs(), output::Vector{});
-  for (std::size_t i = 0; i < coordinates.size(); ++i)
-    unsorted[i / dim][i % dim] = coordinates[i];
+  for (std::size_t i = 0; i < places.size(); ++i)
+    unsorted[i / dim][i % dim] = places[i];
   node_of.resize(unsorted.size());
   points.reserve(unsorted.size());
   for (const std::size_t dof : output::sorted_by_place(unsorted)) {
@@ -128,13 +145,11 @@ void Discretisation<dim>::Parts::number_nodes() {
 }
 
 template <int dim>
-void Discretisation<dim>::Parts::list_cells() {
+void Discretisation<dim>::Parts::list_nodes_of_cells() {
   Dofs of_cell(element->n_dofs_per_cell());
-  for (const auto &cell : dofs.active_cell_iterators()) {
-    if (!cell->is_locally_owned())
-      continue;
+  connectivity.reserve(cells.size() * of_cell.size());
+  for (const auto &cell : cells) {
     cell->get_dof_indices(of_cell);
-    cells.push_back(cell);
     for (const auto dof : of_cell)
       connectivity.push_back(node_of[dof]);
   }

@@ -4,8 +4,6 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <map>
-#include <set>
 
 #include "tourmaline/case/sides.h"
 #include "tourmaline/error.h"
@@ -98,96 +96,21 @@ void add_rotations(const Constraints &constraints, std::vector<std::string> &fre
     free.emplace_back("a rotation about an oblique axis");
 }
 
-std::vector<std::array<double, 3>> corners(const Box &box, const Side &side) {
-  std::vector<std::array<double, 3>> all;
-  const int dimension = static_cast<int>(box.min.size());
-  for (int corner = 0; corner < 1 << dimension; ++corner) {
-    std::array<double, 3> point{};
-    for (int axis = 0; axis < dimension; ++axis)
-      point[axis] = (corner >> axis & 1) != 0 ? box.max[axis] : box.min[axis];
-    if ((corner >> side.axis & 1) == (side.greatest ? 1 : 0))
-      all.push_back(point);
-  }
-  return all;
-}
-
-// Vertices of the facets with one of the names, and the means of these facets' normals (as long as
-// the facets are large), which need not be outward here.
-std::map<std::uint32_t, Vector3d> vertices_on(const MeshFile &mesh,
-                                              const std::vector<std::string> &names) {
-  std::set<int> sets;
-  for (const std::string &name : names)
-    for (const int set : mesh.boundaries.sets_with(name))
-      sets.insert(set);
-  std::map<std::uint32_t, Vector3d> normals;
-  const std::size_t each = mesh.vertices_per_facet();
-  for (std::size_t facet = 0; facet < mesh.n_facets(); ++facet) {
-    if (!sets.contains(mesh.boundaries.set_of[facet]))
-      continue;
-    const std::uint32_t *at = &mesh.facets[facet * each];
-    const auto point = [&](std::size_t i) {
-      return Eigen::Map<const Vector3d>(mesh.points[at[i]].data());
-    };
-    const Vector3d along = point(1) - point(0);
-    const Vector3d normal = mesh.dimension == 2 ? Vector3d(along.y(), -along.x(), 0)
-                                                : Vector3d(along.cross(point(2) - point(0)));
-    for (std::size_t i = 0; i < each; ++i) {
-      Vector3d &mean = normals.try_emplace(at[i], Vector3d::Zero()).first->second;
-      mean += mean.dot(normal) < 0 ? Vector3d(-normal) : normal;
-    }
-  }
-  return normals;
-}
-
-// Points at which a rigid motion must vanish to vanish on a boundary: a rigid motion is affine.
-std::vector<std::array<double, 3>> points_on(const Case &asked, const std::string &name) {
-  std::vector<std::array<double, 3>> points;
-  if (asked.mesh.content)
-    for (const auto &[vertex, normal] : vertices_on(*asked.mesh.content, {name}))
-      points.push_back(asked.mesh.content->points[vertex]);
-  else
-    for (const Side &side : sides(asked.dimension))
-      if (side.name == name)
-        points = corners(*asked.mesh.box, side);
-  return points;
-}
-
-std::array<double, 3> unit_vector(int axis) {
-  std::array<double, 3> direction{};
-  direction[static_cast<std::size_t>(axis)] = 1;
-  return direction;
-}
-
-void hold_by_conditions(const Case &asked, std::vector<Support> &supports) {
-  for (const BoundaryCase &boundary : asked.boundaries)
-    if (boundary.displacement)
-      for (const std::string &name : boundary.on)
-        for (int i = 0; i < asked.dimension; ++i)
-          if ((*boundary.displacement)[static_cast<std::size_t>(i)])
-            for (const std::array<double, 3> &point : points_on(asked, name))
-              supports.push_back({point, unit_vector(i)});
-}
-
-void hold_by_contact(const Case &asked, std::vector<Support> &supports) {
-  if (asked.mesh.content) {
-    for (const auto &[vertex, normal] : vertices_on(*asked.mesh.content, asked.contact->on)) {
-      const Vector3d n = normal.normalized();
-      supports.push_back({asked.mesh.content->points[vertex], {n.x(), n.y(), n.z()}});
-    }
-    return;
-  }
-  for (const Side &side : sides(asked.dimension))
-    if (std::find(asked.contact->on.begin(), asked.contact->on.end(), side.name) !=
-        asked.contact->on.end())
-      for (const std::array<double, 3> &point : corners(*asked.mesh.box, side))
-        supports.push_back({point, unit_vector(side.axis)});
-}
-
+// A rigid motion is affine: what it is on a side is decided at so many points.
 std::vector<Support> supports_of(const Case &asked) {
   std::vector<Support> supports;
-  hold_by_conditions(asked, supports);
+  for (const BoundaryCase &boundary : asked.boundaries)
+    for (const std::string &name : boundary.on)
+      for (int i = 0; boundary.displacement && i < asked.dimension; ++i)
+        if ((*boundary.displacement)[i])
+          for (const SidePoint &at : points_on(asked.mesh, name)) {
+            supports.push_back({at.point, {}});
+            supports.back().direction[i] = 1;
+          }
   if (asked.contact && asked.contact->normal == "bilateral")
-    hold_by_contact(asked, supports);
+    for (const std::string &name : asked.contact->on)
+      for (const SidePoint &at : points_on(asked.mesh, name))
+        supports.push_back({at.point, at.normal});
   return supports;
 }
 

@@ -39,11 +39,19 @@ Range from_to(double low, double high) {
 Length one_each_axis(int dimension) {
   return {{dimension},
           "one for each axis",
-          fmt::format("the mesh makes the case {}-dimensional", dimension)};
+          fmt::format("the shape of its cells makes the case {}-dimensional", dimension)};
 }
 
 int dimension_of(CellShape shape) {
   return shape == CellShape::triangle || shape == CellShape::quadrilateral ? 2 : 3;
+}
+
+int dimension_of(const MeshCase &mesh) {
+  if (mesh.annulus)
+    return dimension_of(mesh.annulus->cell);
+  if (mesh.content)
+    return mesh.content->dimension;
+  return mesh.box ? dimension_of(mesh.box->cell) : 2;
 }
 
 const char *name_of(CellShape shape) {
@@ -161,6 +169,68 @@ void declare(Visitor &v, Box &box, int degree) {
   v.check("grading", [&] { return grading_complaint(box); });
 }
 
+std::string radii_complaint(const Annulus &ring) {
+  if (!(ring.outer > ring.inner))
+    return fmt::format("must be greater than inner, which is {}", ring.inner);
+  if (ring.outer - ring.inner < 1e-8 * ring.outer * ring.cells[0])
+    return "the wall is too thin to tell the corners of its cells apart";
+  return "";
+}
+
+std::string cells_complaint(const Annulus &ring, int degree) {
+  // With fewer the facets of a node differ too much to have one normal.
+  if (constexpr int least = 8; ring.cells[1] < least)
+    return fmt::format("entry 1, the intervals around, must be at least {}", least);
+  double unknowns = static_cast<double>(ring.cells.size()) + 2;
+  for (const int cells : ring.cells)
+    unknowns *= static_cast<double>(degree) * cells + 1;
+  if (unknowns < std::numeric_limits<int>::max())
+    return "";
+  return fmt::format("makes {:.3g} unknowns; at most {} are possible", unknowns,
+                     std::numeric_limits<int>::max());
+}
+
+void declare(Visitor &v, Annulus &ring, int degree) {
+  std::string cell = name_of(ring.cell);
+  v.key({.name = "cell",
+         .description = "shape of the cells; triangles and quadrilaterals make a ring, tetrahedra "
+                        "and hexahedra a tube",
+         .choices = {"triangle", "quadrilateral", "tetrahedron", "hexahedron"}},
+        &cell);
+  ring.cell = shape_named(cell);
+  const bool tube = dimension_of(ring.cell) == 3;
+  v.key({.name = "inner",
+         .description = "inner radius",
+         .unit = "m",
+         .required = true,
+         .range = positive()},
+        &ring.inner);
+  v.key({.name = "outer",
+         .description = "outer radius",
+         .unit = "m",
+         .required = true,
+         .range = positive()},
+        &ring.outer);
+  v.key({.name = "height",
+         .description = "length of the tube along z",
+         .unit = "m",
+         .required = true,
+         .range = positive(),
+         .used = tube,
+         .used_with = "cell = \"tetrahedron\" or \"hexahedron\""},
+        &ring.height);
+  v.key({.name = "cells",
+         .description = "intervals along the radius, around and, of a tube, along z",
+         .required = true,
+         .range = at_least(1),
+         .length = {{tube ? 3 : 2},
+                    "along the radius, around, of a tube along z",
+                    fmt::format("mesh.annulus.cell makes the case {}-dimensional", tube ? 3 : 2)}},
+        &ring.cells);
+  v.check("outer", [&] { return radii_complaint(ring); });
+  v.check("cells", [&] { return cells_complaint(ring, degree); });
+}
+
 // Where the file has no name, nobody could give a condition.
 std::string unnamed_complaint(const MeshCase &mesh) {
   if (!mesh.content || mesh.unnamed != "error")
@@ -235,14 +305,33 @@ void declare(Visitor &v, MeshCase &mesh) {
       mesh.box.emplace();
     v.table(box, [&](Visitor &inner) { declare(inner, *mesh.box, mesh.degree); });
   }
+  const Key annulus = {.name = "annulus",
+                       .description =
+                           "The ring between two circles about the origin, in 3D a tube along z "
+                           "from z = 0 on; its sides are named inner, outer and in 3D bottom, "
+                           "top. The corners of the cells lie on circles, edges are straight",
+                       .optional = true};
+  if (v.given(annulus, mesh.annulus.has_value())) {
+    if (!mesh.annulus)
+      mesh.annulus.emplace();
+    v.table(annulus, [&](Visitor &inner) { declare(inner, *mesh.annulus, mesh.degree); });
+  }
   v.check("", [&] {
-    return mesh.box || mesh.file
+    return mesh.box || mesh.annulus || mesh.file
                ? ""
-               : "no mesh; give mesh.box = { min, max, cells, cell } or mesh.file";
+               : "no mesh; give mesh.box = { min, max, cells, cell } or mesh.annulus = { inner, "
+                 "outer, cells, cell }";
+  });
+  v.check("annulus", [&] {
+    return mesh.box && mesh.annulus
+               ? "both mesh.box and mesh.annulus are given; a case has one mesh"
+               : "";
   });
   v.check("file", [&] {
-    return mesh.box && mesh.file ? "both mesh.box and mesh.file are given; a case has one mesh"
-                                 : "";
+    if ((mesh.box || mesh.annulus) && mesh.file)
+      return mesh.box ? "both mesh.box and mesh.file are given; a case has one mesh"
+                      : "both mesh.annulus and mesh.file are given; a case has one mesh";
+    return "";
   });
   if (mesh.file)
     v.locate("file", *mesh.file);
@@ -250,30 +339,24 @@ void declare(Visitor &v, MeshCase &mesh) {
   v.check("file", [&] { return unnamed_complaint(mesh); });
 }
 
-// What regions and boundary conditions are checked against.
-struct Body {
-  const MeshCase &mesh;
-  int dimension;
-};
-
-std::string all_regions(const Body &body) {
-  if (!body.mesh.content)
+std::string all_regions(const MeshCase &mesh) {
+  if (!mesh.content)
     return "";
   std::string all;
-  for (const std::string &name : body.mesh.content->regions.names)
+  for (const std::string &name : mesh.content->regions.names)
     all += (all.empty() ? "\"" : ", \"") + name + "\"";
   return all;
 }
 
-void declare(Visitor &v, RegionCase &region, const Body &body) {
+void declare(Visitor &v, RegionCase &region, const MeshCase &mesh) {
   v.place(region.place);
   const Key on = {
       .name = "on",
       .description = "region, or list of regions, of a mesh file",
-      .choices = body.mesh.content ? body.mesh.content->regions.names : std::vector<std::string>{},
+      .choices = mesh.content ? mesh.content->regions.names : std::vector<std::string>{},
       .choices_words = "the names of a mesh file",
       .default_words = "none",
-      .used = !body.mesh.box,
+      .used = !mesh.box && !mesh.annulus,
       .used_with = "mesh.file"};
   v.key(on, &region.on);
   v.optional({.name = "where",
@@ -289,26 +372,26 @@ void declare(Visitor &v, RegionCase &region, const Body &body) {
   v.table({.name = "material",
            .description = "What the region is made of; the keys are those of [material]",
            .required = true},
-          [&](Visitor &inner) { declare(inner, region.material, body.dimension); });
+          [&](Visitor &inner) { declare(inner, region.material, dimension_of(mesh)); });
 }
 
 // A region of the mesh that no entry names has no material.
-std::string uncovered_complaint(const std::vector<RegionCase> &regions, const Body &body) {
-  if (!body.mesh.content || regions.empty())
+std::string uncovered_complaint(const std::vector<RegionCase> &regions, const MeshCase &mesh) {
+  if (!mesh.content || regions.empty())
     return "";
   for (const RegionCase &region : regions)
     if (region.inside)
       return "";  // to be seen cell by cell
-  for (const std::string &name : body.mesh.content->regions.names)
+  for (const std::string &name : mesh.content->regions.names)
     if (std::none_of(regions.begin(), regions.end(), [&](const RegionCase &region) {
           return std::find(region.on.begin(), region.on.end(), name) != region.on.end();
         }))
       return fmt::format("no entry says what \"{}\" is made of; the mesh has the regions {}", name,
-                         all_regions(body));
+                         all_regions(mesh));
   return "";
 }
 
-void declare_regions(Visitor &v, std::vector<RegionCase> &regions, const Body &body) {
+void declare_regions(Visitor &v, std::vector<RegionCase> &regions, const MeshCase &mesh) {
   const Key key = {.name = "region",
                    .description =
                        "A part of the body with a material of its own, instead of [material]. "
@@ -316,8 +399,8 @@ void declare_regions(Visitor &v, std::vector<RegionCase> &regions, const Body &b
                        "bonded"};
   regions.resize(static_cast<std::size_t>(v.count(key, static_cast<int>(regions.size()))));
   for (std::size_t i = 0; i < regions.size(); ++i)
-    v.entry(key, static_cast<int>(i), [&](Visitor &inner) { declare(inner, regions[i], body); });
-  v.check("region", [&] { return uncovered_complaint(regions, body); });
+    v.entry(key, static_cast<int>(i), [&](Visitor &inner) { declare(inner, regions[i], mesh); });
+  v.check("region", [&] { return uncovered_complaint(regions, mesh); });
 }
 
 void declare(Visitor &v, TimeCase &time) {
@@ -334,25 +417,25 @@ void declare(Visitor &v, TimeCase &time) {
         &time.steps);
 }
 
-Key on_boundaries(const std::string &description, const Body &body) {
-  std::vector<std::string> names = boundary_names(body.mesh, body.dimension);
-  if (body.mesh.content)  // a complaint of their own awaits those that lie inside
-    for (const std::string &name : body.mesh.content->inner_names())
+Key on_sides(const std::string &description, const MeshCase &mesh) {
+  std::vector<std::string> names = side_names(mesh);
+  if (mesh.content)  // a complaint of their own awaits those that lie inside
+    for (const std::string &name : mesh.content->inner_names())
       names.push_back(name);
   return {.name = "on",
           .description = description,
           .required = true,
           .choices = names,
           .choices_words =
-              "left, right, bottom, top, in 3D also front, back; the names of a "
-              "mesh file"};
+              "left, right, bottom, top, in 3D also front, back, of a box; inner, "
+              "outer, in 3D also bottom, top, of an annulus; the names of a mesh file"};
 }
 
 // Of names in a mesh file that lie inside, where a condition would mean something else.
-std::string inside_complaint(const std::vector<std::string> &on, const Body &body) {
-  if (!body.mesh.content)
+std::string inside_complaint(const std::vector<std::string> &on, const MeshCase &mesh) {
+  if (!mesh.content)
     return "";
-  const std::vector<std::string> inner = body.mesh.content->inner_names();
+  const std::vector<std::string> inner = mesh.content->inner_names();
   for (const std::string &name : on)
     if (std::find(inner.begin(), inner.end(), name) != inner.end())
       return fmt::format(
@@ -376,12 +459,12 @@ void declare_mechanics(Visitor &v, BoundaryCase &boundary, int dimension) {
              boundary.traction);
 }
 
-void declare(Visitor &v, BoundaryCase &boundary, const Body &body) {
+void declare(Visitor &v, BoundaryCase &boundary, const MeshCase &mesh, int dimension) {
   v.place(boundary.where);
-  v.key(on_boundaries("boundary, or list of boundaries, that the conditions hold on", body),
+  v.key(on_sides("boundary, or list of boundaries, that the conditions hold on", mesh),
         &boundary.on);
-  v.check("on", [&] { return inside_complaint(boundary.on, body); });
-  declare_mechanics(v, boundary, body.dimension);
+  v.check("on", [&] { return inside_complaint(boundary.on, mesh); });
+  declare_mechanics(v, boundary, dimension);
   v.optional({.name = "potential", .description = "prescribed electric potential", .unit = "V"},
              boundary.potential);
   v.optional(
@@ -441,11 +524,11 @@ void declare(Visitor &v, HeatExchangeCase &heat) {
         &heat.foundation_temperature);
 }
 
-void declare(Visitor &v, ContactCase &contact, const Body &body) {
+void declare(Visitor &v, ContactCase &contact, const MeshCase &mesh) {
   v.place(contact.where);
-  v.key(on_boundaries("boundary, or list of boundaries, in contact with the foundation", body),
+  v.key(on_sides("boundary, or list of boundaries, in contact with the foundation", mesh),
         &contact.on);
-  v.check("on", [&] { return inside_complaint(contact.on, body); });
+  v.check("on", [&] { return inside_complaint(contact.on, mesh); });
   v.key({.name = "normal",
          .description = "bilateral: contact is never lost, u_nu = 0 (9)",
          .choices = {"bilateral"},
@@ -498,6 +581,24 @@ void declare(Visitor &v, SolverCase &solver) {
                       "boundary; monolithic: Newton iteration on all unknowns, as in the paper",
        .choices = {"condensed", "monolithic"}},
       &solver.method);
+  v.key({.name = "body",
+         .description =
+             "how the body's linear equations are solved. direct: one factorisation; iterative: "
+             "preconditioned Krylov iteration, for bodies in three dimensions that are too large "
+             "for a factorisation; automatic: direct where its estimated memory is at most half of "
+             "what is available",
+         .choices = {"automatic", "direct", "iterative"},
+         .used = solver.method == "condensed",
+         .used_with = "method = \"condensed\""},
+        &solver.body);
+  v.key(
+      {.name = "linear_tolerance",
+       .description = "at which the iterative solution of the body's equations stops: norm of the "
+                      "residual over that of the largest contribution, in each field",
+       .range = {.low = 0, .high = 1e-3, .low_allowed = false},
+       .used = solver.body != "direct",
+       .used_with = "body = \"iterative\" or \"automatic\""},
+      &solver.linear_tolerance);
   v.key({.name = "tolerance",
          .description = "at which the contact iteration stops: natural residual divided by the "
                         "largest nodal force",
@@ -560,7 +661,8 @@ void declare(Visitor &v, InitialCase &initial, int dimension) {
       &initial.temperature);
 }
 
-void declare_boundaries(Visitor &v, std::vector<BoundaryCase> &boundaries, const Body &body) {
+void declare_boundaries(Visitor &v, std::vector<BoundaryCase> &boundaries, const MeshCase &mesh,
+                        int dimension) {
   const Key key = {.name = "boundary",
                    .description =
                        "Conditions on a part of the boundary. Several entries may name one "
@@ -568,10 +670,11 @@ void declare_boundaries(Visitor &v, std::vector<BoundaryCase> &boundaries, const
                        "nothing is said, there is no traction, charge or heat flow"};
   boundaries.resize(static_cast<std::size_t>(v.count(key, static_cast<int>(boundaries.size()))));
   for (std::size_t i = 0; i < boundaries.size(); ++i)
-    v.entry(key, static_cast<int>(i), [&](Visitor &inner) { declare(inner, boundaries[i], body); });
+    v.entry(key, static_cast<int>(i),
+            [&](Visitor &inner) { declare(inner, boundaries[i], mesh, dimension); });
 }
 
-void declare_contact(Visitor &v, std::optional<ContactCase> &contact, const Body &body) {
+void declare_contact(Visitor &v, std::optional<ContactCase> &contact, const MeshCase &mesh) {
   const Key key = {.name = "contact",
                    .description =
                        "Contact with a foundation that does not deform. Without this table "
@@ -581,11 +684,11 @@ void declare_contact(Visitor &v, std::optional<ContactCase> &contact, const Body
     return;
   if (!contact)
     contact.emplace();
-  v.table(key, [&](Visitor &inner) { declare(inner, *contact, body); });
+  v.table(key, [&](Visitor &inner) { declare(inner, *contact, mesh); });
 }
 
-void declare_material(Visitor &v, Case &c, const Body &body) {
-  declare_regions(v, c.regions, body);
+void declare_material(Visitor &v, Case &c) {
+  declare_regions(v, c.regions, c.mesh);
   const Key key = {
       .name = "material",
       .description =
@@ -611,16 +714,12 @@ void declare(Visitor &v, Case &c) {
   v.key({.name = "title", .description = "what the run is called in its results"}, &c.title);
   v.table({.name = "mesh", .description = "The body's shape and its cells", .required = true},
           [&](Visitor &inner) { declare(inner, c.mesh); });
-  if (c.mesh.box)
-    c.dimension = dimension_of(c.mesh.box->cell);
-  if (c.mesh.content)
-    c.dimension = c.mesh.content->dimension;
-  const Body body{c.mesh, c.dimension};
-  declare_material(v, c, body);
+  c.dimension = dimension_of(c.mesh);
+  declare_material(v, c);
   v.table({.name = "time", .description = "The simulated time", .required = true},
           [&](Visitor &inner) { declare(inner, c.time); });
-  declare_boundaries(v, c.boundaries, body);
-  declare_contact(v, c.contact, body);
+  declare_boundaries(v, c.boundaries, c.mesh, c.dimension);
+  declare_contact(v, c.contact, c.mesh);
   v.table({.name = "load", .description = "Loads on the volume"},
           [&](Visitor &inner) { declare(inner, c.load, c.dimension); });
   v.table({.name = "initial", .description = "The state at the time 0"},

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "tourmaline/mesh/grading.h"
-#include "tourmaline/mesh/mesh.h"
+#include "tourmaline/mesh/shapes.h"
 
 namespace tourmaline::mesh {
 
@@ -68,14 +68,7 @@ Mesh<dim> box(const casefile::Box &asked) {
   return mesh;
 }
 
-template <int dim>
-Mesh<dim> build(const casefile::MeshCase &asked) {
-  return asked.box ? box<dim>(*asked.box) : imported<dim>(*asked.content);
-}
-
 template Mesh<2> box<2>(const casefile::Box &);
 template Mesh<3> box<3>(const casefile::Box &);
-template Mesh<2> build<2>(const casefile::MeshCase &);
-template Mesh<3> build<3>(const casefile::MeshCase &);
 
 }  // namespace tourmaline::mesh

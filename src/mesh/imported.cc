@@ -1,7 +1,7 @@
 #include <deal.II/grid/grid_tools.h>
 
 #include "tourmaline/mesh/element_table.h"
-#include "tourmaline/mesh/mesh.h"
+#include "tourmaline/mesh/shapes.h"
 
 namespace tourmaline::mesh {
 

@@ -25,24 +25,21 @@ double available_on_system() {
   return std::numeric_limits<double>::infinity();
 }
 
-double nodes_of_box(const casefile::MeshCase &mesh) {
+double nodes_of(const casefile::MeshCase &mesh) {
+  // Degree 2 puts nodes where a mesh refined once has its vertices: 2^dim times as many.
+  if (mesh.content)
+    return static_cast<double>(mesh.content->points.size()) *
+           std::pow(mesh.degree, mesh.content->dimension);
   double nodes = 1;
-  for (const int cells : mesh.box->cells)
+  for (const int cells : mesh.box ? mesh.box->cells : mesh.annulus->cells)
     nodes *= double(mesh.degree) * cells + 1;
   return nodes;
-}
-
-// Degree 2 puts nodes where a mesh refined once has its vertices: 2^dim times as many.
-double nodes_of_file(const casefile::MeshCase &mesh) {
-  return static_cast<double>(mesh.content->points.size()) *
-         std::pow(mesh.degree, mesh.content->dimension);
 }
 
 }  // namespace
 
 double estimated_memory(const casefile::Case &asked) {
-  const double nodes = asked.mesh.box ? nodes_of_box(asked.mesh) : nodes_of_file(asked.mesh);
-  const double unknowns = nodes * (asked.dimension + 2);
+  const double unknowns = nodes_of(asked.mesh) * (asked.dimension + 2);
   return program + (asked.dimension == 2 ? unknowns * (440 + 115 * std::log2(unknowns))
                                          : 310 * std::pow(unknowns, 4. / 3));
 }

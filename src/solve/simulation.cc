@@ -12,6 +12,7 @@
 #include "tourmaline/output/progress.h"
 #include "tourmaline/parallel/ranks.h"
 #include "tourmaline/solve/condensed_route.h"
+#include "tourmaline/solve/iterative_route.h"
 #include "tourmaline/solve/memory.h"
 #include "tourmaline/solve/monolithic_route.h"
 #include "tourmaline/solve/process.h"
@@ -52,6 +53,8 @@ template <int dim>
 std::unique_ptr<Route> make_route(const Model<dim> &model) {
   if (model.asked.solver.method == "monolithic")
     return monolithic_route(model);
+  if (model.asked.solver.body == "iterative")
+    return iterative_route(model);
   return condensed_route(model);
 }
 
@@ -164,6 +167,10 @@ output::Summary Simulation<dim>::summary() const {
   summary.iterations = {{"newton_total", newton_total_},
                         {"newton_max", newton_max_},
                         {"newton_first", newton_first_}};
+  if (report.krylov_iterations > 0) {
+    summary.iterations["krylov_total"] = static_cast<std::int64_t>(report.krylov_iterations);
+    summary.iterations["krylov_max"] = report.krylov_largest;
+  }
   summary.factorisations = report.factorisations;
   if (report.negative_pivots >= 0)
     summary.negative_pivots = report.negative_pivots;

@@ -106,7 +106,7 @@ std::string survey_in(const casefile::Case &asked) {
   const material::Composition<dim> composition(asked);
   const body::Discretisation<dim> body(mesh::build<dim>(asked), 1);
   std::string text = "\n# Boundaries and regions of this case\n";
-  for (const std::string &name : casefile::boundary_names(asked.mesh, dim)) {
+  for (const std::string &name : casefile::side_names(asked.mesh)) {
     Extent extent;
     body.for_each_facet({name}, [&](const body::Quadrature<dim> &facet) { extent.add(facet); });
     text += fmt::format("# boundary \"{}\": {}\n", name, extent.words(dim, dim - 1));
@@ -127,7 +127,7 @@ std::string survey_in(const casefile::Case &asked) {
 }  // namespace
 
 std::string survey(const casefile::Case &asked) {
-  if (asked.mesh.box && asked.regions.empty() && !varies(asked.material))
+  if (!asked.mesh.content && asked.regions.empty() && !varies(asked.material))
     return "";
   return asked.dimension == 2 ? survey_in<2>(asked) : survey_in<3>(asked);
 }

@@ -291,5 +291,20 @@ TEST(Errors, AVeryLongOverrideIsNotRepeatedInFull) {
   EXPECT_LT(error_of(example, {"title=[" + std::string(50000, '1') + "]"}).size(), 500u);
 }
 
+TEST(Annulus, MistakesAreNamed) {
+  const auto error = [](const std::string &annulus) {
+    return error_of(ring, {"mesh.annulus." + annulus});
+  };
+  EXPECT_THAT(error("outer=0.05"), HasSubstr("must be greater than inner, which is 0.1"));
+  EXPECT_THAT(error("outer=0.1000000001"), HasSubstr("the wall is too thin"));
+  EXPECT_THAT(error("cells=[2,7]"), HasSubstr("the intervals around, must be at least 8"));
+  EXPECT_THAT(error("cells=[2,16,2]"), HasSubstr("mesh.annulus.cell makes the case 2-dimensional"));
+  EXPECT_THAT(error("height=1"), HasSubstr("only used with cell = \"tetrahedron\""));
+  EXPECT_THAT(error_of(ring, {"contact.on=innner"}), HasSubstr("did you mean \"inner\"?"));
+  EXPECT_THAT(error_of(ring, {"boundary[0].on=top"}), HasSubstr("outer"));
+  EXPECT_THAT(error_of(ring, {"mesh.box={min=[0,0],max=[1,1],cells=[2,2]}"}),
+              HasSubstr("both mesh.box and mesh.annulus are given"));
+}
+
 }  // namespace
 }  // namespace tourmaline::casefile

@@ -10,6 +10,7 @@
 
 #include "tourmaline/body/discretisation.h"
 #include "tourmaline/error.h"
+#include "tourmaline/mesh/shapes.h"
 
 namespace tourmaline::mesh {
 namespace {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,8 +29,18 @@ struct Box {
   std::map<std::string, double> grading = {};
 };
 
+/// [mesh] annulus: the ring between two circles about the origin, in three dimensions a tube along
+/// z that stands on z = 0. `cells` intervals along the radius, around and, in 3D, along z; the
+/// corners of the cells lie on circles, their edges are straight.
+struct Annulus {
+  double inner = 0, outer = 0, height = 0;  ///< [m]; height in 3D only
+  std::vector<int> cells;
+  CellShape cell = CellShape::triangle;
+};
+
 struct MeshCase {
   std::optional<Box> box;
+  std::optional<Annulus> annulus;
   std::optional<std::string> file;          ///< Gmsh's or CAD's, absolute once it is read
   std::optional<double> size;               ///< of the largest cells of a geometry [m]
   double scale = 1;                         ///< the file's unit of length [m]
@@ -37,6 +48,8 @@ struct MeshCase {
   int degree = 1;                           ///< of the finite elements, 1 or 2
   std::shared_ptr<const MeshFile> content;  ///< of `file`
 };
+
+int dimension_of(const MeshCase &mesh);
 
 /// [material], [region.material], and an entry of a file of materials: constants in crystal axes,
 /// of the stress-charge or the strain-charge form. What is not given is taken from the library's
@@ -117,6 +130,8 @@ struct ContactCase {
 
 struct SolverCase {
   std::string method = "condensed";  ///< condensed | monolithic
+  std::string body = "automatic";    ///< automatic | direct | iterative; of the condensed method
+  double linear_tolerance = 1e-10;   ///< of the iterative solution of the body's equations
   double tolerance =
       1e-12;  ///< of the contact iteration: natural residual over the largest nodal force
   int max_iterations = 100;          ///< Newton iterations in one step

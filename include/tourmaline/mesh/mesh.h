@@ -20,7 +20,7 @@ struct Mesh {
   bool simplices = false;
 };
 
-/// The mesh that a case asks for: a box, or what was read from its mesh file.
+/// The mesh that a case asks for: a shape, or what was read from its mesh file.
 template <int dim>
 Mesh<dim> build(const casefile::MeshCase &asked);
 
@@ -31,10 +31,5 @@ Mesh<dim> build(const casefile::Case &asked);
 /// Assigns the cells of a mesh; by the names in `file`, if there is one.
 template <int dim>
 void assign_regions(Mesh<dim> &mesh, const casefile::Case &asked);
-
-template <int dim>
-Mesh<dim> box(const casefile::Box &asked);
-template <int dim>
-Mesh<dim> imported(const casefile::MeshFile &file);
 
 }  // namespace tourmaline::mesh
