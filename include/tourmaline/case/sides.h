@@ -34,7 +34,4 @@ struct SidePoint {
 /// all vertices of a mesh file.
 std::vector<SidePoint> points_on(const MeshCase &mesh, const std::string &side);
 
-/// Names that boundary conditions and contact may use: of a box's sides, or those in the mesh file.
-std::vector<std::string> boundary_names(const MeshCase &mesh, int dimension);
-
 }  // namespace tourmaline::casefile
