@@ -160,6 +160,10 @@ class Names {
   static std::string group(int dimension, int tag) {
     std::string name;
     gmsh::model::getPhysicalName(dimension, tag, name);
+    if (name.find_first_of(",\"\n") != std::string::npos)
+      throw CaseError("has a physical group called " + name +
+                      "; names may not contain commas, quotes and ends of lines, as result files "
+                      "list them");
     return name.empty() ? std::to_string(std::abs(tag)) : name;
   }
 
