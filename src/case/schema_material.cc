@@ -222,18 +222,7 @@ std::string twice_complaint(const MaterialCase &material, const std::string &key
 std::string class_complaint(const MaterialCase &material, const std::string &key) {
   if (!material.constants.contains(key) || material.library)
     return "";  // of an entry, the class is not known here
-  const std::string symmetry = material.symmetry.value_or("6mm");
-  if (has_constant(symmetry, key))
-    return "";
-  if (key == "c66" || key == "s66")
-    return fmt::format(
-        "not a constant of its own in class {}: isotropic about axis 3 it is {}; `symmetry` names "
-        "the class",
-        symmetry, key == "c66" ? "(c11 - c12)/2" : "2 (s11 - s12)");
-  return fmt::format(
-      "no constant of class {}; `symmetry` names the class, and tensors given as a "
-      "whole have any",
-      symmetry);
+  return absence(material.symmetry.value_or("6mm"), key);
 }
 
 void check_constants(Visitor &v, const MaterialCase &material) {

@@ -1,5 +1,7 @@
 #include "tourmaline/case/symmetry.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 
@@ -70,6 +72,8 @@ ConstantForm form_of(const std::string &constant) {
   return {kind->second, letters + (constant.ends_with("_T") ? "_T" : "")};
 }
 
+namespace {
+
 bool has_constant(const std::string &symmetry, const std::string &constant) {
   const ClassConstants &has = constants_of_class(symmetry);
   const ConstantForm form = form_of(constant);
@@ -82,6 +86,21 @@ bool has_constant(const std::string &symmetry, const std::string &constant) {
   if (form.kind == "pyroelectric")
     return has.polar;
   return form.kind.empty() || holds(has.diagonal, indices_of(constant));
+}
+
+}  // namespace
+
+std::string absence(const std::string &symmetry, const std::string &constant) {
+  if (has_constant(symmetry, constant))
+    return "";
+  if (constant == "c66" || constant == "s66")
+    return fmt::format(
+        "not a constant of its own in class {}: isotropic about axis 3 it is {}; `symmetry` names "
+        "the class",
+        symmetry, constant == "c66" ? "(c11 - c12)/2" : "2 (s11 - s12)");
+  return fmt::format(
+      "no constant of class {}; `symmetry` names the class, and tensors given as a whole have any",
+      symmetry);
 }
 
 }  // namespace tourmaline::casefile

@@ -191,9 +191,8 @@ class Conversion {
 
 void check_class(const MaterialCase &given) {
   for (const auto &[constant, value] : given.constants)
-    if (!casefile::has_constant(symmetry_of(given), constant))
-      throw CaseError(fmt::format("{} {} is no constant of class {}", where_of(given), constant,
-                                  symmetry_of(given)));
+    if (const std::string reason = casefile::absence(symmetry_of(given), constant); !reason.empty())
+      throw CaseError(fmt::format("{} {}: {}", where_of(given), constant, reason));
 }
 
 void check_conductor(const MaterialCase &given) {

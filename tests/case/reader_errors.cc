@@ -73,7 +73,7 @@ const Mistake names[] = {
      "bound = 15",
      {"[contact] bound = 15", "one of that name in [contact.friction]"}},
     {"pyroelectric", "pyroelectrik", {"did you mean \"pyroelectric\"?"}},
-    {"pyroelectric = [0, 1e-4]", "c66 = 43e9", {"[material] c66", "(c11 - c12)/2"}},
+    {"library = \"BaTiO3-Liu2014\"", "c66 = 43e9", {"[material] c66", "(c11 - c12)/2"}},
     {"normal = \"bilateral\"", "charge = 1", {"[contact] charge", "not available in this version"}},
 };
 INSTANTIATE_TEST_SUITE_P(Names, MistakeInAFile, testing::ValuesIn(names));

@@ -172,6 +172,12 @@ TEST(Forms, TensorsOfEitherFormGiveTheSameMaterial) {
   EXPECT_LT((again.pyroelectric - c.pyroelectric).norm(), 1e-10 * c.pyroelectric.norm());
 }
 
+TEST(CrystalClasses, AConstantThatFollowsFromOthersIsRefused) {
+  casefile::MaterialCase asked = named("BaTiO3-Liu2014");
+  asked.constants["c66"] = 44.5e9;
+  EXPECT_THAT(complaint(asked), HasSubstr("(c11 - c12)/2"));
+}
+
 TEST(Forms, AConstantInAnotherFormReplacesAllOfItsKind) {
   casefile::MaterialCase asked = named("steel");
   asked.constants["m11"] = 5e6;

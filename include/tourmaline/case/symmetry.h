@@ -27,7 +27,7 @@ struct ConstantForm {
 /// An empty kind for density, specific_heat and reference_temperature, which stand alone.
 ConstantForm form_of(const std::string &constant);
 
-/// Whether a crystal of the class has that constant.
-bool has_constant(const std::string &symmetry, const std::string &constant);
+/// Why a crystal of the class has no such constant; empty when it has.
+std::string absence(const std::string &symmetry, const std::string &constant);
 
 }  // namespace tourmaline::casefile
