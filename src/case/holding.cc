@@ -138,8 +138,6 @@ void check_holding(const Case &asked) {
     throw CaseError(asked.source +
                     " [[boundary]]: the electric potential floats, as no boundary "
                     "prescribes it; give `potential` on at least one");
-  if (!asked.mesh.box && !asked.mesh.annulus)
-    return;
   const std::vector<std::string> free = free_motions(asked.dimension, supports_of(asked));
   if (!free.empty())
     throw CaseError(fmt::format(
