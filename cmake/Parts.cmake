@@ -35,5 +35,12 @@ target_include_directories(part_mumps SYSTEM INTERFACE ${MUMPS_INCLUDE})
 target_link_libraries(part_mumps INTERFACE ${MUMPS_LIBRARY} MPI::MPI_C)
 add_library(part::mumps ALIAS part_mumps)
 
+# The build of PETSc that deal.II uses.
+pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET PETSc)
+
 find_library(METIS_LIBRARY metis REQUIRED)
 find_library(OPENBLAS_LIBRARY openblas REQUIRED)
+
+# deal.II is linked with libgmsh already, so that this adds nothing to the start of the program.
+find_path(GMSH_INCLUDE gmsh.h REQUIRED)
+find_library(GMSH_LIBRARY gmsh REQUIRED)

@@ -96,42 +96,21 @@ void add_rotations(const Constraints &constraints, std::vector<std::string> &fre
     free.emplace_back("a rotation about an oblique axis");
 }
 
-std::vector<std::array<double, 3>> corners(const Box &box, const Side &side) {
-  std::vector<std::array<double, 3>> all;
-  const int dimension = static_cast<int>(box.min.size());
-  for (int corner = 0; corner < 1 << dimension; ++corner) {
-    std::array<double, 3> point{};
-    for (int axis = 0; axis < dimension; ++axis)
-      point[axis] = (corner >> axis & 1) != 0 ? box.max[axis] : box.min[axis];
-    if ((corner >> side.axis & 1) == (side.greatest ? 1 : 0))
-      all.push_back(point);
-  }
-  return all;
-}
-
-// A rigid motion is affine: it vanishes on a side when it does at the side's corners.
-void hold(const Box &box, const std::string &name, int component, std::vector<Support> &supports) {
-  std::array<double, 3> direction{};
-  direction[component] = 1;
-  for (const Side &side : sides(static_cast<int>(box.min.size())))
-    if (side.name == name)
-      for (const std::array<double, 3> &point : corners(box, side))
-        supports.push_back({point, direction});
-}
-
+// A rigid motion is affine: what it is on a side is decided at so many points.
 std::vector<Support> supports_of(const Case &asked) {
   std::vector<Support> supports;
   for (const BoundaryCase &boundary : asked.boundaries)
-    if (boundary.displacement)
-      for (const std::string &name : boundary.on)
-        for (int i = 0; i < asked.dimension; ++i)
-          if ((*boundary.displacement)[i])
-            hold(*asked.mesh.box, name, i, supports);
+    for (const std::string &name : boundary.on)
+      for (int i = 0; boundary.displacement && i < asked.dimension; ++i)
+        if ((*boundary.displacement)[i])
+          for (const SidePoint &at : points_on(asked.mesh, name)) {
+            supports.push_back({at.point, {}});
+            supports.back().direction[i] = 1;
+          }
   if (asked.contact && asked.contact->normal == "bilateral")
-    for (const Side &side : sides(asked.dimension))
-      if (std::find(asked.contact->on.begin(), asked.contact->on.end(), side.name) !=
-          asked.contact->on.end())
-        hold(*asked.mesh.box, side.name, side.axis, supports);
+    for (const std::string &name : asked.contact->on)
+      for (const SidePoint &at : points_on(asked.mesh, name))
+        supports.push_back({at.point, at.normal});
   return supports;
 }
 
@@ -159,8 +138,6 @@ void check_holding(const Case &asked) {
     throw CaseError(asked.source +
                     " [[boundary]]: the electric potential floats, as no boundary "
                     "prescribes it; give `potential` on at least one");
-  if (!asked.mesh.box)
-    return;
   const std::vector<std::string> free = free_motions(asked.dimension, supports_of(asked));
   if (!free.empty())
     throw CaseError(fmt::format(

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
+#include <set>
 
 #include "tourmaline/error.h"
 #include "tourmaline/parallel/ranks.h"
@@ -63,30 +67,62 @@ std::map<body::Node, Integrals<dim>> integrate(const body::Discretisation<dim> &
 
 namespace {
 
-// One normal must serve all facets at a node; 45 degrees is far more than a curved side's facets
-// differ.
+double degrees(double cosine) {
+  return std::acos(std::clamp(cosine, -1., 1.)) * 180 / std::numbers::pi;
+}
+
+// One normal must serve all facets at a node. Facets that stand at 41 degrees to it are far more
+// than a curved side's, whose angles halve with its cells, and less than those of a square edge.
+constexpr double least_cosine = 0.75;
+
+// A node where the contact boundary has an edge or a corner.
+struct Edge {
+  double cosine = 1;                 // of the facet that differs most from the mean normal
+  std::set<std::string> boundaries;  // of the facets at the node
+};
+
+template <int dim>
+std::map<body::Node, Edge> facets_at_nodes(const body::Discretisation<dim> &body,
+                                           const std::vector<std::string> &boundaries,
+                                           const std::vector<InterfaceNode<dim>> &nodes) {
+  std::map<body::Node, Normal<dim>> normal_at;
+  for (const InterfaceNode<dim> &node : nodes)
+    normal_at[node.node] = node.normal;
+  std::map<body::Node, Edge> all;
+  for (const std::string &name : boundaries)
+    body.for_each_facet({name}, [&](const body::Quadrature<dim> &facet) {
+      for (std::size_t a = 0; a < facet.nodes.size(); ++a) {
+        const auto found = normal_at.find(facet.nodes[a]);
+        if (found == normal_at.end() || facet.value(0, a) == 0)
+          continue;
+        Edge &edge = all[facet.nodes[a]];
+        edge.boundaries.insert(name);
+        edge.cosine = std::min(
+            edge.cosine, found->second.dot(Eigen::Map<const Normal<dim>>(facet.normals[0].data())));
+      }
+    });
+  return all;
+}
+
 template <int dim>
 void check_normals(const body::Discretisation<dim> &body,
                    const std::vector<std::string> &boundaries,
                    const std::vector<InterfaceNode<dim>> &nodes) {
-  std::map<body::Node, Normal<dim>> normal_at;
-  for (const InterfaceNode<dim> &node : nodes)
-    normal_at[node.node] = node.normal;
-  body.for_each_facet(boundaries, [&](const body::Quadrature<dim> &facet) {
-    for (std::size_t a = 0; a < facet.nodes.size(); ++a) {
-      const auto found = normal_at.find(facet.nodes[a]);
-      if (found == normal_at.end() || facet.value(0, a) == 0)
-        continue;
-      if (found->second.dot(Eigen::Map<const Normal<dim>>(facet.normals[0].data())) > 0.75)
-        continue;
-      const output::Vector &point = body.points()[facet.nodes[a]];
-      throw CaseError(
-          fmt::format("[contact] at ({:g}, {:g}, {:g}) contact boundaries meet at an angle, where "
-                      "the normal is not "
-                      "unique; contact around a corner is not available, name one of them",
-                      point[0], point[1], point[2]));
-    }
-  });
+  auto edges = facets_at_nodes(body, boundaries, nodes);
+  std::erase_if(edges, [](const auto &entry) { return entry.second.cosine > least_cosine; });
+  if (edges.empty())
+    return;
+  const auto &[node, edge] = *edges.begin();
+  const output::Vector &point = body.points()[node];
+  throw CaseError(fmt::format(
+      "[contact] at ({:g}, {:g}, {:g}){} the normal is not unique: facets of {} stand at {:.0f} "
+      "degrees to the mean of their normals, more than {:.0f}; contact around an edge is not "
+      "available, {}",
+      point[0], point[1], point[2],
+      edges.size() > 1 ? fmt::format(" and {} further nodes", edges.size() - 1) : "",
+      fmt::join(edge.boundaries, " and "), degrees(edge.cosine), degrees(least_cosine),
+      edge.boundaries.size() > 1 ? "name one of the boundaries"
+                                 : "take smaller cells where the boundary is curved"));
 }
 
 }  // namespace

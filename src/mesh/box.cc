@@ -3,9 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "tourmaline/error.h"
 #include "tourmaline/mesh/grading.h"
-#include "tourmaline/mesh/mesh.h"
+#include "tourmaline/mesh/shapes.h"
 
 namespace tourmaline::mesh {
 
@@ -43,6 +42,8 @@ void name_sides(dealii::Triangulation<dim> &cells, const dealii::Point<dim> &min
     }
 }
 
+}  // namespace
+
 template <int dim>
 Mesh<dim> box(const casefile::Box &asked) {
   dealii::Point<dim> min, max;
@@ -63,20 +64,11 @@ Mesh<dim> box(const casefile::Box &asked) {
   name_sides(*mesh.cells, min, max);
   grade(*mesh.cells, asked);
   for (unsigned int side = 0; side < 2 * dim; ++side)
-    mesh.boundaries[side_names<dim>()[side]] = side;
+    mesh.boundaries[side_names<dim>()[side]] = {side};
   return mesh;
 }
 
-}  // namespace
-
-template <int dim>
-Mesh<dim> build(const casefile::MeshCase &asked) {
-  if (!asked.box)
-    throw CaseError("[mesh] file: Gmsh files are not available yet; use mesh.box");
-  return box<dim>(*asked.box);
-}
-
-template Mesh<2> build<2>(const casefile::MeshCase &);
-template Mesh<3> build<3>(const casefile::MeshCase &);
+template Mesh<2> box<2>(const casefile::Box &);
+template Mesh<3> box<3>(const casefile::Box &);
 
 }  // namespace tourmaline::mesh

@@ -8,11 +8,12 @@
 #include "tourmaline/case/resolved.h"
 #include "tourmaline/contact/friction.h"
 #include "tourmaline/error.h"
-#include "tourmaline/material/plane.h"
+#include "tourmaline/material/composition.h"
 #include "tourmaline/output/progress.h"
 #include "tourmaline/parallel/ranks.h"
 #include "tourmaline/report/page.h"
 #include "tourmaline/solve/condensed_route.h"
+#include "tourmaline/solve/iterative_route.h"
 #include "tourmaline/solve/memory.h"
 #include "tourmaline/solve/monolithic_route.h"
 #include "tourmaline/solve/process.h"
@@ -54,6 +55,8 @@ template <int dim>
 std::unique_ptr<Route> make_route(const Model<dim> &model) {
   if (model.asked.solver.method == "monolithic")
     return monolithic_route(model);
+  if (model.asked.solver.body == "iterative")
+    return iterative_route(model);
   return condensed_route(model);
 }
 
@@ -182,6 +185,10 @@ output::Summary Simulation<dim>::summary() const {
   summary.iterations = {{"newton_total", newton_total_},
                         {"newton_max", newton_max_},
                         {"newton_first", newton_first_}};
+  if (report.krylov_iterations > 0) {
+    summary.iterations["krylov_total"] = static_cast<std::int64_t>(report.krylov_iterations);
+    summary.iterations["krylov_max"] = report.krylov_largest;
+  }
   summary.factorisations = report.factorisations;
   if (report.negative_pivots >= 0)
     summary.negative_pivots = report.negative_pivots;
@@ -204,11 +211,10 @@ output::Summary Simulation<dim>::summary() const {
 }  // namespace
 
 void check(const casefile::Case &asked) {
-  const material::Constants constants = body_material(asked);
   if (asked.dimension == 2)
-    material::restricted<2>(constants);
-  if (!asked.mesh.box)
-    throw CaseError(asked.source + ": [mesh] file: Gmsh files are not available yet; use mesh.box");
+    material::Composition<2>{asked};
+  else
+    material::Composition<3>{asked};
   require_memory(asked);
 }
 

@@ -64,4 +64,24 @@ displacement = [0, 0, 0]
 potential = 0
 )";
 
+/// A ring on a shaft, held and grounded at its outside.
+inline const std::string ring = R"([mesh]
+annulus = { inner = 0.1, outer = 0.2, cells = [2, 16], cell = "triangle" }
+
+[material]
+library = "BaTiO3-Liu2014"
+
+[time]
+end = 1
+steps = 1
+
+[[boundary]]
+on = "outer"
+displacement = [0, 0]
+potential = 0
+
+[contact]
+on = "inner"
+)";
+
 }  // namespace tourmaline::casefile

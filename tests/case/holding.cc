@@ -107,6 +107,21 @@ TEST(Holding, RollersOnThreeSidesHoldACube) {
             "no error");
 }
 
+TEST(Holding, AShaftHoldsARingButForTheTurning) {
+  EXPECT_EQ(error_of(ring, {}), "no error");
+  const std::string error = error_of(ring, {"boundary[0].displacement=['free','free']"});
+  EXPECT_THAT(error, HasSubstr("nothing holds the body against a rotation in the plane;"));
+}
+
+TEST(Holding, AShaftHoldsATubeButForTurningAndPushing) {
+  const std::vector<std::string> tube{
+      "mesh.annulus={inner=0.1, outer=0.2, height=0.1, cells=[2,16,2], cell='hexahedron'}",
+      "boundary[0].displacement=['free','free','free']"};
+  EXPECT_THAT(
+      error_of(ring, tube),
+      HasSubstr("against a translation along z and a rotation about an axis parallel to z;"));
+}
+
 TEST(Holding, NoDisplacementAtAllNamesEveryMotion) {
   const std::string error = error_of(cube, {"boundary[0]={on='top', potential=0}"});
   EXPECT_THAT(error, HasSubstr("a translation along z"));

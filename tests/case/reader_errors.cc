@@ -73,7 +73,7 @@ const Mistake names[] = {
      "bound = 15",
      {"[contact] bound = 15", "one of that name in [contact.friction]"}},
     {"pyroelectric", "pyroelectrik", {"did you mean \"pyroelectric\"?"}},
-    {"pyroelectric = [0, 1e-4]", "c66 = 43e9", {"[material] c66", "(c11 - c12)/2"}},
+    {"library = \"BaTiO3-Liu2014\"", "c66 = 43e9", {"[material] c66", "(c11 - c12)/2"}},
     {"normal = \"bilateral\"", "charge = 1", {"[contact] charge", "not available in this version"}},
 };
 INSTANTIATE_TEST_SUITE_P(Names, MistakeInAFile, testing::ValuesIn(names));
@@ -167,7 +167,7 @@ const Mistake missing[] = {
     {"cells = [64, 64], ", "", {"[mesh.box] cells: missing"}},
     {"box =", "#", {"case.toml:3:1 [mesh]: no mesh"}},
     {"box =", "file = \"a.msh\"\nbox =", {"both mesh.box and mesh.file"}},
-    {"box =", "file = \"a.msh\" #", {"[mesh] file = \"a.msh\"", "not available yet"}},
+    {"box =", "file = \"a.msh\" #", {"[mesh] file = \"a.msh\"", "give mesh.box"}},
 };
 INSTANTIATE_TEST_SUITE_P(Missing, MistakeInAFile, testing::ValuesIn(missing));
 
@@ -289,6 +289,21 @@ INSTANTIATE_TEST_SUITE_P(All, BadOverrides, testing::ValuesIn(bad_overrides));
 
 TEST(Errors, AVeryLongOverrideIsNotRepeatedInFull) {
   EXPECT_LT(error_of(example, {"title=[" + std::string(50000, '1') + "]"}).size(), 500u);
+}
+
+TEST(Annulus, MistakesAreNamed) {
+  const auto error = [](const std::string &annulus) {
+    return error_of(ring, {"mesh.annulus." + annulus});
+  };
+  EXPECT_THAT(error("outer=0.05"), HasSubstr("must be greater than inner, which is 0.1"));
+  EXPECT_THAT(error("outer=0.1000000001"), HasSubstr("the wall is too thin"));
+  EXPECT_THAT(error("cells=[2,7]"), HasSubstr("the intervals around, must be at least 8"));
+  EXPECT_THAT(error("cells=[2,16,2]"), HasSubstr("mesh.annulus.cell makes the case 2-dimensional"));
+  EXPECT_THAT(error("height=1"), HasSubstr("only used with cell = \"tetrahedron\""));
+  EXPECT_THAT(error_of(ring, {"contact.on=innner"}), HasSubstr("did you mean \"inner\"?"));
+  EXPECT_THAT(error_of(ring, {"boundary[0].on=top"}), HasSubstr("outer"));
+  EXPECT_THAT(error_of(ring, {"mesh.box={min=[0,0],max=[1,1],cells=[2,2]}"}),
+              HasSubstr("both mesh.box and mesh.annulus are given"));
 }
 
 }  // namespace

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <map>
+
 #include "tourmaline/error.h"
 
 namespace tourmaline::contact {
@@ -59,6 +62,80 @@ TEST(Interface, ContactAroundACornerIsRefusedBecauseTheNormalIsNotUnique) {
   EXPECT_THROW(
       interface_nodes(box<2>(casefile::CellShape::triangle, {2, 2}, 1), {"left", "bottom"}),
       CaseError);
+}
+
+template <int dim>
+body::Discretisation<dim> ring(casefile::CellShape shape, std::vector<int> cells) {
+  casefile::MeshCase mesh;
+  mesh.annulus = casefile::Annulus{1, 2, dim == 3 ? 1. : 0, std::move(cells), shape};
+  return {mesh::build<dim>(mesh), 1};
+}
+
+// The two facets of a node are mirror images in the plane through the node and the axis.
+TEST(Interface, NormalsOfACircleAreRadialAndPointOutOfTheBody) {
+  using casefile::CellShape;
+  for (const CellShape shape : {CellShape::triangle, CellShape::quadrilateral}) {
+    const auto body = ring<2>(shape, {2, 9});
+    for (const auto &[side, sign] : {std::pair{"inner", -1.}, std::pair{"outer", 1.}})
+      for (const auto &node : interface_nodes(body, {side})) {
+        const Eigen::Vector2d place(node.point[0], node.point[1]);
+        EXPECT_LT((node.normal - sign * place.normalized()).norm(), 1e-14);
+      }
+  }
+  const auto tube = ring<3>(CellShape::hexahedron, {1, 9, 2});
+  for (const auto &node : interface_nodes(tube, {"inner"})) {
+    const Eigen::Vector3d place(node.point[0], node.point[1], 0);
+    EXPECT_LT((node.normal + place.normalized()).norm(), 1e-14);
+  }
+}
+
+// The integral of N_i nu over a closed curve, or tube, sums to zero, as that of nu does: no net
+// volume passes a side of which u_nu = 0 at all nodes.
+TEST(Interface, NormalsOnUnequalFacetsAreWeightedByAreaAsTheNodesAre) {
+  const auto tube = ring<3>(casefile::CellShape::tetrahedron, {1, 8, 2});
+  std::map<body::Node, Eigen::Vector3d> flow;
+  tube.for_each_facet({"inner"}, [&](const body::Quadrature<3> &facet) {
+    for (std::size_t a = 0; a < facet.nodes.size(); ++a)
+      for (std::size_t q = 0; q < facet.jxw.size(); ++q) {
+        flow.try_emplace(facet.nodes[a], Eigen::Vector3d::Zero());
+        flow[facet.nodes[a]] += facet.jxw[q] * facet.value(q, a) *
+                                Eigen::Map<const Eigen::Vector3d>(facet.normals[q].data());
+      }
+  });
+  int skew = 0;
+  for (const auto &node : interface_nodes(tube, {"inner"})) {
+    EXPECT_LT((node.normal - flow.at(node.node).normalized()).norm(), 1e-14);
+    const Eigen::Vector3d place(node.point[0], node.point[1], 0);
+    skew += (node.normal + place.normalized()).norm() > 1e-3;
+  }
+  EXPECT_GT(skew, 0);  // at the ends of the tube one side of a node has two triangles, one has one
+}
+
+std::string refusal(const std::function<void()> &build) {
+  try {
+    build();
+  } catch (const CaseError &error) {
+    return error.what();
+  }
+  return "nothing refused";
+}
+
+TEST(Interface, WhereTheNormalIsNotUniqueTheRefusalSaysPreciselyWhere) {
+  const auto body = box<3>(casefile::CellShape::hexahedron, {2, 2, 4}, 1);
+  const std::string edge = refusal([&] { interface_nodes(body, {"right", "back"}); });
+  // Five nodes stand along the edge x = 2, y = 3.
+  EXPECT_NE(edge.find("at (2, 3, 0) and 4 further nodes"), std::string::npos);
+  EXPECT_NE(edge.find("facets of back and right stand at"), std::string::npos);
+  const auto coarse = ring<2>(casefile::CellShape::quadrilateral, {1, 4});
+  EXPECT_NE(refusal([&] {
+              interface_nodes(coarse, {"inner"});
+            }).find("facets of inner stand at 45 degrees"),
+            std::string::npos);
+}
+
+TEST(Interface, OppositeSidesMayBothBeInContact) {
+  const auto body = box<3>(casefile::CellShape::hexahedron, {2, 2, 2}, 1);
+  EXPECT_EQ(interface_nodes(body, {"bottom", "top"}).size(), 18u);
 }
 
 TEST(Interface, AnUnknownBoundaryIsNamed) {

@@ -164,5 +164,42 @@ TEST(InterfaceNewton, WhenItMayNotIterateItSaysWhichPointsAreUnsettled) {
   EXPECT_EQ(s.unsettled, std::vector<std::size_t>{0});
 }
 
+// A chain of points on discs, joined by springs that are stiff beside their foundation: all slip,
+// each in a direction of its own, and sweeps alone would find it slowly.
+Problem turning_points(int n_points) {
+  Problem p;
+  const Eigen::Index n = 2 * n_points;
+  p.stiffness = MatrixXd::NullaryExpr(n, n, [](Eigen::Index i, Eigen::Index j) {
+    return i == j ? 2.01 : std::abs(i - j) == 2 ? -1. : 0.;
+  });
+  p.force.resize(n);
+  for (int i = 0; i < n_points; ++i) {
+    p.points.push_back({2 * i, 2, 1, contact::Tresca{0.4}});
+    p.bounds.push_back(0.4);
+    p.force.segment<2>(2 * i) << 0.5 + std::cos(0.2 * i), std::sin(0.2 * i);
+  }
+  return p;
+}
+
+TEST(InterfaceNewton, WhereDirectionsOfSlipTurnTheResidualFallsQuadratically) {
+  const Problem p = turning_points(60);
+  std::vector<double> residuals;
+  for (int iterations = 1; iterations <= 12; ++iterations) {
+    const InterfaceSolution s = p.solve(VectorXd::Zero(120), {1e-13, iterations});
+    residuals.push_back(s.residual);
+    if (s.converged)
+      break;
+  }
+  ASSERT_LE(residuals.back(), 1e-13);
+  int squared = 0;
+  for (std::size_t k = 0; k + 1 < residuals.size(); ++k)
+    if (residuals[k] < 1e-3) {
+      // Seen: 9.8e-4, 4.7e-5, 3.4e-7, 1.1e-11, then round-off.
+      EXPECT_LT(residuals[k + 1], 200 * residuals[k] * residuals[k] + 1e-14) << k;
+      ++squared;
+    }
+  EXPECT_GE(squared, 3);
+}
+
 }  // namespace
 }  // namespace tourmaline::solve
