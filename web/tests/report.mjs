@@ -264,6 +264,14 @@ await inBrowser(desktop, async (context) => {
   });
 });
 
+await inBrowser(desktop, async (context) => {
+  const { tab } = await open(context, page);
+  await test('without WebGL the page says so and shows the curves', async () => {
+    assert.match(await tab.locator('.notices').textContent(), /no WebGL/);
+    assert.ok((await colours(tab, '#contact canvas', 0)) > 3);
+  });
+}, ['--disable-3d-apis']);
+
 const [insulated, coarse] = ['insulated', 'conductive'].map((name) =>
   run(`${name}-16`, `ouafik-2020/${name}.toml`, 'mesh.box.cells=[16, 16]'));
 const both = join(folder, 'both.html');
