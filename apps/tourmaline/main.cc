@@ -14,6 +14,7 @@
 #include "tourmaline/material/description.h"
 #include "tourmaline/mesh/gmsh.h"
 #include "tourmaline/parallel/ranks.h"
+#include "tourmaline/report/page.h"
 #include "tourmaline/solve/simulation.h"
 #include "tourmaline/solve/survey.h"
 
@@ -24,6 +25,7 @@ enum ExitStatus { done = 0, wrong_case = 2, solve_failed = 3, machine_failed = 4
 /// What the command line asked for.
 struct Asked {
   std::filesystem::path file, directory;
+  std::vector<std::filesystem::path> folders;
   std::vector<std::string> overrides;
   std::string material, materials_file;
   bool quiet = false;
@@ -57,6 +59,15 @@ void materials(const Asked &asked) {
   std::cout << tourmaline::material::describe(material);
 }
 
+// Two folders are no part of each other, so their page stands beside them, where one stands now.
+void report_page(const Asked &asked) {
+  const std::filesystem::path file = !asked.file.empty()         ? asked.file
+                                     : asked.folders.size() == 1 ? asked.folders[0] / "report.html"
+                                                                 : "report.html";
+  tourmaline::report::write_page(asked.folders, file);
+  std::cout << file.string() << '\n';
+}
+
 void add_case(CLI::App &command, Asked &asked) {
   command.add_option("CASE", asked.file, "the case file (TOML)")->required();
   command
@@ -82,6 +93,17 @@ void add_check(CLI::App &app, Asked &asked) {
       app.add_subcommand("check", "check a case and print it with all defaults filled in");
   add_case(*command, asked);
   command->callback([&asked] { check(asked); });
+}
+
+void add_report(CLI::App &app, Asked &asked) {
+  CLI::App *command =
+      app.add_subcommand("report", "make the page of one result folder, or of two side by side");
+  command->add_option("DIR", asked.folders, "folders that `run` left; one or two")
+      ->required()
+      ->expected(1, 2);
+  command->add_option("-o,--output", asked.file,
+                      "the page; if not given DIR/report.html, of two folders report.html");
+  command->callback([&asked] { report_page(asked); });
 }
 
 void add_materials(CLI::App &app, Asked &asked) {
@@ -125,6 +147,7 @@ int obey(int argc, char **argv) {
   });
   add_run(app, asked);
   add_check(app, asked);
+  add_report(app, asked);
   add_materials(app, asked);
   add_reference(app);
   check_command(app, argc, argv);

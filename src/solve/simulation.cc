@@ -11,6 +11,7 @@
 #include "tourmaline/material/composition.h"
 #include "tourmaline/output/progress.h"
 #include "tourmaline/parallel/ranks.h"
+#include "tourmaline/report/page.h"
 #include "tourmaline/solve/condensed_route.h"
 #include "tourmaline/solve/iterative_route.h"
 #include "tourmaline/solve/memory.h"
@@ -35,6 +36,7 @@ class Simulation {
   void prescribe(double time, std::vector<double> &state) const;
   void sum_loads(double time);
   void step(int n);
+  void put_report();
   void keep_what_there_is();
   output::Summary summary() const;
 
@@ -132,13 +134,29 @@ void Simulation<dim>::run() {
   recorder_->finish(state_);
   const output::Summary done = summary();
   parallel::on_first([&] { folder_->put_summary(done); });
+  put_report();
   progress_.done();
 }
 
 template <int dim>
+void Simulation<dim>::put_report() {
+  if (!model_.asked.output.report)
+    return;
+  progress_.stage("report");
+  parallel::on_first(
+      [&] { report::write_page({folder_->directory()}, folder_->directory() / "report.html"); });
+}
+
+// The error that ended the steps is the one to tell of.
+template <int dim>
 void Simulation<dim>::keep_what_there_is() {
   progress_.done();
   recorder_->finish(state_);
+  try {
+    put_report();
+  } catch (const std::runtime_error &) {
+  }
+  progress_.done();
 }
 
 std::size_t peak_memory() {
