@@ -52,7 +52,8 @@ Model<dim>::Model(const casefile::Case &asked_for, Built built)
       material(built.material),
       body(std::move(built.body)),
       op(body, material::restricted<dim>(material)),
-      prescribed(body::prescribed_unknowns(body, asked.boundaries)),
+      prescribed(body::prescribed_unknowns(body, asked.boundaries, asked.electrodes)),
+      electrodes(body::electrode_nodes<dim>(prescribed, asked.electrodes)),
       loads(body, asked, step, material.reference_temperature),
       mesh_seconds(built.mesh_seconds) {
   if (asked.contact) {
