@@ -34,5 +34,8 @@ target_include_directories(part_mumps SYSTEM INTERFACE ${MUMPS_INCLUDE})
 target_link_libraries(part_mumps INTERFACE ${MUMPS_LIBRARY} MPI::MPI_C)
 add_library(part::mumps ALIAS part_mumps)
 
+# The build of PETSc that deal.II uses.
+pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET PETSc)
+
 find_library(METIS_LIBRARY metis REQUIRED)
 find_library(OPENBLAS_LIBRARY openblas REQUIRED)

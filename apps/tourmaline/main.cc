@@ -13,6 +13,7 @@
 #include "tourmaline/error.h"
 #include "tourmaline/material/library.h"
 #include "tourmaline/parallel/ranks.h"
+#include "tourmaline/report/page.h"
 #include "tourmaline/solve/simulation.h"
 
 namespace {
@@ -22,6 +23,7 @@ enum ExitStatus { done = 0, wrong_case = 2, solve_failed = 3, machine_failed = 4
 /// What the command line asked for.
 struct Asked {
   std::filesystem::path file, directory;
+  std::vector<std::filesystem::path> folders;
   std::vector<std::string> overrides;
   std::string material;
   bool quiet = false;
@@ -44,6 +46,15 @@ void check(const Asked &asked) {
 void materials(const Asked &asked) {
   std::cout << (asked.material.empty() ? tourmaline::material::describe_library()
                                        : tourmaline::material::describe(asked.material));
+}
+
+// Two folders are no part of each other, so their page stands beside them, where one stands now.
+void report_page(const Asked &asked) {
+  const std::filesystem::path file = !asked.file.empty()         ? asked.file
+                                     : asked.folders.size() == 1 ? asked.folders[0] / "report.html"
+                                                                 : "report.html";
+  tourmaline::report::write_page(asked.folders, file);
+  std::cout << file.string() << '\n';
 }
 
 void add_case(CLI::App &command, Asked &asked) {
@@ -71,6 +82,17 @@ void add_check(CLI::App &app, Asked &asked) {
       app.add_subcommand("check", "check a case and print it with all defaults filled in");
   add_case(*command, asked);
   command->callback([&asked] { check(asked); });
+}
+
+void add_report(CLI::App &app, Asked &asked) {
+  CLI::App *command =
+      app.add_subcommand("report", "make the page of one result folder, or of two side by side");
+  command->add_option("DIR", asked.folders, "folders that `run` left; one or two")
+      ->required()
+      ->expected(1, 2);
+  command->add_option("-o,--output", asked.file,
+                      "the page; if not given DIR/report.html, of two folders report.html");
+  command->callback([&asked] { report_page(asked); });
 }
 
 void add_materials(CLI::App &app, Asked &asked) {
@@ -113,6 +135,7 @@ int obey(int argc, char **argv) {
   });
   add_run(app, asked);
   add_check(app, asked);
+  add_report(app, asked);
   add_materials(app, asked);
   add_reference(app);
   check_command(app, argc, argv);

@@ -299,6 +299,50 @@ std::vector<Node> Discretisation<dim>::nodes_on(const std::vector<std::string> &
 
 namespace {
 
+// deal.II's numbers of a facet's corners in a circle, and of the middle of a quadratic line.
+template <class Face>
+std::vector<dealii::types::global_dof_index> facet_dofs(const Face &face, unsigned int degree) {
+  const auto corner = [&](unsigned int i) { return face.vertex_dof_index(i, 0); };
+  if (face.n_vertices() == 2 && degree == 1)
+    return {corner(0), corner(1)};
+  if (face.n_vertices() == 2)
+    return {corner(0), face.dof_index(0), corner(1)};
+  if (face.n_vertices() == 3)
+    return {corner(0), corner(1), corner(2)};
+  return {corner(0), corner(1), corner(3), corner(2)};  // deal.II runs line by line
+}
+
+// From (number of nodes, nodes) of each facet, one behind the other.
+std::vector<std::vector<Node>> separated(const std::vector<Node> &facets) {
+  std::vector<std::vector<Node>> lists;
+  for (std::size_t i = 0; i < facets.size(); i += 1 + facets[i])
+    lists.emplace_back(facets.begin() + i + 1, facets.begin() + i + 1 + facets[i]);
+  return lists;
+}
+
+}  // namespace
+
+template <int dim>
+std::vector<output::NamedBoundary> Discretisation<dim>::boundaries() const {
+  std::vector<output::NamedBoundary> all;
+  for (const auto &[name, id] : parts_->mesh.boundaries) {
+    std::vector<Node> facets;
+    for (const auto &cell : parts_->cells)
+      for (const unsigned int f : cell->face_indices()) {
+        if (!cell->face(f)->at_boundary() || cell->face(f)->boundary_id() != id)
+          continue;
+        const auto dofs = facet_dofs(*cell->face(f), parts_->element->degree);
+        facets.push_back(static_cast<Node>(dofs.size()));
+        for (const auto dof : dofs)
+          facets.push_back(parts_->node_of[dof]);
+      }
+    all.push_back({name, separated(parallel::joined_on_first(facets))});
+  }
+  return all;
+}
+
+namespace {
+
 using output::VtkCell;
 
 VtkCell vtk_cell(int dim, bool simplices, unsigned int degree) {

@@ -439,6 +439,24 @@ void declare(Visitor &v, SolverCase &solver) {
                       "boundary; monolithic: Newton iteration on all unknowns, as in the paper",
        .choices = {"condensed", "monolithic"}},
       &solver.method);
+  v.key({.name = "body",
+         .description =
+             "how the body's linear equations are solved. direct: one factorisation; iterative: "
+             "preconditioned Krylov iteration, for bodies in three dimensions that are too large "
+             "for a factorisation; automatic: direct where its estimated memory is at most half of "
+             "what is available",
+         .choices = {"automatic", "direct", "iterative"},
+         .used = solver.method == "condensed",
+         .used_with = "method = \"condensed\""},
+        &solver.body);
+  v.key(
+      {.name = "linear_tolerance",
+       .description = "at which the iterative solution of the body's equations stops: norm of the "
+                      "residual over that of the largest contribution, in each field",
+       .range = {.low = 0, .high = 1e-3, .low_allowed = false},
+       .used = solver.body != "direct",
+       .used_with = "body = \"iterative\" or \"automatic\""},
+      &solver.linear_tolerance);
   v.key({.name = "tolerance",
          .description = "at which the contact iteration stops: natural residual divided by the "
                         "largest nodal force",

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "tourmaline/error.h"
+#include "tourmaline/output/boundaries.h"
 #include "tourmaline/output/csv.h"
 
 namespace tourmaline::output {
@@ -46,9 +47,9 @@ bool is_field_file(const std::string &name) {
 /// Whether a run gives a file this name, in its place or while it is being written.
 bool is_ours(std::string_view name) {
   constexpr std::string_view part = ".part";
-  constexpr std::array<std::string_view, 7> others{"result.pvd",  "nodes.csv",    "contact.csv",
-                                                   "history.csv", "summary.json", "resolved.toml",
-                                                   "report.html"};
+  constexpr std::array<std::string_view, 8> others{
+      "result.pvd",   "nodes.csv",     "contact.csv",     "history.csv",
+      "summary.json", "resolved.toml", "boundaries.json", "report.html"};
   if (name.ends_with(part))
     name.remove_suffix(part.size());
   return is_field_file(std::string(name)) ||
@@ -97,6 +98,10 @@ ResultFolder::ResultFolder(fs::path directory, int dimension, Piece piece)
 
 void ResultFolder::put_case(const std::string &resolved_toml) {
   write_file(directory_ / "resolved.toml", resolved_toml);
+}
+
+void ResultFolder::put_boundaries(const std::vector<NamedBoundary> &boundaries) {
+  write_file(directory_ / "boundaries.json", boundaries_text(boundaries));
 }
 
 void ResultFolder::put_fields(int step, double time, const Grid &grid, const PointFields &points,

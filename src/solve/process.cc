@@ -12,6 +12,8 @@
 
 #include "tourmaline/error.h"
 
+#include "tourmaline/krylov/body_system.h"
+
 extern "C" void openblas_set_num_threads(int threads);
 
 namespace tourmaline::solve {
@@ -61,6 +63,7 @@ double process_age() {
 }
 
 Process::~Process() {
+  krylov::finish();
   if (owns_mpi_)
     MPI_Finalize();
 }

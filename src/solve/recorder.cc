@@ -45,6 +45,8 @@ template <int dim>
 void Recorder<dim>::initial(std::span<const double> state) {
   Stopwatch watch;
   balance_.emplace(model_, state);
+  const std::vector<output::NamedBoundary> boundaries = model_.body.boundaries();
+  parallel::on_first([&] { folder_.put_boundaries(boundaries); });
   put_fields(0, state);
   seconds_ += watch.lap();
 }

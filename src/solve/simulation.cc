@@ -11,7 +11,9 @@
 #include "tourmaline/material/plane.h"
 #include "tourmaline/output/progress.h"
 #include "tourmaline/parallel/ranks.h"
+#include "tourmaline/report/page.h"
 #include "tourmaline/solve/condensed_route.h"
+#include "tourmaline/solve/iterative_route.h"
 #include "tourmaline/solve/memory.h"
 #include "tourmaline/solve/monolithic_route.h"
 #include "tourmaline/solve/process.h"
@@ -34,6 +36,7 @@ class Simulation {
   void prescribe(double time, std::vector<double> &state) const;
   void sum_loads(double time);
   void step(int n);
+  void put_report();
   void keep_what_there_is();
   output::Summary summary() const;
 
@@ -52,6 +55,8 @@ template <int dim>
 std::unique_ptr<Route> make_route(const Model<dim> &model) {
   if (model.asked.solver.method == "monolithic")
     return monolithic_route(model);
+  if (model.asked.solver.body == "iterative")
+    return iterative_route(model);
   return condensed_route(model);
 }
 
@@ -129,13 +134,29 @@ void Simulation<dim>::run() {
   recorder_->finish(state_);
   const output::Summary done = summary();
   parallel::on_first([&] { folder_->put_summary(done); });
+  put_report();
   progress_.done();
 }
 
 template <int dim>
+void Simulation<dim>::put_report() {
+  if (!model_.asked.output.report)
+    return;
+  progress_.stage("report");
+  parallel::on_first(
+      [&] { report::write_page({folder_->directory()}, folder_->directory() / "report.html"); });
+}
+
+// The error that ended the steps is the one to tell of.
+template <int dim>
 void Simulation<dim>::keep_what_there_is() {
   progress_.done();
   recorder_->finish(state_);
+  try {
+    put_report();
+  } catch (const std::runtime_error &) {
+  }
+  progress_.done();
 }
 
 std::size_t peak_memory() {
@@ -164,6 +185,10 @@ output::Summary Simulation<dim>::summary() const {
   summary.iterations = {{"newton_total", newton_total_},
                         {"newton_max", newton_max_},
                         {"newton_first", newton_first_}};
+  if (report.krylov_iterations > 0) {
+    summary.iterations["krylov_total"] = static_cast<std::int64_t>(report.krylov_iterations);
+    summary.iterations["krylov_max"] = report.krylov_largest;
+  }
   summary.factorisations = report.factorisations;
   if (report.negative_pivots >= 0)
     summary.negative_pivots = report.negative_pivots;

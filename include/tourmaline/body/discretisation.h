@@ -71,6 +71,10 @@ class Discretisation {
   /// Nodes on the closure of the named boundaries, ascending, of all ranks.
   std::vector<Node> nodes_on(const std::vector<std::string> &boundaries) const;
 
+  /// All named boundaries with the facets of all ranks, on the first rank; without facets on the
+  /// others.
+  std::vector<output::NamedBoundary> boundaries() const;
+
   /// The grid as the output wants it: all nodes, and this rank's cells in the order of
   /// `for_each_cell`.
   output::Grid grid() const;

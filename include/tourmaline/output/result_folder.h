@@ -34,6 +34,9 @@ class ResultFolder {
   /// resolved.toml: the case with every default filled in.
   void put_case(const std::string &resolved_toml);
 
+  /// boundaries.json: the parts of the boundary by name; nodes are rows of nodes.csv, from 0.
+  void put_boundaries(const std::vector<NamedBoundary> &boundaries);
+
   /// result_NNNN.vtu, of several pieces result_NNNN_PIECE.vtu. The grid is encoded at the first
   /// call: every call of a run passes the same one. Throws std::invalid_argument when sizes
   /// disagree.

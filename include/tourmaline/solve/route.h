@@ -25,8 +25,10 @@ struct RouteReport {
   std::size_t unknowns = 0, electric_and_thermal_unknowns = 0;
   long long factor_entries = 0;
   double factor_flops = 0;
-  int negative_pivots = -1;   ///< -1: not known to this route
-  double backward_error = 0;  ///< largest over the steps in which it was measured
+  int negative_pivots = -1;           ///< -1: not known to this route
+  std::size_t krylov_iterations = 0;  ///< over all linear systems; 0: solved by substitution
+  int krylov_largest = 0;             ///< of one linear system
+  double backward_error = 0;          ///< largest over the steps in which it was measured
 };
 
 /// A way to solve the nonlinear system of one step, (31)-(35).

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "tourmaline/body/conditions.h"
+#include "tourmaline/body/operator.h"
+
+namespace tourmaline::krylov {
+
+/// What the contact leaves a node: displacements in the range of `projector` (symmetric, its square
+/// itself), and a stiffness [N/m] against them.
+template <int dim>
+struct NodeTangent {
+  using Matrix = Eigen::Matrix<double, dim, dim>;
+
+  body::Node node;
+  Matrix projector, stiffness;
+};
+
+/// The operator K of a step without a factorisation, for bodies too large for one: solves
+///
+///     Q (K + C) Q x = Q r,   x in the range of Q
+///
+/// with Q the projector onto what is free (prescribed unknowns and the contact hold the rest) and C
+/// the contact's stiffness, by flexible GMRES (PETSc). The electric and heat rows change their sign
+/// back, so that the diagonal blocks are positive definite; the preconditioner solves by blocks, u,
+/// then phi, then theta: smoothed aggregation with the rigid motions for u (GAMG), BoomerAMG
+/// (hypre) for phi and theta. All vectors are SI and whole on every rank.
+template <int dim>
+class BodySystem {
+ public:
+  BodySystem(const body::Operator<dim> &op, double step, const std::vector<output::Vector> &points,
+             const std::vector<body::Prescribed> &prescribed);
+  ~BodySystem();
+  BodySystem(const BodySystem &) = delete;
+  BodySystem &operator=(const BodySystem &) = delete;
+
+  /// Assembles the matrix for another contact; one entry for each contact node, always the same.
+  void set_contact(const std::vector<NodeTangent<dim>> &contact);
+
+  /// Solves until the residual is `reduction` times r, in scaled unknowns. Returns the iterations.
+  /// Throws SolveError when they do not converge.
+  int solve(std::span<const double> right_side, double reduction, std::span<double> solution);
+
+  /// Q r.
+  void project(std::span<double> vector) const;
+
+  double set_up_seconds() const;  ///< assembly and preconditioner
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+/// Ends PETSc, if something here started it; before MPI ends.
+void finish();
+
+}  // namespace tourmaline::krylov

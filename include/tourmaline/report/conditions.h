@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tourmaline/case/case.h"
+
+namespace tourmaline::report {
+
+/// What a case says of one boundary, (7)-(13), in words and formulas for a legend.
+struct Conditions {
+  /// the mechanical condition: contact | displacement | traction | free
+  std::string kind = "free";
+  std::vector<std::string> texts;  ///< UTF-8; empty where nothing is said
+};
+
+Conditions conditions_on(const casefile::Case &asked, const std::string &boundary);
+
+}  // namespace tourmaline::report

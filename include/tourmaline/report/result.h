@@ -1,0 +1,61 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tourmaline/case/case.h"
+#include "tourmaline/output/records.h"
+#include "tourmaline/report/conditions.h"
+#include "tourmaline/report/skin.h"
+#include "tourmaline/report/table.h"
+
+namespace tourmaline::report {
+
+/// A field over the skin of a body and over time. `values[c]` holds component c: for each state the
+/// values at all places, one state behind the other.
+struct Field {
+  std::string name;
+  std::string unit;
+  bool on_points = true;
+  std::vector<std::string> components;  ///< x, y, ...; xx, yy, ...; one empty name for a scalar
+  std::vector<std::vector<float>> values;
+};
+
+/// A named part of the boundary, its facets by the skin's nodes: corners in a circle, in 2D along
+/// the line.
+struct Boundary {
+  std::string name;
+  Conditions conditions;
+  std::vector<std::vector<std::uint32_t>> facets;
+};
+
+/// A result folder, read back. What is not there is empty, with a remark where somebody may look
+/// for it.
+struct Result {
+  std::string name;  ///< of the folder
+  int dimension = 2;
+  std::string resolved;                 ///< resolved.toml
+  std::optional<casefile::Case> asked;  ///< the same, read
+  std::string summary;                  ///< summary.json
+  std::optional<Table> history, contact;
+  std::vector<double> friction_bound;  ///< S at each row of `contact` [N/m^2]; empty: no friction
+  std::vector<std::string> remarks;
+
+  Skin skin;
+  std::vector<output::Vector> points;  ///< of the skin's nodes [m]
+  std::vector<Boundary> boundaries;
+  std::vector<double> times;  ///< of the states [s]
+  std::vector<int> steps;
+  std::vector<Field> fields;
+
+  const Field *field(const std::string &name) const;
+};
+
+/// Reads the folder that a run left. Of the field files so many are taken, evenly and the last one
+/// among them, that they hold at most `most_numbers` numbers on the skin; the last one always.
+/// Throws CaseError when `folder` is no result folder or a file in it is damaged.
+Result read_result(const std::filesystem::path &folder, std::size_t most_numbers);
+
+}  // namespace tourmaline::report

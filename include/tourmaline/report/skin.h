@@ -1,0 +1,23 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "tourmaline/output/records.h"
+
+namespace tourmaline::report {
+
+/// What of a grid can be seen, as flat triangles: all of it in 2D, its surface in 3D. Quadratic
+/// cells are split at their mid-side nodes, so that curved sides stay curved.
+struct Skin {
+  std::vector<std::uint32_t> nodes;                     ///< of the grid, ascending
+  std::vector<std::uint32_t> cells;                     ///< of the grid, ascending
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< places in `nodes`; outward in 3D
+  std::vector<std::uint32_t> triangle_cells;            ///< places in `cells`
+  std::vector<std::array<std::uint32_t, 2>> edges;      ///< sides of cells; places in `nodes`
+};
+
+Skin skin_of(const output::Grid &grid);
+
+}  // namespace tourmaline::report

@@ -1,0 +1,372 @@
+#include "tourmaline/krylov/body_system.h"
+
+#include <fmt/format.h>
+#include <petscksp.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+#include "tourmaline/error.h"
+#include "tourmaline/parallel/ranks.h"
+
+namespace tourmaline::krylov {
+
+using body::Fields;
+using body::Node;
+using body::unknown;
+
+namespace {
+
+void check(PetscErrorCode code) {
+  if (code == PETSC_ERR_MEM)
+    throw MachineError("not enough memory for the iterative solver; use a coarser mesh");
+  if (code != 0)
+    throw SolveError(fmt::format("PETSc failed with error {}", static_cast<int>(code)));
+}
+
+double seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// Chosen by measurement: docs/architecture.md.
+constexpr const char *options[][2] = {
+    {"-ksp_type", "fgmres"},
+    {"-ksp_gmres_restart", "100"},
+    {"-ksp_max_it", "500"},
+    {"-pc_type", "fieldsplit"},
+    {"-pc_fieldsplit_type", "multiplicative"},
+    {"-fieldsplit_u_ksp_type", "preonly"},
+    {"-fieldsplit_u_pc_type", "gamg"},
+    {"-fieldsplit_u_pc_gamg_threshold", "0"},
+    {"-fieldsplit_u_pc_gamg_agg_nsmooths", "0"},
+    {"-fieldsplit_u_mg_levels_ksp_type", "chebyshev"},
+    {"-fieldsplit_u_mg_levels_ksp_max_it", "4"},
+    {"-fieldsplit_u_mg_levels_pc_type", "jacobi"},
+    {"-fieldsplit_phi_ksp_type", "preonly"},
+    {"-fieldsplit_phi_pc_type", "hypre"},
+    {"-fieldsplit_phi_pc_hypre_type", "boomeramg"},
+    {"-fieldsplit_theta_ksp_type", "preonly"},
+    {"-fieldsplit_theta_pc_type", "hypre"},
+    {"-fieldsplit_theta_pc_hypre_type", "boomeramg"},
+};
+
+void start() {
+  PetscBool running = PETSC_FALSE;
+  PetscInitialized(&running);
+  if (running)
+    return;
+  PetscOptionsSetValue(nullptr, "-no_signal_handler", nullptr);
+  check(PetscInitializeNoArguments());
+  PetscPushErrorHandler(PetscReturnErrorHandler, nullptr);
+  for (const auto &[name, value] : options) {
+    PetscBool given = PETSC_FALSE;  // by PETSC_OPTIONS, to try others
+    check(PetscOptionsHasName(nullptr, nullptr, name, &given));
+    if (!given)
+      check(PetscOptionsSetValue(nullptr, name, value));
+  }
+}
+
+}  // namespace
+
+void finish() {
+  PetscBool running = PETSC_FALSE;
+  PetscInitialized(&running);
+  if (running)
+    PetscFinalize();
+}
+
+template <int dim>
+struct BodySystem<dim>::Parts {
+  static constexpr int n = Fields<dim>::count;
+  using Block = typename body::Operator<dim>::Block;
+
+  Parts(const body::Operator<dim> &the_operator, double the_step);
+  ~Parts();
+  Parts(const Parts &) = delete;
+  Parts &operator=(const Parts &) = delete;
+
+  void number_rows();
+  void scale_fields();
+  void preallocate();
+  void make_solver(const std::vector<output::Vector> &points);
+  IS field(int first, int count) const;
+  void attach_rigid_motions(IS displacements, const std::vector<output::Vector> &points) const;
+  Block projector(Node node) const;
+  void assemble();
+  PetscInt own_begin() const { return begin[parallel::rank()]; }
+  PetscInt own_count() const { return begin[parallel::rank() + 1] - own_begin(); }
+  bool owns(Node node) const {
+    return row_of[node] >= own_begin() && row_of[node] < own_begin() + own_count();
+  }
+
+  const body::Operator<dim> &op;
+  double step;
+  std::vector<bool> is_prescribed;
+  std::vector<NodeTangent<dim>> contact;
+  std::vector<int> contact_index;  // by node; -1: not at the contact
+  std::vector<PetscInt> row_of;    // by node; a rank's own nodes stand together
+  std::vector<Node> node_of;       // by row
+  std::vector<PetscInt> begin;     // of each rank's rows, and the end
+  std::array<double, n> scale{};
+  Mat matrix = nullptr;
+  Vec right_side = nullptr, solution = nullptr;
+  KSP solver = nullptr;
+  double set_up_seconds = 0;
+};
+
+template <int dim>
+BodySystem<dim>::Parts::Parts(const body::Operator<dim> &the_operator, double the_step)
+    : op(the_operator), step(the_step), contact_index(the_operator.graph().n_nodes(), -1) {}
+
+template <int dim>
+BodySystem<dim>::Parts::~Parts() {
+  KSPDestroy(&solver);
+  VecDestroy(&solution);
+  VecDestroy(&right_side);
+  MatDestroy(&matrix);
+}
+
+// A node belongs to the first rank whose cells touch it.
+template <int dim>
+void BodySystem<dim>::Parts::number_rows() {
+  const body::NodeGraph &graph = op.graph();
+  const int ranks = parallel::n_ranks();
+  std::vector<double> closeness(graph.n_nodes(), -ranks);  // the largest wins
+  for (Node i = 0; i < graph.n_nodes(); ++i)
+    if (graph.row[i] != graph.row[i + std::size_t{1}])
+      closeness[i] = -parallel::rank();
+  parallel::largest(closeness);
+  node_of.resize(graph.n_nodes());
+  std::iota(node_of.begin(), node_of.end(), Node{0});
+  std::stable_sort(node_of.begin(), node_of.end(),
+                   [&](Node a, Node b) { return closeness[a] > closeness[b]; });
+  row_of.resize(graph.n_nodes());
+  begin.assign(ranks + 1, 0);
+  for (std::size_t row = 0; row < node_of.size(); ++row) {
+    row_of[node_of[row]] = static_cast<PetscInt>(row);
+    ++begin[static_cast<std::size_t>(-closeness[node_of[row]]) + 1];
+  }
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+}
+
+template <int dim>
+void BodySystem<dim>::Parts::scale_fields() {
+  const std::vector<double> diagonal = op.diagonal(step);
+  for (std::size_t i = 0; i < diagonal.size(); ++i)
+    scale[i % n] = std::max(scale[i % n], std::abs(diagonal[i]));
+  std::fill_n(scale.begin(), dim, *std::max_element(scale.begin(), scale.begin() + dim));
+  for (double &s : scale)
+    s = 1 / std::sqrt(s);
+}
+
+// Where ranks meet, a row has at most the entries that they have in it together.
+template <int dim>
+void BodySystem<dim>::Parts::preallocate() {
+  const body::NodeGraph &graph = op.graph();
+  std::vector<double> length(graph.n_nodes());
+  for (Node i = 0; i < graph.n_nodes(); ++i)
+    length[i] = static_cast<double>(graph.row[i + std::size_t{1}] - graph.row[i]);
+  parallel::sum(length);
+  std::vector<PetscInt> inside, outside;
+  for (PetscInt row = 0; row < own_count(); ++row) {
+    const auto blocks = static_cast<PetscInt>(length[node_of[own_begin() + row]]);
+    inside.push_back(std::min(blocks, own_count()));
+    outside.push_back(std::min(blocks, static_cast<PetscInt>(graph.n_nodes()) - own_count()));
+  }
+  const auto all = static_cast<PetscInt>(graph.n_nodes());
+  check(MatCreate(PETSC_COMM_WORLD, &matrix));
+  check(MatSetSizes(matrix, n * own_count(), n * own_count(), n * all, n * all));
+  check(MatSetType(matrix, MATAIJ));
+  check(MatSetBlockSize(matrix, n));
+  check(MatXAIJSetPreallocation(matrix, n, inside.data(), outside.data(), nullptr, nullptr));
+  check(MatCreateVecs(matrix, &solution, &right_side));
+}
+
+// Rows of `count` unknowns from `first` on, of this rank's nodes.
+template <int dim>
+IS BodySystem<dim>::Parts::field(int first, int count) const {
+  std::vector<PetscInt> rows;
+  for (PetscInt row = own_begin(); row < own_begin() + own_count(); ++row)
+    for (int c = 0; c < count; ++c)
+      rows.push_back(n * row + first + c);
+  IS field = nullptr;
+  check(ISCreateGeneral(PETSC_COMM_WORLD, static_cast<PetscInt>(rows.size()), rows.data(),
+                        PETSC_COPY_VALUES, &field));
+  check(ISSetBlockSize(field, count));
+  return field;
+}
+
+template <int dim>
+void BodySystem<dim>::Parts::attach_rigid_motions(IS displacements,
+                                                  const std::vector<output::Vector> &points) const {
+  Vec places = nullptr;
+  check(VecCreate(PETSC_COMM_WORLD, &places));
+  check(VecSetBlockSize(places, dim));
+  check(VecSetSizes(places, dim * own_count(), PETSC_DECIDE));
+  check(VecSetUp(places));
+  PetscScalar *values = nullptr;
+  check(VecGetArray(places, &values));
+  for (PetscInt row = 0; row < own_count(); ++row)
+    std::copy_n(points[node_of[own_begin() + row]].begin(), dim, values + dim * row);
+  check(VecRestoreArray(places, &values));
+  MatNullSpace motions = nullptr;
+  check(MatNullSpaceCreateRigidBody(places, &motions));
+  check(PetscObjectCompose(reinterpret_cast<PetscObject>(displacements), "nearnullspace",
+                           reinterpret_cast<PetscObject>(motions)));
+  check(MatNullSpaceDestroy(&motions));
+  check(VecDestroy(&places));
+}
+
+template <int dim>
+void BodySystem<dim>::Parts::make_solver(const std::vector<output::Vector> &points) {
+  check(KSPCreate(PETSC_COMM_WORLD, &solver));
+  check(KSPSetFromOptions(solver));
+  PC preconditioner = nullptr;
+  check(KSPGetPC(solver, &preconditioner));
+  const struct {
+    const char *name;
+    int first, count;
+  } fields[] = {
+      {"u", 0, dim}, {"phi", Fields<dim>::potential, 1}, {"theta", Fields<dim>::temperature, 1}};
+  for (const auto &f : fields) {
+    IS rows = field(f.first, f.count);
+    if (f.count == dim)
+      attach_rigid_motions(rows, points);
+    check(PCFieldSplitSetIS(preconditioner, f.name, rows));
+    check(ISDestroy(&rows));
+  }
+}
+
+template <int dim>
+typename BodySystem<dim>::Parts::Block BodySystem<dim>::Parts::projector(Node node) const {
+  Block q = Block::Identity();
+  if (contact_index[node] >= 0)
+    q.template topLeftCorner<dim, dim>() = contact[contact_index[node]].projector;
+  for (int c = contact_index[node] >= 0 ? dim : 0; c < n; ++c)
+    if (is_prescribed[unknown<dim>(node, c)])
+      q(c, c) = 0;
+  return q;
+}
+
+template <int dim>
+void BodySystem<dim>::Parts::assemble() {
+  const double started = seconds();
+  const body::NodeGraph &graph = op.graph();
+  Block sign = Block::Identity();
+  sign.template bottomRightCorner<2, 2>() *= -1;
+  const Eigen::Map<const Eigen::Matrix<double, n, 1>> scales(scale.data());
+  check(MatZeroEntries(matrix));
+  for (Node i = 0; i < graph.n_nodes(); ++i) {
+    const Block qi = projector(i);
+    for (std::size_t e = graph.row[i]; e < graph.row[i + 1]; ++e) {
+      const Block k = scales.asDiagonal() * op.step_block(e, step) * scales.asDiagonal();
+      Block block = sign * qi * k * projector(graph.column[e]);
+      if (graph.column[e] == i && owns(i)) {
+        block += Block::Identity() - qi;  // what is held stays zero
+        if (contact_index[i] >= 0)
+          block.template topLeftCorner<dim, dim>() +=
+              scale[0] * scale[0] * contact[contact_index[i]].stiffness;
+      }
+      const PetscInt row = row_of[i], column = row_of[graph.column[e]];
+      check(MatSetValuesBlocked(matrix, 1, &row, 1, &column, block.data(), ADD_VALUES));
+    }
+  }
+  check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
+  check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
+  check(KSPSetOperators(solver, matrix, matrix));
+  check(KSPSetUp(solver));
+  check(KSPSetUpOnBlocks(solver));
+  set_up_seconds += seconds() - started;
+}
+
+template <int dim>
+BodySystem<dim>::BodySystem(const body::Operator<dim> &op, double step,
+                            const std::vector<output::Vector> &points,
+                            const std::vector<body::Prescribed> &prescribed)
+    : parts_(std::make_unique<Parts>(op, step)) {
+  start();
+  const double started = seconds();
+  parts_->is_prescribed.assign(op.graph().n_nodes() * Parts::n, false);
+  for (const body::Prescribed &p : prescribed)
+    parts_->is_prescribed[p.unknown] = true;
+  parts_->number_rows();
+  parts_->scale_fields();
+  parts_->preallocate();
+  parts_->make_solver(points);
+  parts_->set_up_seconds = seconds() - started;
+}
+
+template <int dim>
+BodySystem<dim>::~BodySystem() = default;
+
+template <int dim>
+void BodySystem<dim>::set_contact(const std::vector<NodeTangent<dim>> &contact) {
+  parts_->contact = contact;
+  for (std::size_t i = 0; i < contact.size(); ++i)
+    parts_->contact_index[contact[i].node] = static_cast<int>(i);
+  parts_->assemble();
+}
+
+template <int dim>
+void BodySystem<dim>::project(std::span<double> vector) const {
+  using Vector = Eigen::Matrix<double, dim, 1>;
+  for (const auto &at : parts_->contact) {
+    const auto u = Vector::Map(&vector[unknown<dim>(at.node, 0)]);
+    const Vector projected = at.projector * u;
+    std::copy(projected.begin(), projected.end(), &vector[unknown<dim>(at.node, 0)]);
+  }
+  for (std::size_t i = 0; i < vector.size(); ++i) {
+    const bool projected = i % Parts::n < dim && parts_->contact_index[i / Parts::n] >= 0;
+    if (parts_->is_prescribed[i] && !projected)
+      vector[i] = 0;
+  }
+}
+
+template <int dim>
+int BodySystem<dim>::solve(std::span<const double> right_side, double reduction,
+                           std::span<double> solution) {
+  Parts &in = *parts_;
+  std::vector<double> r(right_side.begin(), right_side.end());
+  project(r);
+  PetscScalar *values = nullptr;
+  check(VecGetArray(in.right_side, &values));
+  for (PetscInt i = 0; i < in.own_count() * Parts::n; ++i) {
+    const int c = i % Parts::n;
+    const Node node = in.node_of[in.own_begin() + i / Parts::n];
+    values[i] = (c < dim ? 1 : -1) * in.scale[c] * r[unknown<dim>(node, c)];
+  }
+  check(VecRestoreArray(in.right_side, &values));
+  check(KSPSetTolerances(in.solver, reduction, 1e-300, PETSC_DEFAULT, PETSC_DEFAULT));
+  check(KSPSolve(in.solver, in.right_side, in.solution));
+  KSPConvergedReason reason{};
+  PetscInt iterations = 0;
+  check(KSPGetConvergedReason(in.solver, &reason));
+  check(KSPGetIterationNumber(in.solver, &iterations));
+  if (reason < 0)
+    throw SolveError(
+        fmt::format("the iterative solution of the body's equations did not converge in {} "
+                    "iterations (PETSc reason {}); take solver.body = \"direct\", or a larger "
+                    "solver.linear_tolerance",
+                    iterations, static_cast<int>(reason)));
+  const PetscScalar *found = nullptr;
+  check(VecGetArrayRead(in.solution, &found));
+  const std::vector<double> all =
+      parallel::joined(std::vector<double>(found, found + in.own_count() * Parts::n));
+  check(VecRestoreArrayRead(in.solution, &found));
+  for (std::size_t row = 0; row < in.node_of.size(); ++row)
+    for (int c = 0; c < Parts::n; ++c)
+      solution[unknown<dim>(in.node_of[row], c)] = in.scale[c] * all[row * Parts::n + c];
+  return static_cast<int>(iterations);
+}
+
+template <int dim>
+double BodySystem<dim>::set_up_seconds() const {
+  return parts_->set_up_seconds;
+}
+
+template class BodySystem<2>;
+template class BodySystem<3>;
+
+}  // namespace tourmaline::krylov

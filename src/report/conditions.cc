@@ -1,0 +1,87 @@
+#include "tourmaline/report/conditions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tourmaline::report {
+namespace {
+
+using casefile::Formula;
+
+bool names(const std::vector<std::string> &list, const std::string &boundary) {
+  return std::find(list.begin(), list.end(), boundary) != list.end();
+}
+
+std::string displacement_text(const std::vector<std::optional<Formula>> &components) {
+  std::string list;
+  for (const auto &component : components)
+    list += (list.empty() ? "" : ", ") + (component ? component->text() : std::string("free"));
+  return fmt::format("u = ({}) m", list);
+}
+
+std::string traction_text(const casefile::FormulaVector &components) {
+  std::string list;
+  for (const Formula &component : components)
+    list += (list.empty() ? "" : ", ") + component.text();
+  return fmt::format("σν = ({}) N/m²", list);
+}
+
+void add_contact(Conditions &conditions, const casefile::ContactCase &contact) {
+  conditions.kind = "contact";
+  conditions.texts.push_back(contact.normal + " contact");
+  if (contact.friction.law == "none")
+    conditions.texts.push_back("no friction");
+  else
+    conditions.texts.push_back(
+        fmt::format("Tresca friction, S = {} N/m²", contact.friction.bound.text()));
+  if (contact.heat.law == "insulated")
+    conditions.texts.push_back("insulated, q·ν = 0");
+  else
+    conditions.texts.push_back(fmt::format("heat exchange, k = {} W/(K m²), with {} K",
+                                           contact.heat.coefficient.text(),
+                                           contact.heat.foundation_temperature.text()));
+}
+
+void add_mechanics(Conditions &conditions, const casefile::BoundaryCase &entry) {
+  if (entry.displacement) {
+    if (conditions.kind == "free" || conditions.kind == "traction")
+      conditions.kind = "displacement";
+    conditions.texts.push_back(displacement_text(*entry.displacement));
+  }
+  if (entry.traction) {
+    if (conditions.kind == "free")
+      conditions.kind = "traction";
+    conditions.texts.push_back(traction_text(*entry.traction));
+  }
+}
+
+void add_others(Conditions &conditions, const casefile::BoundaryCase &entry) {
+  const auto scalar = [&](const std::optional<Formula> &formula, const char *symbol,
+                          const char *unit) {
+    if (formula)
+      conditions.texts.push_back(fmt::format("{} = {} {}", symbol, formula->text(), unit));
+  };
+  scalar(entry.potential, "φ", "V");
+  scalar(entry.surface_charge, "D·ν", "C/m²");
+  scalar(entry.temperature, "θ", "K");
+  scalar(entry.heat_flux, "q·ν", "W/m²");
+}
+
+}  // namespace
+
+Conditions conditions_on(const casefile::Case &asked, const std::string &boundary) {
+  Conditions conditions;
+  if (asked.contact && names(asked.contact->on, boundary))
+    add_contact(conditions, *asked.contact);
+  const auto add_entries = [&](auto add) {
+    for (const casefile::BoundaryCase &entry : asked.boundaries)
+      if (names(entry.on, boundary))
+        add(conditions, entry);
+  };
+  add_entries(add_mechanics);
+  add_entries(add_others);
+  return conditions;
+}
+
+}  // namespace tourmaline::report

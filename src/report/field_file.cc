@@ -1,0 +1,198 @@
+#include "tourmaline/report/field_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tourmaline/error.h"
+#include "tourmaline/output/place.h"
+#include "tourmaline/report/text_file.h"
+#include "tourmaline/report/vtk_array.h"
+#include "tourmaline/report/xml.h"
+
+namespace tourmaline::report {
+namespace {
+
+namespace fs = std::filesystem;
+using output::VtkCell;
+
+std::size_t nodes_of(VtkCell cell, const std::string &name) {
+  switch (cell) {
+    case VtkCell::triangle:
+      return 3;
+    case VtkCell::quadrilateral:
+    case VtkCell::tetrahedron:
+      return 4;
+    case VtkCell::quadratic_triangle:
+      return 6;
+    case VtkCell::hexahedron:
+      return 8;
+    case VtkCell::quadratic_quadrilateral:
+      return 9;
+    case VtkCell::quadratic_tetrahedron:
+      return 10;
+    case VtkCell::quadratic_hexahedron:
+      return 27;
+  }
+  throw CaseError(
+      fmt::format("{}: cells of VTK's type {} are not read here", name, static_cast<int>(cell)));
+}
+
+bool is_plane(VtkCell cell) {
+  return cell == VtkCell::triangle || cell == VtkCell::quadrilateral ||
+         cell == VtkCell::quadratic_triangle || cell == VtkCell::quadratic_quadrilateral;
+}
+
+/// Collects the arrays of one .vtu file as its elements go by.
+class Piece {
+ public:
+  explicit Piece(std::string name) : name_(std::move(name)) {}
+
+  void visit(const XmlElement &element) {
+    if (element.name == "DataArray")
+      take(element);
+    else
+      section_ = element.name;
+  }
+
+  FieldFile finish() {
+    if (file_.grid.points.empty() || !has_cells_)
+      throw CaseError(name_ + ": is no field file of Tourmaline; it holds no points or no cells");
+    file_.grid.nodes_per_cell = nodes_of(file_.grid.cell, name_);
+    file_.grid.dimension = is_plane(file_.grid.cell) ? 2 : 3;
+    check_sizes();
+    return std::move(file_);
+  }
+
+ private:
+  void take(const XmlElement &element) {
+    if (section_ == "FieldData")
+      return;
+    const std::string array = element.attribute("Name");
+    std::vector<double> values = read_vtk_binary(element.text, element.attribute("type"), name_);
+    if (section_ == "Points")
+      take_points(values);
+    else if (array == "connectivity")
+      file_.grid.connectivity.assign(values.begin(), values.end());
+    else if (array == "types" && !values.empty()) {
+      file_.grid.cell = static_cast<VtkCell>(values.front());
+      has_cells_ = true;
+    } else if (section_ == "PointData" || section_ == "CellData") {
+      const std::string components = element.attribute("NumberOfComponents");
+      file_.arrays.push_back({array, components.empty() ? 1 : std::stoul(components),
+                              section_ == "PointData", std::move(values)});
+    }
+  }
+
+  void take_points(const std::vector<double> &values) {
+    for (std::size_t i = 0; i + 2 < values.size(); i += 3)
+      file_.grid.points.push_back({values[i], values[i + 1], values[i + 2]});
+  }
+
+  void check_sizes() const {
+    for (const std::uint32_t node : file_.grid.connectivity)
+      if (node >= file_.grid.points.size())
+        throw CaseError(name_ + ": a cell refers to a point that there is not");
+    for (const FieldArray &array : file_.arrays) {
+      const std::size_t places = array.on_points ? file_.grid.points.size() : file_.grid.n_cells();
+      if (array.components == 0 || array.values.size() != places * array.components)
+        throw CaseError(fmt::format("{}: the array {} does not have one value for each place",
+                                    name_, array.name));
+    }
+  }
+
+  std::string name_;
+  FieldFile file_;
+  std::string_view section_;
+  bool has_cells_ = false;
+};
+
+FieldFile read_piece(const fs::path &path) {
+  const std::string text = read_text_file(path);
+  Piece piece(path.string());
+  for_each_element(text, path.string(), [&](const XmlElement &e) { piece.visit(e); });
+  return piece.finish();
+}
+
+void append(FieldFile &all, const FieldFile &piece, const std::string &name) {
+  if (all.arrays.size() != piece.arrays.size() || all.grid.cell != piece.grid.cell)
+    throw CaseError(name + ": its pieces do not hold the same arrays");
+  const auto first = static_cast<std::uint32_t>(all.grid.points.size());
+  all.grid.points.insert(all.grid.points.end(), piece.grid.points.begin(), piece.grid.points.end());
+  for (const std::uint32_t node : piece.grid.connectivity)
+    all.grid.connectivity.push_back(first + node);
+  for (std::size_t i = 0; i < all.arrays.size(); ++i)
+    all.arrays[i].values.insert(all.arrays[i].values.end(), piece.arrays[i].values.begin(),
+                                piece.arrays[i].values.end());
+}
+
+double extent(const std::vector<output::Vector> &points) {
+  double size = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [low, high] = std::minmax_element(
+        points.begin(), points.end(), [axis](auto &a, auto &b) { return a[axis] < b[axis]; });
+    size = std::max(size, (*high)[axis] - (*low)[axis]);
+  }
+  return size;
+}
+
+bool same_place(const output::Vector &a, const output::Vector &b, double tolerance) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (std::abs(a[axis] - b[axis]) > tolerance)
+      return false;
+  return true;
+}
+
+/// Points by place, each once, with the values of the first piece that has it.
+void merge_points(FieldFile &file) {
+  const std::vector<std::size_t> order = output::sorted_by_place(file.grid.points);
+  const double tolerance = 1e-9 * extent(file.grid.points);  // that of sorted_by_place
+  std::vector<std::size_t> kept;
+  std::vector<std::uint32_t> number(order.size());
+  for (const std::size_t i : order) {
+    if (kept.empty() || !same_place(file.grid.points[kept.back()], file.grid.points[i], tolerance))
+      kept.push_back(i);
+    number[i] = static_cast<std::uint32_t>(kept.size() - 1);
+  }
+  std::vector<output::Vector> points;
+  points.reserve(kept.size());
+  for (const std::size_t i : kept)
+    points.push_back(file.grid.points[i]);
+  file.grid.points = std::move(points);
+  for (std::uint32_t &node : file.grid.connectivity)
+    node = number[node];
+  for (FieldArray &array : file.arrays) {
+    if (!array.on_points)
+      continue;
+    std::vector<double> values;
+    for (const std::size_t i : kept)
+      values.insert(values.end(), &array.values[i * array.components],
+                    &array.values[i * array.components] + array.components);
+    array.values = std::move(values);
+  }
+}
+
+FieldFile read_pieces(const fs::path &path) {
+  const std::string text = read_text_file(path);
+  std::vector<fs::path> pieces;
+  for_each_element(text, path.string(), [&](const XmlElement &e) {
+    if (e.name == "Piece")
+      pieces.push_back(path.parent_path() / e.attribute("Source"));
+  });
+  if (pieces.empty())
+    throw CaseError(path.string() + ": names no pieces");
+  FieldFile all = read_piece(pieces.front());
+  for (std::size_t i = 1; i < pieces.size(); ++i)
+    append(all, read_piece(pieces[i]), path.string());
+  merge_points(all);
+  return all;
+}
+
+}  // namespace
+
+FieldFile read_field_file(const fs::path &path) {
+  return path.extension() == ".pvtu" ? read_pieces(path) : read_piece(path);
+}
+
+}  // namespace tourmaline::report

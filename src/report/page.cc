@@ -1,0 +1,154 @@
+#include "tourmaline/report/page.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "page_template.h"
+#include "tourmaline/error.h"
+#include "tourmaline/output/atomic_file.h"
+#include "tourmaline/report/colour_map.h"
+#include "tourmaline/report/packing.h"
+#include "tourmaline/report/result.h"
+
+namespace tourmaline::report {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Of one page, on the skin: some 25 MB in a browser. 50 states of 64 x 64 squares have 11 million.
+constexpr std::size_t most_numbers = 12'000'000;
+
+template <typename Number>
+std::vector<float> as_floats(const std::vector<Number> &numbers) {
+  return {numbers.begin(), numbers.end()};
+}
+
+template <std::size_t n>
+Json indices(Packing &packing, const std::vector<std::array<std::uint32_t, n>> &tuples) {
+  std::vector<std::uint32_t> flat;
+  for (const auto &tuple : tuples)
+    flat.insert(flat.end(), tuple.begin(), tuple.end());
+  return packing.integers(flat);
+}
+
+Json grid_json(Packing &packing, const Result &result) {
+  std::vector<float> points;
+  for (const output::Vector &point : result.points)
+    points.insert(points.end(), point.begin(), point.end());
+  return {{"points", packing.floats(points, 1)},
+          {"nodes", packing.integers(result.skin.nodes)},
+          {"cells", packing.integers(result.skin.cells)},
+          {"triangles", indices(packing, result.skin.triangles)},
+          {"triangleCells", packing.integers(result.skin.triangle_cells)},
+          {"edges", indices(packing, result.skin.edges)}};
+}
+
+/// Values at nodes are exact to single precision, so that they can be compared with nodes.csv;
+/// those of cells, which are many more, are rounded.
+Json field_json(Packing &packing, const Field &field, std::size_t states) {
+  Json values = Json::array();
+  for (const std::vector<float> &component : field.values)
+    values.push_back(field.on_points ? packing.floats(component, states)
+                                     : packing.levels(component, states));
+  return {{"name", field.name},
+          {"unit", field.unit},
+          {"on", field.on_points ? "points" : "cells"},
+          {"components", field.components},
+          {"values", values}};
+}
+
+Json table_json(Packing &packing, const Table &table) {
+  Json columns = Json::array();
+  for (const std::vector<double> &column : table.columns)
+    columns.push_back(packing.floats(as_floats(column), 1));
+  return {{"names", table.names}, {"columns", columns}};
+}
+
+Json boundary_json(Packing &packing, const Boundary &boundary) {
+  std::vector<std::uint32_t> nodes, sizes;
+  for (const auto &facet : boundary.facets) {
+    sizes.push_back(static_cast<std::uint32_t>(facet.size()));
+    nodes.insert(nodes.end(), facet.begin(), facet.end());
+  }
+  return {{"name", boundary.name},
+          {"kind", boundary.conditions.kind},
+          {"conditions", boundary.conditions.texts},
+          {"sizes", packing.integers(sizes)},
+          {"nodes", packing.integers(nodes)}};
+}
+
+Json result_json(Packing &packing, const Result &result) {
+  Json json{{"name", result.name},
+            {"title", result.asked ? result.asked->title : ""},
+            {"dimension", result.dimension},
+            {"case", result.resolved},
+            {"summary", Json::parse(result.summary, nullptr, false)},
+            {"remarks", result.remarks},
+            {"times", result.times},
+            {"steps", result.steps},
+            {"fields", Json::array()},
+            {"boundaries", Json::array()}};
+  if (json["summary"].is_discarded())
+    json["summary"] = nullptr;
+  if (!result.points.empty())
+    json["grid"] = grid_json(packing, result);
+  for (const Field &field : result.fields)
+    json["fields"].push_back(field_json(packing, field, result.times.size()));
+  for (const Boundary &boundary : result.boundaries)
+    json["boundaries"].push_back(boundary_json(packing, boundary));
+  if (result.history)
+    json["history"] = table_json(packing, *result.history);
+  if (result.contact)
+    json["contact"] = table_json(packing, *result.contact);
+  if (!result.friction_bound.empty())
+    json["frictionBound"] = packing.floats(as_floats(result.friction_bound), 1);
+  return json;
+}
+
+Json map_json(const ColourMap &map) {
+  std::string hex;
+  for (const Colour &colour : map)
+    for (const std::uint8_t channel : colour)
+      hex += fmt::format("{:02x}", channel);
+  return hex;
+}
+
+/// JSON inside a script element: "</script>" in a title must not end it.
+std::string script_text(const Json &json) {
+  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at))
+    text.replace(at, 1, "\\u003c");
+  return text;
+}
+
+}  // namespace
+
+void write_page(const std::vector<std::filesystem::path> &folders,
+                const std::filesystem::path &file) {
+  if (folders.empty() || folders.size() > 2)
+    throw CaseError(fmt::format("a report shows one folder, or two side by side; {} were given",
+                                folders.size()));
+  Packing packing;
+  Json results = Json::array();
+  for (const std::filesystem::path &folder : folders)
+    results.push_back(result_json(packing, read_result(folder, most_numbers / folders.size())));
+  const Json page{
+      {"results", results},
+      {"colourMaps", {{"even", map_json(viridis())}, {"signed", map_json(blue_red())}}}};
+  constexpr std::string_view end = "</body>";
+  const std::string_view shell = page_template();
+  const std::size_t at = shell.rfind(end);
+  if (at == std::string_view::npos)
+    throw MachineError("the report page inside this program is damaged; build it again");
+  output::AtomicFile out(file);
+  out.append(shell.substr(0, at));
+  out.append("<script type=\"application/json\" id=\"results\">" + script_text(page) +
+             "</script>\n<script type=\"text/plain\" id=\"numbers\">");
+  out.append(packing.text());
+  out.append("</script>\n");
+  out.append(shell.substr(at));
+  out.finish();
+}
+
+}  // namespace tourmaline::report

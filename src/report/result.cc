@@ -1,0 +1,255 @@
+#include "tourmaline/report/result.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "tourmaline/case/reader.h"
+#include "tourmaline/error.h"
+#include "tourmaline/report/field_file.h"
+#include "tourmaline/report/text_file.h"
+#include "tourmaline/report/xml.h"
+
+namespace tourmaline::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+void check_folder(const fs::path &folder) {
+  if (!fs::is_directory(folder))
+    throw CaseError(folder.string() + ": there is no such folder");
+  for (const char *file : {"resolved.toml", "history.csv", "result.pvd"})
+    if (fs::exists(folder / file))
+      return;
+  throw CaseError(folder.string() +
+                  ": is no result folder; it holds neither resolved.toml nor history.csv nor "
+                  "result.pvd. `tourmaline run CASE.toml -o DIR` leaves one");
+}
+
+std::string name_of(const fs::path &folder) {
+  const fs::path plain = fs::absolute(folder).lexically_normal();
+  return (plain.has_filename() ? plain : plain.parent_path()).filename().string();
+}
+
+void read_case(Result &result, const fs::path &folder) {
+  if (!fs::exists(folder / "resolved.toml"))
+    return;
+  result.resolved = read_text_file(folder / "resolved.toml");
+  try {
+    result.asked = casefile::read_file(folder / "resolved.toml");
+    result.dimension = result.asked->dimension;
+  } catch (const CaseError &error) {
+    // The numbers can be shown without: a case of another version, or a mesh that has moved.
+    result.remarks.push_back(std::string("The conditions are not shown: ") + error.what());
+  }
+}
+
+void read_tables(Result &result, const fs::path &folder) {
+  if (fs::exists(folder / "history.csv"))
+    result.history = read_table(folder / "history.csv");
+  if (fs::exists(folder / "contact.csv"))
+    result.contact = read_table(folder / "contact.csv");
+  if (fs::exists(folder / "summary.json"))
+    result.summary = read_text_file(folder / "summary.json");
+  else
+    result.remarks.push_back("The run did not finish, or has not yet: there is no summary.json.");
+}
+
+void evaluate_friction_bound(Result &result) {
+  if (!result.asked || !result.asked->contact || !result.contact ||
+      result.asked->contact->friction.law == "none")
+    return;
+  const std::vector<double> *time = result.contact->find("time"), *x = result.contact->find("x"),
+                            *y = result.contact->find("y"), *z = result.contact->find("z");
+  if (!time || !x || !y)
+    return;
+  for (std::size_t i = 0; i < result.contact->n_rows(); ++i)
+    result.friction_bound.push_back(result.asked->contact->friction.bound.value(
+        {(*x)[i], (*y)[i], z ? (*z)[i] : 0}, (*time)[i]));
+}
+
+struct State {
+  double time;
+  fs::path file;
+};
+
+std::vector<State> series_of(const fs::path &folder) {
+  std::vector<State> series;
+  const fs::path path = folder / "result.pvd";
+  if (!fs::exists(path))
+    return series;
+  const std::string text = read_text_file(path);
+  for_each_element(text, path.string(), [&](const XmlElement &e) {
+    if (e.name == "DataSet")
+      series.push_back({std::stod(e.attribute("timestep")), folder / e.attribute("file")});
+  });
+  return series;
+}
+
+/// result_0012.vtu: 12
+int step_of(const fs::path &file) {
+  const std::string stem = file.stem().string();
+  const std::size_t digits = stem.find_last_not_of("0123456789") + 1;
+  return digits < stem.size() ? std::stoi(stem.substr(digits)) : 0;
+}
+
+std::size_t numbers_of(const FieldFile &file, const Skin &skin) {
+  std::size_t numbers = 0;
+  for (const FieldArray &array : file.arrays)
+    numbers += array.components * (array.on_points ? skin.nodes.size() : skin.cells.size());
+  return numbers;
+}
+
+std::vector<State> thinned(const std::vector<State> &series, std::size_t most) {
+  if (series.size() <= most || series.empty())
+    return series;
+  std::vector<State> kept;
+  for (std::size_t i = 1; i < most; ++i)
+    kept.push_back(series[(i - 1) * (series.size() - 1) / (most - 1)]);
+  kept.push_back(series.back());
+  return kept;
+}
+
+std::vector<std::string> component_names(std::size_t n) {
+  if (n == 1)
+    return {""};
+  if (n == 3)
+    return {"x", "y", "z"};
+  if (n == 6)
+    return {"xx", "yy", "zz", "xy", "yz", "xz"};
+  std::vector<std::string> names;
+  for (std::size_t i = 1; i <= n; ++i)
+    names.push_back(std::to_string(i));
+  return names;
+}
+
+std::string unit_of(const std::string &field) {
+  static const std::map<std::string, std::string> units{{"displacement", "m"},
+                                                        {"potential", "V"},
+                                                        {"temperature", "K"},
+                                                        {"stress", "Pa"},
+                                                        {"von_mises", "Pa"},
+                                                        {"electric_field", "V/m"},
+                                                        {"electric_displacement", "C/m²"},
+                                                        {"heat_flux", "W/m²"}};
+  const auto found = units.find(field);
+  return found == units.end() ? "" : found->second;
+}
+
+void begin_fields(Result &result, const FieldFile &file) {
+  result.dimension = file.grid.dimension;
+  result.skin = skin_of(file.grid);
+  for (const std::uint32_t node : result.skin.nodes)
+    result.points.push_back(file.grid.points[node]);
+  for (const FieldArray &array : file.arrays)
+    result.fields.push_back({array.name, unit_of(array.name), array.on_points,
+                             component_names(array.components),
+                             std::vector<std::vector<float>>(array.components)});
+}
+
+void add_state(Result &result, const FieldFile &file, const fs::path &path) {
+  if (file.arrays.size() != result.fields.size())
+    throw CaseError(path.string() + ": does not hold the arrays of the other field files");
+  for (std::size_t i = 0; i < file.arrays.size(); ++i) {
+    const FieldArray &array = file.arrays[i];
+    const auto &places = array.on_points ? result.skin.nodes : result.skin.cells;
+    for (std::size_t c = 0; c < array.components; ++c)
+      for (const std::uint32_t place : places)
+        result.fields[i].values[c].push_back(
+            static_cast<float>(array.values.at(place * array.components + c)));
+  }
+}
+
+/// A plane body has no out-of-plane components, but the files have room for them.
+void drop_empty_components(Field &field) {
+  if (field.components.size() == 1)
+    return;
+  for (std::size_t c = field.components.size(); c-- > 0;) {
+    const bool in_plane = field.components[c].find('z') == std::string::npos;
+    const auto &values = field.values[c];
+    if (in_plane || std::any_of(values.begin(), values.end(), [](float v) { return v != 0; }))
+      continue;
+    field.components.erase(field.components.begin() + static_cast<std::ptrdiff_t>(c));
+    field.values.erase(field.values.begin() + static_cast<std::ptrdiff_t>(c));
+  }
+}
+
+void say_why_no_fields(Result &result) {
+  const bool off = result.asked && !result.asked->output.fields;
+  result.remarks.push_back(off ? "There are no fields: the case says output.fields = false."
+                               : "There are no fields: the folder holds no result.pvd.");
+}
+
+void read_fields(Result &result, const fs::path &folder, std::size_t most_numbers) {
+  const std::vector<State> series = series_of(folder);
+  if (series.empty())
+    return say_why_no_fields(result);
+  const FieldFile last = read_field_file(series.back().file);
+  begin_fields(result, last);
+  const std::size_t most = std::max<std::size_t>(1, most_numbers / numbers_of(last, result.skin));
+  const std::vector<State> kept = thinned(series, most);
+  if (kept.size() < series.size())
+    result.remarks.push_back(fmt::format("Of {} field files {} are shown, to keep the page small.",
+                                         series.size(), kept.size()));
+  for (const State &state : kept) {
+    result.times.push_back(state.time);
+    result.steps.push_back(step_of(state.file));
+    add_state(result, &state == &kept.back() ? last : read_field_file(state.file), state.file);
+  }
+  if (result.dimension == 2)
+    for (Field &field : result.fields)
+      drop_empty_components(field);
+}
+
+void read_boundaries(Result &result, const fs::path &folder) {
+  const fs::path path = folder / "boundaries.json";
+  if (!fs::exists(path) || result.points.empty())
+    return;
+  const auto json = nlohmann::json::parse(read_text_file(path), nullptr, false);
+  if (json.is_discarded() || !json.contains("boundaries"))
+    throw CaseError(path.string() + ": is not what a run writes there");
+  std::map<std::uint32_t, std::uint32_t> place;
+  for (std::size_t i = 0; i < result.skin.nodes.size(); ++i)
+    place[result.skin.nodes[i]] = static_cast<std::uint32_t>(i);
+  for (const auto &entry : json["boundaries"]) {
+    Boundary boundary;
+    boundary.name = entry.value("name", "");
+    if (result.asked)
+      boundary.conditions = conditions_on(*result.asked, boundary.name);
+    for (const auto &nodes : entry["facets"]) {
+      std::vector<std::uint32_t> facet;
+      for (const auto &node : nodes)
+        if (const auto found = place.find(node.get<std::uint32_t>()); found != place.end())
+          facet.push_back(found->second);
+      if (facet.size() == nodes.size())
+        boundary.facets.push_back(std::move(facet));
+    }
+    result.boundaries.push_back(std::move(boundary));
+  }
+}
+
+}  // namespace
+
+const Field *Result::field(const std::string &wanted) const {
+  for (const Field &f : fields)
+    if (f.name == wanted)
+      return &f;
+  return nullptr;
+}
+
+Result read_result(const fs::path &folder, std::size_t most_numbers) {
+  check_folder(folder);
+  Result result;
+  result.name = name_of(folder);
+  read_case(result, folder);
+  read_tables(result, folder);
+  evaluate_friction_bound(result);
+  read_fields(result, folder, most_numbers);
+  read_boundaries(result, folder);
+  return result;
+}
+
+}  // namespace tourmaline::report

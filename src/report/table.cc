@@ -1,0 +1,68 @@
+#include "tourmaline/report/table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <string_view>
+
+#include "tourmaline/error.h"
+#include "tourmaline/output/records.h"
+#include "tourmaline/report/text_file.h"
+
+namespace tourmaline::report {
+namespace {
+
+std::vector<std::string_view> split(std::string_view line) {
+  std::vector<std::string_view> cells;
+  while (true) {
+    const std::size_t comma = line.find(',');
+    cells.push_back(line.substr(0, comma));
+    if (comma == std::string_view::npos)
+      return cells;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+/// Of a word or a number; NaN for "nan" and for what is neither.
+double value_of(std::string_view cell) {
+  using output::ContactStatus;
+  for (const auto status : {ContactStatus::open, ContactStatus::stick, ContactStatus::slip})
+    if (cell == output::name_of(status))
+      return static_cast<double>(status);
+  double value = std::numeric_limits<double>::quiet_NaN();
+  std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  return value;
+}
+
+}  // namespace
+
+const std::vector<double> *Table::find(const std::string &name) const {
+  const auto found = std::find(names.begin(), names.end(), name);
+  return found == names.end() ? nullptr : &columns[found - names.begin()];
+}
+
+Table read_table(const std::filesystem::path &path) {
+  const std::string text = read_text_file(path);
+  Table table;
+  std::size_t number = 0;
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    const std::vector<std::string_view> cells = split(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    if (++number == 1) {
+      table.names.assign(cells.begin(), cells.end());
+      table.columns.resize(cells.size());
+      continue;
+    }
+    if (cells.size() != table.names.size())
+      throw CaseError(fmt::format("{}:{}: {} columns where the header has {}", path.string(),
+                                  number, cells.size(), table.names.size()));
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      table.columns[i].push_back(value_of(cells[i]));
+  }
+  return table;
+}
+
+}  // namespace tourmaline::report

@@ -1,0 +1,109 @@
+#include "tourmaline/report/page.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "../output/temporary_folder.h"
+#include "result_folder.h"
+#include "tourmaline/error.h"
+
+namespace tourmaline::report {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using testing::ThrowsMessage;
+
+/// The results that a page holds.
+nlohmann::json results_in(const std::string &page) {
+  const std::string begin = "id=\"results\">";
+  const std::size_t at = page.find(begin) + begin.size();
+  return nlohmann::json::parse(page.substr(at, page.find("</script>", at) - at))["results"];
+}
+
+const std::vector<std::string> quick{"time.steps=3"};
+
+TEST(Page, ARunLeavesItsReportUnlessToldNotTo) {
+  EXPECT_TRUE(std::filesystem::exists(ResultFolder(quick).path() / "report.html"));
+  EXPECT_FALSE(std::filesystem::exists(
+      ResultFolder({"time.steps=3", "output.report=false"}).path() / "report.html"));
+}
+
+TEST(Page, ItIsTheSameWhenMadeAgainFromTheFolder) {
+  const ResultFolder run(quick);
+  const std::string first = run.content("report.html");
+  write_page({run.path()}, run.path() / "report.html");
+  EXPECT_TRUE(first == run.content("report.html"));
+}
+
+TEST(Page, ItAsksForNothingFromOutside) {
+  const std::string page = ResultFolder(quick).content("report.html");
+  for (const char *reference : {" src=\"", "<link rel=\"stylesheet\"", "@import", "url(http"})
+    EXPECT_EQ(page.find(reference), std::string::npos) << reference;
+}
+
+TEST(Page, EveryBoundaryStandsThereWithItsConditionsAndFacets) {
+  const auto results = results_in(ResultFolder(quick).content("report.html"));
+  std::map<std::string, nlohmann::json> boundaries;
+  for (const auto &boundary : results[0]["boundaries"])
+    boundaries[boundary["name"]] = boundary;
+  ASSERT_EQ(boundaries.size(), 4U);
+  EXPECT_EQ(boundaries["left"]["kind"], "contact");
+  EXPECT_EQ(boundaries["left"]["sizes"]["columns"], 3);
+  EXPECT_EQ(boundaries["top"]["sizes"]["columns"], 4);
+  EXPECT_EQ(boundaries["right"]["kind"], "displacement");
+  EXPECT_EQ(boundaries["right"]["conditions"][1], "φ = 0 V");
+  EXPECT_EQ(boundaries["top"]["kind"], "traction");
+  EXPECT_EQ(boundaries["bottom"]["kind"], "free");
+}
+
+TEST(Page, TheFrictionBoundIsEvaluatedWhereAndWhenItActs) {
+  ResultFolder run({"time.steps=3", "contact.friction.bound=\"10 + 100*y + t\""});
+  const auto results = results_in(run.content("report.html"));
+  EXPECT_EQ(results[0]["frictionBound"]["columns"], 3 * 4);
+}
+
+TEST(Page, ATitleCannotBreakThePage) {
+  ResultFolder run({"time.steps=1", "title=\"</script><b>\""});
+  const std::string page = run.content("report.html");
+  EXPECT_THAT(page, Not(HasSubstr("</script><b>")));
+  EXPECT_EQ(results_in(page)[0]["title"], "</script><b>");
+}
+
+TEST(Page, WithoutFieldFilesItSaysWhy) {
+  ResultFolder run({"time.steps=3", "output.fields=false"});
+  const auto result = results_in(run.content("report.html"))[0];
+  EXPECT_THAT(result["remarks"][0].get<std::string>(), HasSubstr("output.fields = false"));
+  EXPECT_EQ(result["history"]["columns"][0]["columns"], 3);
+}
+
+TEST(Page, TwoFoldersStandSideBySideAndThreeDoNot) {
+  const ResultFolder first(quick), second({"time.steps=2"});
+  const std::filesystem::path both = first.path() / "both.html";
+  write_page({first.path(), second.path()}, both);
+  EXPECT_EQ(results_in(first.content("both.html")).size(), 2U);
+  EXPECT_THROW(write_page({first.path(), first.path(), first.path()}, both), CaseError);
+}
+
+TEST(Page, AFolderThatIsNoneOfOursIsRefusedAndNothingWritten) {
+  const output::TemporaryFolder folder;
+  EXPECT_THAT([&] { write_page({folder.path()}, folder / "report.html"); },
+              ThrowsMessage<CaseError>(HasSubstr("is no result folder")));
+  EXPECT_THAT([&] { write_page({folder / "nowhere"}, folder / "report.html"); },
+              ThrowsMessage<CaseError>(HasSubstr("there is no such folder")));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(Page, OfAFailedRunItShowsTheStepsBeforeTheFailure) {
+  ResultFolder run(quick);
+  std::filesystem::remove(run.path() / "summary.json");
+  write_page({run.path()}, run.path() / "report.html");
+  const auto result = results_in(run.content("report.html"))[0];
+  EXPECT_TRUE(result["summary"].is_null());
+  EXPECT_THAT(result["remarks"][0].get<std::string>(), HasSubstr("did not finish"));
+}
+
+}  // namespace
+}  // namespace tourmaline::report

@@ -1,0 +1,260 @@
+// A body as triangles for WebGL, deformed and coloured, and the way back from a place on the screen to
+// the nodes.
+import * as THREE from 'three';
+import { Field, Grid, Result } from './results';
+import { mapBytes, Range } from './colours';
+
+/** What is to be seen of a body. */
+export interface Look {
+  state: number;
+  scale: number;
+  mesh: boolean;
+  field?: Field;
+  component: string;
+  range: Range;
+}
+
+const vertexShader = `
+  attribute float level;
+  varying float vLevel;
+  varying vec3 vPlace;
+  void main() {
+    vLevel = level;
+    vec4 place = modelViewMatrix * vec4(position, 1.0);
+    vPlace = place.xyz;
+    gl_Position = projectionMatrix * place;
+  }`;
+const fragmentShader = `
+  uniform sampler2D colours;
+  uniform float shade;
+  uniform vec3 plain;
+  uniform float coloured;
+  varying float vLevel;
+  varying vec3 vPlace;
+  void main() {
+    vec3 normal = normalize(cross(dFdx(vPlace), dFdy(vPlace)));
+    float light = mix(1.0, 0.62 + 0.38 * abs(normal.z), shade);
+    vec3 colour = texture2D(colours, vec2(clamp(vLevel, 0.0, 1.0) * 255.0 / 256.0 + 0.5 / 256.0, 0.5)).rgb;
+    gl_FragColor = vec4(mix(plain, colour, coloured) * light, 1.0);
+  }`;
+
+function colourTexture(signed: boolean): THREE.DataTexture {
+  const texture = new THREE.DataTexture(mapBytes(signed), 256, 1);
+  texture.magFilter = texture.minFilter = THREE.LinearFilter;
+  texture.needsUpdate = true;
+  return texture;
+}
+
+export class Body {
+  readonly scene = new THREE.Scene();
+  readonly grid: Grid;
+  /** middle and largest extent of the undeformed body [m]; the scene is measured in that extent */
+  readonly centre: [number, number, number];
+  readonly size: number;
+  /** places of the nodes in the scene, deformed */
+  readonly places: Float32Array;
+  private readonly material: THREE.ShaderMaterial;
+  private readonly maps = { even: colourTexture(false), signed: colourTexture(true) };
+  private readonly triangles = new THREE.BufferGeometry();
+  private readonly lines = new THREE.BufferGeometry();
+  private readonly lineMaterial = new THREE.LineBasicMaterial({ transparent: true, opacity: 0.35 });
+  private readonly lineObject: THREE.LineSegments;
+  readonly settingObject = new THREE.Group();
+  private readonly triangleObject: THREE.Mesh;
+  private scale?: number;
+  private placed = '';
+  private coloured = '';
+
+  constructor(readonly result: Result) {
+    this.grid = result.grid!;
+    [this.centre, this.size] = extentOf(this.grid.points);
+    this.places = new Float32Array(this.grid.points.length);
+    this.material = new THREE.ShaderMaterial({
+      vertexShader, fragmentShader, side: THREE.DoubleSide,
+      polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
+      uniforms: {
+        colours: { value: this.maps.even }, shade: { value: result.dimension === 3 ? 1 : 0 },
+        plain: { value: new THREE.Vector3() }, coloured: { value: 1 },
+      },
+    });
+    const n = this.grid.triangles.length;
+    this.triangles.setAttribute('position', new THREE.BufferAttribute(new Float32Array(3 * n), 3));
+    this.triangles.setAttribute('level', new THREE.BufferAttribute(new Float32Array(n), 1));
+    this.lines.setAttribute('position',
+      new THREE.BufferAttribute(new Float32Array(3 * this.grid.edges.length), 3));
+    this.triangleObject = new THREE.Mesh(this.triangles, this.material);
+    this.lineObject = new THREE.LineSegments(this.lines, this.lineMaterial);
+    for (const object of [this.triangleObject, this.lineObject]) object.frustumCulled = false;
+    this.scene.add(this.triangleObject, this.lineObject, this.settingObject);
+  }
+
+  /** The greatest displacement over all states [m]. */
+  get largestDisplacement(): number {
+    return this.result.field('displacement')?.values('size').greatest ?? 0;
+  }
+
+  /**
+   * Magnification, one digit times 10^n, that shows the greatest displacement as at most a tenth of the body and
+   * strains as less than one, so that cells do not turn inside out; but for the hundredth that is strained most,
+   * at singular corners. The counterpart of suitable_scale in src/report/scale.cc.
+   */
+  get suitableScale(): number {
+    if (this.scale === undefined) {
+      const strain = this.result.field('strain');
+      const largest = Math.max(0, ...(strain?.components ?? []).map((c) => {
+        const { low, high } = strain!.values(c).usual();
+        return Math.max(-low, high);
+      }));
+      const wanted = Math.min((0.1 * this.size) / this.largestDisplacement, 0.9 / largest);
+      const power = 10 ** Math.floor(Math.log10(wanted));
+      this.scale = Number.isFinite(wanted) ? [8, 6, 5, 4, 3, 2, 1].find((m) => m * power <= wanted * 1.000001)! * power : 1;
+    }
+    return this.scale;
+  }
+
+  set(look: Look, ink: string, paper: string) {
+    this.place(look.state, look.scale);
+    this.colour(look);
+    this.lineObject.visible = look.mesh;
+    this.lineMaterial.color.set(look.field ? '#000000' : ink);
+    this.lineMaterial.opacity = look.field ? 0.17 : 0.5;
+    const plain = new THREE.Color(paper);
+    (this.material.uniforms.plain.value as THREE.Vector3).set(plain.r, plain.g, plain.b);
+    this.material.uniforms.coloured.value = look.field ? 1 : 0;
+    this.material.uniforms.colours.value = look.range.signed ? this.maps.signed : this.maps.even;
+  }
+
+  place(state: number, scale: number) {
+    const key = `${state} ${scale}`;
+    if (key === this.placed) return;
+    this.placed = key;
+    const { points } = this.grid;
+    const displacement = this.result.field('displacement');
+    const axes = ['x', 'y', 'z'].map((c) => (displacement?.has(c) ? displacement.values(c) : undefined));
+    const n = points.length / 3;
+    for (let i = 0; i < n; ++i)
+      for (let c = 0; c < 3; ++c) {
+        const u = axes[c] ? axes[c]!.data[state * n + i] : 0;
+        this.places[3 * i + c] = (points[3 * i + c] - this.centre[c] + scale * u) / this.size;
+      }
+    this.spread(this.triangles, this.grid.triangles);
+    this.spread(this.lines, this.grid.edges);
+  }
+
+  // From nodes to the corners of triangles or lines.
+  private spread(geometry: THREE.BufferGeometry, corners: Uint32Array) {
+    const attribute = geometry.getAttribute('position') as THREE.BufferAttribute;
+    const to = attribute.array as Float32Array;
+    for (let i = 0; i < corners.length; ++i) {
+      const node = 3 * corners[i];
+      to[3 * i] = this.places[node];
+      to[3 * i + 1] = this.places[node + 1];
+      to[3 * i + 2] = this.places[node + 2];
+    }
+    attribute.needsUpdate = true;
+  }
+
+  private colour(look: Look) {
+    if (!look.field) return;
+    const key = `${look.state} ${look.field.name} ${look.component} ${look.range.low} ${look.range.high}`;
+    if (key === this.coloured) return;
+    this.coloured = key;
+    const { data, places } = look.field.values(look.component);
+    const { triangles, triangleCells } = this.grid;
+    const attribute = this.triangles.getAttribute('level') as THREE.BufferAttribute;
+    const to = attribute.array as Float32Array;
+    const { low, high } = look.range;
+    for (let i = 0; i < triangles.length; ++i) {
+      const place = look.field.onPoints ? triangles[i] : triangleCells[(i / 3) | 0];
+      to[i] = (data[look.state * places + place] - low) / (high - low);
+    }
+    attribute.needsUpdate = true;
+  }
+
+  /** Facets of the boundaries as coloured surfaces, for three dimensions. */
+  paintBoundaries(colours: Map<string, string>) {
+    this.settingObject.clear();
+    for (const boundary of this.result.boundaries) {
+      const positions: number[] = [];
+      for (const facet of boundary.facets)
+        for (let i = 2; i < facet.length; ++i)
+          for (const node of [facet[0], facet[i - 1], facet[i]])
+            for (let c = 0; c < 3; ++c)
+              positions.push((this.grid.points[3 * node + c] - this.centre[c]) / this.size);
+      const geometry = new THREE.BufferGeometry();
+      geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(positions), 3));
+      const colour = new THREE.Color(colours.get(boundary.name));
+      const material = this.material.clone();
+      material.uniforms.plain = { value: new THREE.Vector3(colour.r, colour.g, colour.b) };
+      material.uniforms.coloured = { value: 0 };
+      material.uniforms.shade = { value: 1 };
+      geometry.setAttribute('level', new THREE.BufferAttribute(new Float32Array(positions.length / 3), 1));
+      this.settingObject.add(new THREE.Mesh(geometry, material));
+    }
+  }
+
+  /** Shows the coloured facets instead of a field. */
+  showSetting(on: boolean) {
+    this.settingObject.visible = on;
+    this.triangleObject.visible = !on;
+  }
+
+  /** A triangle under a place in normalised device coordinates, the one in front. */
+  pick(x: number, y: number, camera: THREE.Camera): Hit | undefined {
+    const projected = this.project(camera);
+    const { triangles } = this.grid;
+    let best: Hit | undefined;
+    let depth = Infinity;
+    for (let t = 0; t < triangles.length / 3; ++t) {
+      const [a, b, c] = [0, 1, 2].map((k) => 3 * triangles[3 * t + k]);
+      const ux = projected[b] - projected[a], uy = projected[b + 1] - projected[a + 1];
+      const vx = projected[c] - projected[a], vy = projected[c + 1] - projected[a + 1];
+      const area = ux * vy - uy * vx;
+      if (area === 0) continue;
+      const px = x - projected[a], py = y - projected[a + 1];
+      const second = (px * vy - py * vx) / area, third = (ux * py - uy * px) / area;
+      if (second < 0 || third < 0 || second + third > 1) continue;
+      const weights: [number, number, number] = [1 - second - third, second, third];
+      const z = weights[0] * projected[a + 2] + weights[1] * projected[b + 2] + weights[2] * projected[c + 2];
+      if (z >= depth) continue;
+      depth = z;
+      best = { triangle: t, weights };
+    }
+    return best;
+  }
+
+  /** Normalised device coordinates of all nodes. */
+  project(camera: THREE.Camera): Float32Array {
+    const m = new THREE.Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse).elements;
+    const result = new Float32Array(this.places.length);
+    for (let i = 0; i < result.length; i += 3) {
+      const x = this.places[i], y = this.places[i + 1], z = this.places[i + 2];
+      for (let r = 0; r < 3; ++r) result[i + r] = m[r] * x + m[4 + r] * y + m[8 + r] * z + m[12 + r];
+    }
+    return result;
+  }
+}
+
+/** A place on the skin: a triangle and the weights of its corners. */
+export interface Hit { triangle: number; weights: [number, number, number] }
+
+/** The value of a field's component at a place. */
+export function valueAt(grid: Grid, field: Field, component: string, state: number, hit: Hit): number {
+  const { data, places } = field.values(component);
+  const first = state * places;
+  if (!field.onPoints) return data[first + grid.triangleCells[hit.triangle]];
+  let sum = 0;
+  for (let k = 0; k < 3; ++k)
+    if (hit.weights[k] !== 0) sum += hit.weights[k] * data[first + grid.triangles[3 * hit.triangle + k]];
+  return sum;
+}
+
+function extentOf(points: Float32Array): [[number, number, number], number] {
+  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+  for (let i = 0; i < points.length; ++i) {
+    low[i % 3] = Math.min(low[i % 3], points[i]);
+    high[i % 3] = Math.max(high[i % 3], points[i]);
+  }
+  const middle = low.map((v, c) => (v + high[c]) / 2) as [number, number, number];
+  return [middle, Math.max(...low.map((v, c) => high[c] - v))];
+}

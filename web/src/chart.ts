@@ -1,0 +1,133 @@
+// Curves by uPlot, with powers of ten in the axis titles and a mark at the moment.
+import uPlot from 'uplot';
+import { element } from './dom';
+import { shown, thousands, unitWith } from './numbers';
+import { colour, onTheme } from './theme';
+
+export interface Curve {
+  label: string;
+  values: ArrayLike<number | null>;
+  colour: string;
+  dashed?: boolean;
+  points?: boolean;
+  bars?: boolean;
+}
+
+export interface ChartOptions {
+  title: string;
+  xLabel: string;
+  /** of the values as given; the chart may show a power of ten of it */
+  unit: string;
+  /** cursors with the same name move together */
+  sync: string;
+  /** values the y axis always holds, over all moments */
+  least?: number;
+  greatest?: number;
+  /** where to draw the line of the moment */
+  mark?: () => number | undefined;
+  height?: number;
+}
+
+const charts: Chart[] = [];
+
+export class Chart {
+  readonly box: HTMLElement;
+  private readonly place = element('div', { class: 'plot' });
+  private plot?: uPlot;
+  private power = 0;
+
+  constructor(private readonly options: ChartOptions, private x: number[], private curves: Curve[]) {
+    this.box = element('figure', { class: 'chart' }, element('figcaption', {}, options.title), this.place);
+    charts.push(this);
+    new ResizeObserver(() => this.resize()).observe(this.place);
+  }
+
+  /** Other values for the same curves. */
+  update(curves: Curve[]) {
+    this.curves = curves;
+    this.plot?.setData(this.data(), false);
+    this.plot?.redraw(false);
+  }
+
+  redraw() { this.plot?.redraw(false); }
+
+  build() {
+    this.plot?.destroy();
+    const width = this.place.clientWidth;
+    if (width === 0) return;
+    this.power = thousands(this.greatestSize());
+    this.plot = new uPlot(this.plotOptions(width), this.data(), this.place);
+  }
+
+  private resize() {
+    const width = this.place.clientWidth;
+    if (!this.plot) this.build();
+    else if (width > 0 && Math.abs(width - this.plot.width) > 1) this.plot.setSize({ width, height: this.plot.height });
+  }
+
+  private data(): uPlot.AlignedData {
+    const factor = 10 ** -this.power;
+    return [this.x, ...this.curves.map((c) =>
+      Array.from(c.values, (v) => (v === null || !Number.isFinite(v) ? null : v * factor)))] as uPlot.AlignedData;
+  }
+
+  private limits(): [number, number] {
+    let least = this.options.least ?? Infinity, greatest = this.options.greatest ?? -Infinity;
+    for (const curve of this.curves)
+      for (const v of Array.from(curve.values))
+        if (v !== null && Number.isFinite(v)) { least = Math.min(least, v); greatest = Math.max(greatest, v); }
+    return least <= greatest ? [least, greatest] : [0, 1];
+  }
+
+  private greatestSize(): number { return Math.max(...this.limits().map(Math.abs)); }
+
+  private plotOptions(width: number): uPlot.Options {
+    const { xLabel, unit, sync } = this.options;
+    const axis = { stroke: colour('--muted'), grid: { stroke: colour('--grid'), width: 1 },
+      ticks: { stroke: colour('--grid'), width: 1 }, font: '12px system-ui, sans-serif', labelFont: '12px system-ui, sans-serif' };
+    const numbers = (_: uPlot, splits: number[]) => splits.map((v) => shown(v, 4));
+    return {
+      width, height: this.options.height ?? 230,
+      cursor: { sync: { key: sync }, drag: { x: true, y: false } },
+      scales: { x: { time: false }, y: { range: () => padded(...this.limits(), 10 ** -this.power) } },
+      axes: [
+        { ...axis, label: xLabel, labelSize: 18, size: 34, values: numbers },
+        { ...axis, label: unitWith(this.power, unit), labelSize: 18, size: 56, values: numbers },
+      ],
+      series: [
+        { label: xLabel, value: (_, v) => (v === null ? '–' : shown(v, 4)) },
+        ...this.curves.map((c): uPlot.Series => ({
+          label: c.label, stroke: c.colour, width: 1.8, dash: c.dashed ? [6, 4] : undefined,
+          points: { show: c.points ?? false, size: 5, fill: c.colour },
+          fill: c.bars ? c.colour + '55' : undefined,
+          paths: c.bars ? uPlot.paths.bars!({ size: [0.7, 40] }) : undefined,
+          value: (_, v) => (v === null ? '–' : shown(v, 4)),
+        })),
+      ],
+      hooks: { draw: [(plot) => this.drawMark(plot)] },
+    };
+  }
+
+  private drawMark(plot: uPlot) {
+    const at = this.options.mark?.();
+    if (at === undefined) return;
+    const x = plot.valToPos(at, 'x', true);
+    plot.ctx.save();
+    plot.ctx.strokeStyle = colour('--accent');
+    plot.ctx.lineWidth = 1.5 * devicePixelRatio;
+    plot.ctx.beginPath();
+    plot.ctx.moveTo(x, plot.bbox.top);
+    plot.ctx.lineTo(x, plot.bbox.top + plot.bbox.height);
+    plot.ctx.stroke();
+    plot.ctx.restore();
+  }
+}
+
+function padded(least: number, greatest: number, factor: number): [number, number] {
+  const room = (greatest - least || Math.abs(greatest) || 1) * 0.06;
+  return [(least === 0 ? 0 : least - room) * factor, (greatest === 0 ? 0 : greatest + room) * factor];
+}
+
+onTheme(() => { for (const chart of charts) chart.build(); });
+
+export function redrawMarks() { for (const chart of charts) chart.redraw(); }

@@ -1,0 +1,24 @@
+// A colour bar with unit and the values at its ends and in the middle.
+import { mapGradient, Range } from './colours';
+import { element } from './dom';
+import { shown, thousands, unitWith } from './numbers';
+
+export class ColourBar {
+  readonly box: HTMLElement;
+  private readonly strip = element('div', { class: 'strip' });
+  private readonly ticks = element('div', { class: 'ticks' });
+
+  /** `small`: only the ends, the unit between them. */
+  constructor(private readonly small = false) { this.box = element('div', { class: 'colourbar' }, this.strip, this.ticks); }
+
+  /** `clipped`: there are greater values than the range's. */
+  show(range: Range, unitOfField: string, clipped = false) {
+    const power = thousands(Math.max(Math.abs(range.low), Math.abs(range.high)));
+    this.strip.style.background = mapGradient(range.signed, 'to right');
+    const tick = (at: number) => element('span', {}, (clipped && at === 1 ? '≥ ' : '') +
+      shown((range.low + at * (range.high - range.low)) / 10 ** power, 3));
+    const unit = element('span', { class: 'unit' }, unitWith(power, unitOfField));
+    this.ticks.replaceChildren(...(this.small ? [tick(0), unit, tick(1)]
+      : [...[0, 0.25, 0.5, 0.75, 1].map(tick), unit]));
+  }
+}

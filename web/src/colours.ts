@@ -1,0 +1,40 @@
+// Colour maps come from the program, so that page and figures agree.
+
+export interface Range { low: number; high: number; signed: boolean }
+
+/** The counterpart of colour_range in src/report/colour_map.cc. */
+export function colourRange(least: number, greatest: number): Range {
+  const size = Math.max(-least, greatest);
+  if (least < 0 && greatest > 0 && Math.min(-least, greatest) > size / 10)
+    return { low: -size, high: size, signed: true };
+  if (least === greatest) {
+    const half = least === 0 ? 1 : Math.abs(least) / 2;
+    return { low: least - half, high: greatest + half, signed: false };
+  }
+  return { low: least, high: greatest, signed: false };
+}
+
+let maps: Record<'even' | 'signed', string>;
+export function useColourMaps(given: Record<'even' | 'signed', string>) { maps = given; }
+
+/** 256 colours as bytes r, g, b, 255. */
+export function mapBytes(signed: boolean): Uint8Array {
+  const hex = maps[signed ? 'signed' : 'even'];
+  const bytes = new Uint8Array(1024).fill(255);
+  for (let i = 0; i < 768; ++i)
+    bytes[4 * Math.floor(i / 3) + (i % 3)] = parseInt(hex.substr(2 * i, 2), 16);
+  return bytes;
+}
+
+export function mapGradient(signed: boolean, direction: string): string {
+  const hex = maps[signed ? 'signed' : 'even'];
+  const stops = Array.from({ length: 33 }, (_, i) => '#' + hex.substr(6 * Math.round((i * 255) / 32), 6));
+  return `linear-gradient(${direction}, ${stops.join(', ')})`;
+}
+
+/** Colours that differ for all eyes (Okabe and Ito), for lines and boundaries. */
+export const palette = {
+  contact: '#d55e00', displacement: '#0072b2', traction: '#009e73', free: '#8a8f98',
+};
+export const furtherColours = ['#b5629b', '#c28400', '#3f9fd6', '#7a6ac8', '#8a8f98'];
+export const lineColours = ['#0f7fc4', '#d9660f', '#12996f', '#b5629b', '#c28400', '#6f63c9'];

@@ -1,0 +1,311 @@
+// The large view: any field, any component, any moment; for two results with linked camera and range.
+import * as THREE from 'three';
+import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import { Body, Hit, Look, valueAt } from './body';
+import { Camera } from './stage';
+import { Field, Result } from './results';
+import { Picture } from './picture';
+import { ColourBar } from './colour_bar';
+import { colourRange, Range } from './colours';
+import { choice, element, tick } from './dom';
+import { fieldTitle, shown, shownWithin, symbols, unitWith } from './numbers';
+import { homeCamera } from './overview';
+import { Timeline } from './timeline';
+
+interface View {
+  result: Result;
+  body: Body;
+  picture: Picture;
+  controls: OrbitControls;
+  bar: ColourBar;
+  note: HTMLElement;
+  readout: HTMLElement;
+}
+
+/** Cells above which the mesh would only darken the picture. */
+const mostCellsWithMesh = 20000;
+
+export class Explorer {
+  readonly box: HTMLElement;
+  private field: string;
+  private component = '';
+  private rangeOver: 'all' | 'usual' | 'step' | 'hand' = 'all';
+  private byHand: [number, number] = [0, 1];
+  private linked = true;
+  private stretch = 1;
+  private mesh: boolean;
+  private readonly views: View[];
+  private readonly camera: Camera;
+  private readonly componentChoice: ReturnType<typeof choice>;
+  private readonly fieldChoice: ReturnType<typeof choice>;
+  private readonly hand: HTMLElement;
+  private waiting = false;
+
+  constructor(bodies: Body[], private readonly timeline: Timeline) {
+    const first = bodies[0].result;
+    this.camera = homeCamera(bodies[0]);
+    this.mesh = first.grid!.cells.length <= mostCellsWithMesh;
+    this.field = first.field('potential')?.name ?? first.fields[0].name;
+    this.views = bodies.map((body) => this.view(body));
+    this.fieldChoice = choice('Field', first.fields.map((f) => [f.name, fieldTitle(f.name)]), this.field,
+      (name) => this.choose(name));
+    this.fieldChoice.select.id = 'field';
+    this.componentChoice = choice('Component', [], '', (c) => { this.component = c; this.refresh(); });
+    this.componentChoice.select.id = 'component';
+    this.hand = this.rangeByHand();
+    this.box = element('div', {}, this.toolbar(),
+      element('div', { class: `views views-${this.views.length}` }, ...this.views.map((v) => this.frame(v))));
+    this.choose(this.field);
+  }
+
+  choose(name: string) {
+    this.field = name;
+    this.fieldChoice.select.value = name;
+    const { components } = this.views[0].result.field(name)!;
+    this.component = components[0];
+    this.componentChoice.box.hidden = components.length === 1;
+    this.componentChoice.select.replaceChildren(...components.map((c) =>
+      element('option', { value: c }, c === 'size' ? `|${symbols[name] ?? name}|` : c)));
+    this.refresh();
+  }
+
+  /** Draws once before the next frame, however often it is asked. */
+  refresh() {
+    if (this.waiting) return;
+    this.waiting = true;
+    requestAnimationFrame(() => { this.waiting = false; this.draw(); });
+  }
+
+  private view(body: Body): View {
+    const picture = new Picture(body, this.camera);
+    const { canvas } = picture;
+    canvas.tabIndex = 0;
+    canvas.setAttribute('role', 'img');
+    canvas.setAttribute('aria-label', `field of ${body.result.title}; arrow keys, plus, minus and 0 move the view`);
+    const controls = new OrbitControls(this.camera.three, canvas);
+    controls.target.copy(this.camera.target);
+    controls.addEventListener('change', () => this.refresh());
+    controls.zoomToCursor = true;
+    controls.enableZoom = false;
+    controls.minZoom = 0.5;
+    controls.maxZoom = 200;
+    if (body.result.dimension === 2) {
+      controls.enableRotate = false;
+      controls.mouseButtons = { LEFT: THREE.MOUSE.PAN, MIDDLE: THREE.MOUSE.DOLLY, RIGHT: THREE.MOUSE.PAN };
+      // One finger scrolls the page and shows values; two move the body.
+      controls.touches = { ONE: null, TWO: THREE.TOUCH.DOLLY_PAN };
+      canvas.style.touchAction = 'pan-y';
+    }
+    // The wheel scrolls the page until the picture has been clicked.
+    canvas.addEventListener('focus', () => (controls.enableZoom = true));
+    canvas.addEventListener('blur', () => (controls.enableZoom = false));
+    canvas.addEventListener('keydown', (event) => this.key(event));
+    const view: View = {
+      result: body.result, body, picture, controls, bar: new ColourBar(),
+      note: element('p', { class: 'note' }), readout: element('div', { class: 'readout' }),
+    };
+    canvas.addEventListener('pointermove', (event) => this.point(view, event));
+    canvas.addEventListener('pointerdown', (event) => this.point(view, event));
+    canvas.addEventListener('pointerleave', () => this.clearReadouts());
+    return view;
+  }
+
+  private frame(view: View): HTMLElement {
+    const zoom = (by: number) => () => this.zoom(by);
+    const buttons = element('div', { class: 'zoom' },
+      element('button', { type: 'button', 'aria-label': 'closer', onclick: zoom(1.4) }, '+'),
+      element('button', { type: 'button', 'aria-label': 'farther', onclick: zoom(1 / 1.4) }, '−'),
+      element('button', { type: 'button', 'aria-label': 'whole body', onclick: () => this.home() }, '⤢'));
+    return element('figure', { class: 'view' },
+      element('div', { class: 'head' }, element('figcaption', {}, this.views.length > 1 && view.result.title), buttons),
+      view.picture.canvas, view.bar.box, view.note, view.readout);
+  }
+
+  private toolbar(): HTMLElement {
+    const stretch = element('input', {
+      type: 'range', id: 'stretch', min: 0, max: 3, step: 0.1, value: 1,
+      oninput: () => { this.stretch = Number(stretch.value); this.refresh(); },
+    });
+    const range = choice('Colour range', [['all', 'all moments'], ['usual', 'without the extreme 1 %'], ['step', 'this moment'],
+      ['hand', 'by hand']], 'all',
+      (over) => {
+        const current = this.range(this.views[0]);
+        this.byHand = [current.low, current.high];
+        this.rangeOver = over as 'all';
+        this.hand.hidden = over !== 'hand';
+        this.hand.querySelectorAll('input').forEach((input, i) => (input.value = String(Number(this.byHand[i].toPrecision(4)))));
+        this.refresh();
+      });
+    range.select.id = 'range';
+    return element('div', { class: 'toolbar' }, this.fieldChoice.box, this.componentChoice.box, range.box, this.hand,
+      element('label', { class: 'control' }, element('span', {}, 'Deformation'), stretch),
+      tick('mesh', this.mesh, (on) => { this.mesh = on; this.refresh(); }),
+      this.views.length > 1 && tick('same colours', true, (on) => { this.linked = on; this.refresh(); }));
+  }
+
+  private rangeByHand(): HTMLElement {
+    const input = (i: 0 | 1, label: string) => {
+      const box = element('input', {
+        type: 'number', step: 'any', 'aria-label': label,
+        onchange: () => { this.byHand[i] = Number(box.value); this.refresh(); },
+      });
+      return box;
+    };
+    return element('span', { class: 'hand', hidden: true }, input(0, 'least'), '…', input(1, 'greatest'));
+  }
+
+  private fieldOf(view: View): Field | undefined { return view.result.field(this.field); }
+
+  private extremes(view: View): [number, number] {
+    const field = this.fieldOf(view);
+    if (!field || !field.has(this.component)) return [Infinity, -Infinity];
+    const values = field.values(this.component);
+    if (this.rangeOver === 'all') return [values.least, values.greatest];
+    if (this.rangeOver === 'usual') return [values.usual().low, values.usual().high];
+    const state = view.result.stateAt(this.timeline.time);
+    let low = Infinity, high = -Infinity;
+    for (const v of values.data.subarray(state * values.places, (state + 1) * values.places)) {
+      low = Math.min(low, v);
+      high = Math.max(high, v);
+    }
+    return [low, high];
+  }
+
+  private range(view: View): Range {
+    if (this.rangeOver === 'hand') {
+      const [low, high] = this.byHand;
+      return { low, high: high > low ? high : low + 1e-30, signed: low < 0 && high === -low };
+    }
+    const own = (this.linked ? this.views : [view]).map((v) => this.extremes(v));
+    return colourRange(Math.min(...own.map((e) => e[0])), Math.max(...own.map((e) => e[1])));
+  }
+
+  private look(view: View): Look {
+    const field = this.fieldOf(view);
+    return {
+      state: view.result.stateAt(this.timeline.time), scale: this.stretch * view.body.suitableScale, mesh: this.mesh,
+      field: field?.has(this.component) ? field : undefined, component: this.component, range: this.range(view),
+    };
+  }
+
+  draw() {
+    for (const view of this.views) {
+      const look = this.look(view);
+      view.picture.show(look);
+      view.bar.show(look.range, this.fieldOf(view)?.unit ?? '');
+      view.note.textContent = this.stretch === 0 ? 'not deformed' : `displacement × ${shown(look.scale, 2)}`;
+    }
+  }
+
+  private home() {
+    for (const view of this.views) view.controls.target.copy(this.camera.target);
+    this.camera.reset();
+    for (const view of this.views) view.controls.update();
+    this.refresh();
+  }
+
+  private zoom(by: number) {
+    this.camera.three.zoom = Math.min(200, Math.max(0.5, this.camera.three.zoom * by));
+    this.refresh();
+  }
+
+  private key(event: KeyboardEvent) {
+    const turns: Record<string, [number, number]> = {
+      ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1],
+    };
+    if (event.key === '+' || event.key === '=') this.zoom(1.2);
+    else if (event.key === '-') this.zoom(1 / 1.2);
+    else if (event.key === '0') this.home();
+    else if (turns[event.key]) this.move(...turns[event.key]);
+    else return;
+    event.preventDefault();
+  }
+
+  // Turns a solid body, shifts a plane one.
+  private move(across: number, up: number) {
+    const camera = this.camera.three;
+    const { target } = this.views[0].controls;
+    if (this.camera.dimension === 3) {
+      const place = new THREE.Spherical().setFromVector3(
+        camera.position.clone().sub(target).applyQuaternion(turned));
+      place.theta -= 0.15 * across;
+      place.phi = Math.min(Math.PI - 0.05, Math.max(0.05, place.phi - 0.15 * up));
+      camera.position.setFromSpherical(place).applyQuaternion(turned.clone().invert()).add(target);
+      camera.lookAt(target);
+    } else {
+      const shift = new THREE.Vector3(-0.08 * across, -0.08 * up, 0).divideScalar(camera.zoom);
+      camera.position.add(shift);
+      for (const view of this.views) view.controls.target.add(shift);
+    }
+    for (const view of this.views) view.controls.update();
+    this.refresh();
+  }
+
+  private clearReadouts() {
+    for (const view of this.views) view.readout.replaceChildren();
+  }
+
+  private point(view: View, event: PointerEvent) {
+    const frame = view.picture.canvas.getBoundingClientRect();
+    const x = ((event.clientX - frame.left) / frame.width) * 2 - 1;
+    const y = 1 - ((event.clientY - frame.top) / frame.height) * 2;
+    this.camera.aim(frame.width, frame.height);
+    view.body.set(this.look(view), '#000', '#fff');
+    const hit = view.body.pick(x, y, this.camera.three);
+    this.clearReadouts();
+    if (!hit) return;
+    const near = snapped(view.body, hit, x, y, frame, this.camera.three);
+    for (const other of this.views)
+      if (other === view || sameGrid(other.body, view.body)) this.tell(other, near.hit, near.node);
+  }
+
+  private tell(view: View, hit: Hit, node: number | undefined) {
+    const { grid } = view.body;
+    const state = view.result.stateAt(this.timeline.time);
+    const place = [0, 1, 2].slice(0, view.result.dimension).map((c) =>
+      hit.weights.reduce((sum, w, k) => sum + (w === 0 ? 0 : w * grid.points[3 * grid.triangles[3 * hit.triangle + k] + c]), 0));
+    const items = [item(place.map((v) => shown(v, 5)).join(', '), 'm', node === undefined ? 'at' : `node ${grid.nodes[node]} at`)];
+    const own = new Set<string>();
+    const add = (field: Field, component: string) => {
+      const values = field.values(component);
+      const value = valueAt(grid, field, component, state, hit);
+      own.add(`${field.name}.${component}`);
+      const symbol = symbols[field.name] ?? field.name;
+      const label = component === 'size' ? `|${symbol}|` : component ? `${symbol}_${component}` : symbol;
+      items.push(item(shownWithin(value, values.error), unitWith(0, field.unit), label,
+        { 'data-field': field.name, 'data-component': component, 'data-value': value }));
+    };
+    const field = this.fieldOf(view);
+    if (field?.has(this.component)) add(field, this.component);
+    for (const name of ['displacement', 'potential', 'temperature'])
+      for (const component of view.result.field(name)?.components ?? [])
+        if (component !== 'size' && !own.has(`${name}.${component}`)) add(view.result.field(name)!, component);
+    view.readout.replaceChildren(...items);
+    if (node !== undefined) view.readout.dataset.node = String(grid.nodes[node]);
+    else delete view.readout.dataset.node;
+  }
+}
+
+// OrbitControls measures angles about y; the body's up is z.
+const turned = new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 0, 1), new THREE.Vector3(0, 1, 0));
+
+function item(value: string, unit: string, label: string, data: Record<string, unknown> = {}): HTMLElement {
+  return element('span', { class: 'value', ...data }, element('i', {}, label), ' ', value, ' ', element('small', {}, unit));
+}
+
+function sameGrid(a: Body, b: Body): boolean {
+  return a.grid.triangles.length === b.grid.triangles.length && a.grid.points.length === b.grid.points.length;
+}
+
+/** The corner of the triangle that is hit, if the pointer is within a few pixels of it. */
+function snapped(body: Body, hit: Hit, x: number, y: number, frame: DOMRect, camera: THREE.Camera):
+  { hit: Hit; node?: number } {
+  const corner = hit.weights.indexOf(Math.max(...hit.weights));
+  const node = body.grid.triangles[3 * hit.triangle + corner];
+  const places = body.project(camera);
+  const away = Math.hypot(((places[3 * node] - x) / 2) * frame.width, ((places[3 * node + 1] - y) / 2) * frame.height);
+  if (away > 5) return { hit };
+  const weights: [number, number, number] = [0, 0, 0];
+  weights[corner] = 1;
+  return { hit: { triangle: hit.triangle, weights }, node };
+}

@@ -1,0 +1,96 @@
+// What the paper's figures show, one picture each: the setting, the deformed mesh, potential, temperature
+// and von Mises stress.
+import { Body, Look } from './body';
+import { Camera } from './stage';
+import { Field, Result, Values } from './results';
+import { Picture } from './picture';
+import { ColourBar } from './colour_bar';
+import { colourRange, Range } from './colours';
+import { element } from './dom';
+import { fieldTitle, shown } from './numbers';
+import { coloursOf, groupsOf, legend } from './setting';
+import { Timeline } from './timeline';
+
+/** A camera that has the body in view at the first and the last moment. */
+export function homeCamera(body: Body): Camera {
+  const low = [0, 0, 0], high = [0, 0, 0];
+  for (const state of [0, body.result.times.length - 1]) {
+    body.place(state, body.suitableScale);
+    body.places.forEach((at, i) => {
+      low[i % 3] = Math.min(low[i % 3], at);
+      high[i % 3] = Math.max(high[i % 3], at);
+    });
+  }
+  const middle = low.map((v, c) => (v + high[c]) / 2) as [number, number, number];
+  const half = low.map((v, c) => (high[c] - v) / 2);
+  if (body.result.dimension === 3) {
+    const radius = 1.02 * Math.hypot(...half);
+    return new Camera(3, middle, radius, radius);
+  }
+  const room = 0.04 * Math.max(...half);
+  return new Camera(2, middle, half[0] + room, half[1] + room);
+}
+
+/**
+ * The range of all moments; of cells' values without the highest hundredth where singular corners would leave
+ * nothing to be seen of the rest.
+ */
+function withoutPeaks(field: Field, values: Values): { range: Range; clipped: boolean } {
+  const { high } = values.usual();
+  const clipped = !field.onPoints && values.least >= 0 && high > 0 && values.greatest > 1.5 * high;
+  return { range: colourRange(values.least, clipped ? high : values.greatest), clipped };
+}
+
+interface Card { picture: Picture; look: (state: number) => Look; bar?: ColourBar; field?: Field }
+
+export class Overview {
+  readonly box: HTMLElement;
+  private readonly cards: Card[] = [];
+  private readonly result: Result;
+  constructor(body: Body, private readonly timeline: Timeline, pick: (field: string) => void) {
+    const { result } = body;
+    this.result = result;
+    const groups = groupsOf(result);
+    const scale = body.suitableScale;
+    const even = { low: 0, high: 1, signed: false };
+    const camera = homeCamera(body);
+    const figures: HTMLElement[] = [];
+    const add = (title: string, picture: Picture, look: Card['look'], below: HTMLElement, field?: Field,
+      bar?: ColourBar) => {
+      this.cards.push({ picture, look, field, bar });
+      const heading = field
+        ? element('button', { type: 'button', class: 'link', onclick: () => pick(field.name) }, title)
+        : element('span', {}, title);
+      picture.canvas.setAttribute('role', 'img');
+      picture.canvas.setAttribute('aria-label', title);
+      figures.push(element('figure', { class: field || title === 'Deformed mesh' ? 'card' : 'card setting' },
+        element('figcaption', {}, heading), picture.canvas, below));
+    };
+    if (result.boundaries.length > 0)
+      add('Physical setting', new Picture(body, camera, coloursOf(groups)),
+        () => ({ state: 0, scale: 0, mesh: false, component: '', range: even }), legend(groups));
+    const plain = result.field('displacement');
+    if (plain)
+      add('Deformed mesh', new Picture(body, camera),
+        (state) => ({ state, scale, mesh: true, component: '', range: even }),
+        element('p', { class: 'note' },
+          body.largestDisplacement > 0 ? `displacement × ${shown(scale, 1)}` : 'nothing moves'));
+    for (const name of ['potential', 'temperature', 'von_mises']) {
+      const field = result.field(name);
+      if (!field) continue;
+      const values = field.values('');
+      const { range, clipped } = withoutPeaks(field, values);
+      const bar = new ColourBar(true);
+      bar.show(range, field.unit, clipped);
+      add(fieldTitle(name), new Picture(body, camera),
+        (state) => ({ state, scale, mesh: false, field, component: '', range }), bar.box, field, bar);
+    }
+    this.box = element('div', { class: 'cards' }, ...figures);
+  }
+
+  draw() {
+    const state = this.result.stateAt(this.timeline.time);
+    for (const card of this.cards) card.picture.show(card.look(state));
+  }
+
+}

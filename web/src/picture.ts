@@ -1,0 +1,40 @@
+// One picture of a body: a canvas with the field, the mesh and, in the plane, the boundaries.
+import { Body, Look } from './body';
+import { Camera, draw, fitted } from './stage';
+import { element } from './dom';
+import { colour } from './theme';
+
+export class Picture {
+  readonly canvas = element('canvas', {});
+  constructor(readonly body: Body, readonly camera: Camera, private readonly boundaries?: Map<string, string>) {}
+
+  show(look: Look) {
+    const size = fitted(this.canvas);
+    if (!size) return;
+    this.camera.aim(size.width, size.height);
+    this.body.set(look, colour('--ink'), colour('--body'));
+    const solid = this.body.result.dimension === 3;
+    this.body.showSetting(solid && !!this.boundaries);
+    draw(this.body.scene, this.camera.three, this.canvas);
+    if (this.boundaries && !solid) this.outline(this.boundaries, 3.5 * size.ratio);
+    else if (!solid) this.outline(undefined, size.ratio);
+  }
+
+  private outline(colours: Map<string, string> | undefined, width: number) {
+    const context = this.canvas.getContext('2d')!;
+    const places = this.body.project(this.camera.three);
+    const x = (node: number) => ((places[3 * node] + 1) / 2) * this.canvas.width;
+    const y = (node: number) => ((1 - places[3 * node + 1]) / 2) * this.canvas.height;
+    context.lineWidth = width;
+    context.lineCap = 'round';
+    for (const boundary of this.body.result.boundaries) {
+      context.strokeStyle = colours?.get(boundary.name) ?? colour('--outline');
+      context.beginPath();
+      for (const facet of boundary.facets) {
+        context.moveTo(x(facet[0]), y(facet[0]));
+        for (const node of facet.subarray(1)) context.lineTo(x(node), y(node));
+      }
+      context.stroke();
+    }
+  }
+}

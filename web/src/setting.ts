@@ -1,0 +1,40 @@
+// The physical setting: boundaries coloured by their conditions, with a legend.
+import { Result } from './results';
+import { furtherColours, palette } from './colours';
+import { element } from './dom';
+
+export interface Group { colour: string; names: string[]; conditions: string[] }
+
+/** Boundaries with the same conditions share a colour. The counterpart of groups_of in src/report/setting.cc. */
+export function groupsOf(result: Result): Group[] {
+  const groups = new Map<string, Group>();
+  const used = new Set<string>();
+  const further = [...furtherColours];
+  const kinds = Object.keys(palette);
+  const ordered = [...result.boundaries].sort((a, b) => kinds.indexOf(a.kind) - kinds.indexOf(b.kind));
+  for (const boundary of ordered) {
+    const key = boundary.kind + boundary.conditions.join('|');
+    const known = groups.get(key);
+    if (known) {
+      known.names.push(boundary.name);
+      continue;
+    }
+    let colour = boundary.kind === 'free' && boundary.conditions.length > 0
+      ? further[0] : palette[boundary.kind as keyof typeof palette];
+    while (used.has(colour) && further.length > 0) colour = further.shift()!;
+    used.add(colour);
+    groups.set(key, { colour, names: [boundary.name], conditions: boundary.conditions });
+  }
+  return [...groups.values()];
+}
+
+export function coloursOf(groups: Group[]): Map<string, string> {
+  return new Map(groups.flatMap((g) => g.names.map((name): [string, string] => [name, g.colour])));
+}
+
+export function legend(groups: Group[]): HTMLElement {
+  return element('ul', { class: 'legend' }, ...groups.map((g) => element('li', {},
+    element('span', { class: 'swatch', style: `background:${g.colour}` }),
+    element('span', {}, element('b', {}, g.names.join(', ')), ' ',
+      g.conditions.join('; ') || 'no condition'))));
+}

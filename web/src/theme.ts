@@ -1,0 +1,29 @@
+// Light and dark: the reader's system decides until the button is used.
+
+type Listener = () => void;
+const listeners: Listener[] = [];
+const system = matchMedia('(prefers-color-scheme: dark)');
+let chosen: 'light' | 'dark' | undefined;
+
+export const isDark = () => (chosen ?? (system.matches ? 'dark' : 'light')) === 'dark';
+
+/** The value of a colour variable of style.css. */
+export const colour = (name: string) =>
+  getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+export function onTheme(listener: Listener) { listeners.push(listener); }
+
+function apply() {
+  document.documentElement.dataset.theme = isDark() ? 'dark' : 'light';
+  for (const listener of listeners) listener();
+}
+
+export function toggleTheme() {
+  chosen = isDark() ? 'light' : 'dark';
+  apply();
+}
+
+export function startTheme() {
+  system.addEventListener('change', apply);
+  apply();
+}

@@ -1,0 +1,258 @@
+// node tests/report.mjs TOURMALINE: runs the paper's case and looks at its page in Chromium, as a reader would.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync, statSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join, resolve } from 'node:path';
+import { inBrowser } from './browser.mjs';
+
+const program = resolve(process.argv[2]);
+const cases = resolve(import.meta.dirname ?? new URL('.', import.meta.url).pathname, '../../cases');
+const folder = mkdtempSync(join(tmpdir(), 'tourmaline-report-'));
+let failures = 0;
+
+async function test(claim, work) {
+  try {
+    await work();
+    console.log(`ok    ${claim}`);
+  } catch (error) {
+    failures += 1;
+    console.log(`WRONG ${claim}\n      ${String(error.message).replace(/\n/g, '\n      ')}`);
+  }
+}
+
+function run(name, file, ...settings) {
+  const out = join(folder, name);
+  execFileSync(program, ['run', join(cases, file), '-q', '-o', out, ...settings.flatMap((s) => ['--set', s])]);
+  return out;
+}
+
+/** Rows of nodes.csv as objects. */
+function nodesOf(out) {
+  const [header, ...lines] = readFileSync(join(out, 'nodes.csv'), 'utf8').trim().split('\n');
+  const names = header.split(',');
+  return lines.map((line) => Object.fromEntries(line.split(',').map((v, i) => [names[i], Number(v)])));
+}
+
+/** Opens a page; whatever it complains of or asks the network for is kept. */
+async function open(context, file) {
+  const tab = await context.newPage();
+  const complaints = [];
+  tab.on('console', (m) => ['error', 'warning'].includes(m.type()) && complaints.push(m.text()));
+  tab.on('pageerror', (e) => complaints.push(e.message));
+  tab.on('request', (r) => /^(file|data|blob):/.test(r.url()) || complaints.push(`request of ${r.url()}`));
+  const begin = Date.now();
+  await tab.goto('file://' + file);
+  await tab.waitForSelector('#run');
+  await settled(tab);
+  return { tab, complaints, seconds: (Date.now() - begin) / 1000 };
+}
+
+/** Two frames later everything that was asked for is drawn. */
+const settled = (tab) =>
+  tab.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+
+/** The pixels of a canvas as one text. */
+async function pixels(tab, selector, which = 0) {
+  await settled(tab);
+  return tab.locator(selector).nth(which).evaluate((canvas) => canvas.toDataURL());
+}
+
+const colours = (tab, selector, which = 0) => tab.locator(selector).nth(which).evaluate((canvas) => {
+  const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d', { willReadFrequently: true });
+  copy.drawImage(canvas, 0, 0);
+  const { data } = copy.getImageData(0, 0, canvas.width, canvas.height);
+  const seen = new Set();
+  for (let i = 0; i < data.length; i += 4) if (data[i + 3] > 0) seen.add((data[i] << 16) | (data[i + 1] << 8) | data[i + 2]);
+  return seen.size;
+});
+
+const goTo = (tab, step) => tab.locator('#time').fill(String(step));
+
+/** Moves the pointer over the body until it finds `wanted` nodes; what the page says of each. */
+async function probe(tab, wanted) {
+  const found = new Map();
+  const box = await tab.locator('.view canvas').first().boundingBox();
+  for (let k = 0; k < 400 && found.size < wanted; ++k) {
+    const [u, v] = [(0.31 + 0.618034 * k) % 1, (0.17 + 0.7548777 * k) % 1];
+    await tab.mouse.move(box.x + u * box.width, box.y + v * box.height);
+    const said = await tab.locator('.readout').first().evaluate((readout) => ({
+      node: readout.dataset.node,
+      values: [...readout.querySelectorAll('[data-field]')].map((e) =>
+        [e.dataset.field, e.dataset.component, Number(e.dataset.value), e.textContent]),
+    }));
+    if (said.values.length > 0 && said.node !== undefined) found.set(Number(said.node), said.values);
+  }
+  assert.ok(found.size >= wanted, `only ${found.size} nodes were found under the pointer`);
+  return found;
+}
+
+/** "u_x −3.96·10⁻¹¹ m" to a number. */
+function numberIn(text) {
+  const [, number] = text.match(/^\S+ (\S+)/);
+  const plain = number.replace(/−/g, '-').replace(/·10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)/, (_, power) =>
+    'e' + [...power].map((c) => (c === '⁻' ? '-' : '⁰¹²³⁴⁵⁶⁷⁸⁹'.indexOf(c))).join(''));
+  return Number(plain);
+}
+
+/** What the page says of nodes is what nodes.csv says: to single precision inside, to six digits as text. */
+function compare(found, nodes) {
+  for (const [node, values] of found) {
+    const row = nodes[node];
+    for (const [field, component, value, text] of values) {
+      const column = field === 'displacement' ? `u_${component}` : field;
+      if (component === 'size' || !(column in row)) continue;
+      assert.ok(Math.abs(value - row[column]) <= 1.2e-7 * Math.abs(row[column]),
+        `node ${node}: ${column} = ${value}, nodes.csv has ${row[column]}`);
+      assert.ok(Math.abs(numberIn(text) - row[column]) <= 5.1e-6 * Math.abs(row[column]),
+        `node ${node}: the page says "${text}", nodes.csv has ${row[column]}`);
+    }
+  }
+}
+
+const desktop = { viewport: { width: 1280, height: 900 } };
+const phone = { viewport: { width: 400, height: 800 }, hasTouch: true, colorScheme: 'dark' };
+
+const conductive = run('conductive', 'ouafik-2020/conductive.toml', 'time.steps=50');
+const page = join(conductive, 'report.html');
+
+await inBrowser(desktop, async (context) => {
+  const { tab, complaints, seconds } = await open(context, page);
+  await test('50 steps of 64 x 64 squares stay below 8 MB', () => {
+    const size = statSync(page).size;
+    assert.ok(size < 8e6, `${size} bytes`);
+  });
+  await test('the page is on the screen within 2 s (drawn in software: 4 s)', () =>
+    assert.ok(seconds < 4, `${seconds} s`));
+  await test('setting, deformed mesh, potential, temperature and stress are there at once', async () => {
+    assert.deepEqual(await tab.locator('.card figcaption').allTextContents(),
+      ['Physical setting', 'Deformed mesh', 'Electric potential', 'Temperature', 'von Mises stress']);
+    for (const card of [2, 4]) assert.ok((await colours(tab, '.card canvas', card)) > 100, `card ${card} is empty`);
+  });
+  await test('the setting names every boundary with its conditions', async () => {
+    const text = await tab.locator('.legend').first().textContent();
+    for (const piece of ['left', 'Tresca friction, S = 15 N/m²', '-27 K', 'u = (0, 0) m', 'φ = 0 V', '-0.5*t', 'bottom'])
+      assert.ok(text.includes(piece), `"${piece}" is missing in: ${text}`);
+  });
+  await test('every field and component can be drawn, and no two look alike', async () => {
+    const seen = new Map();
+    for (const field of await tab.locator('#field option').evaluateAll((os) => os.map((o) => o.value))) {
+      await tab.selectOption('#field', field);
+      const components = await tab.locator('#component option').evaluateAll((os) => os.map((o) => o.value));
+      for (const component of components) {
+        if (components.length > 1) await tab.selectOption('#component', component);
+        const name = `${field} ${component}`;
+        const image = await pixels(tab, '.view canvas');
+        assert.ok((await colours(tab, '.view canvas')) > 20, `${name} is empty`);
+        assert.ok(!seen.has(image), `${name} looks like ${seen.get(image)}`);
+        seen.set(image, name);
+      }
+    }
+    assert.ok(seen.size >= 14, `only ${seen.size} pictures`);
+  });
+  await test('every moment looks different', async () => {
+    await tab.selectOption('#field', 'potential');
+    const images = new Set();
+    for (const step of [0, 1, 10, 25, 49, 50]) {
+      await goTo(tab, step);
+      images.add(await pixels(tab, '.view canvas'));
+    }
+    assert.equal(images.size, 6);
+    assert.match(await tab.locator('.moment').textContent(), /t = 0\.2 s/);
+  });
+  await test('deformation, mesh and colour range change the picture', async () => {
+    const before = await pixels(tab, '.view canvas');
+    await tab.locator('#stretch').fill('0');
+    const flat = await pixels(tab, '.view canvas');
+    await tab.locator('.tick input').first().uncheck();
+    const bare = await pixels(tab, '.view canvas');
+    await goTo(tab, 10);
+    const all = await pixels(tab, '.view canvas');
+    await tab.selectOption('#range', 'step');
+    const own = await pixels(tab, '.view canvas');
+    await tab.selectOption('#range', 'hand');
+    await tab.locator('.hand input').nth(1).fill('0.5');
+    await tab.keyboard.press('Tab');
+    const byHand = await pixels(tab, '.view canvas');
+    assert.equal(new Set([before, flat, bare, all, own, byHand]).size, 6);
+    await tab.selectOption('#range', 'all');
+    await tab.locator('#stretch').fill('1');
+    await goTo(tab, 50);
+  });
+  await test('values under the pointer are those of nodes.csv', async () =>
+    compare(await probe(tab, 12), nodesOf(conductive)));
+  await test('play runs through the moments', async () => {
+    await tab.locator('#play').click();
+    await tab.waitForFunction(() => Number(document.querySelector('#time').value) > 3);
+    await tab.locator('#play').click();
+    assert.ok(Number(await tab.locator('#time').inputValue()) < 50);
+    await goTo(tab, 50);
+  });
+  await test('keys zoom and bring the whole body back', async () => {
+    await tab.locator('.view canvas').first().focus();
+    const before = await pixels(tab, '.view canvas');
+    await tab.keyboard.press('+');
+    assert.notEqual(await pixels(tab, '.view canvas'), before);
+    await tab.keyboard.press('0');
+    assert.equal(await pixels(tab, '.view canvas'), before);
+  });
+  await test('tractions with the bound, slip, temperature and the map of stick and slip are drawn', async () => {
+    const titles = await tab.locator('#contact figcaption').allTextContents();
+    for (const title of ['Normal traction on the body', 'Tangential traction and the bound ±S', 'Slip', 'Temperature',
+      'Stick and slip']) assert.ok(titles.includes(title), `no "${title}" in ${titles}`);
+    for (let i = 0; i < titles.length; ++i)
+      assert.ok((await colours(tab, '#contact canvas', i)) > 3, `"${titles[i]}" is empty`);
+  });
+  await test('the curves along the contact follow the moment', async () => {
+    const late = await pixels(tab, '#contact canvas', 1);
+    await goTo(tab, 5);
+    assert.notEqual(await pixels(tab, '#contact canvas', 1), late);
+    await goTo(tab, 50);
+  });
+  await test('energies, dissipation, iterations and charge are drawn over time', async () => {
+    const titles = await tab.locator('#history figcaption').allTextContents();
+    for (const title of ['Energies', 'Friction dissipation and power of the loads', 'Newton iterations', 'Charge'])
+      assert.ok(titles.includes(title), `no "${title}" in ${titles}`);
+  });
+  await test('the case as run, sizes, versions and timings are told', async () => {
+    const text = await tab.locator('#run').textContent();
+    for (const piece of ['library = "BaTiO3-Liu2014"', '4 225', 'MUMPS', 'factorise'])
+      assert.ok(text.includes(piece), `"${piece}" is missing`);
+  });
+  await test('light becomes dark', async () => {
+    const paper = () => tab.evaluate(() => getComputedStyle(document.body).backgroundColor);
+    const light = await paper();
+    await tab.locator('#theme').click();
+    assert.notEqual(await paper(), light);
+  });
+  await test('nothing is complained of and nothing asked of the network', () => assert.deepEqual(complaints, []));
+});
+
+await inBrowser(phone, async (context) => {
+  const { tab, complaints } = await open(context, page);
+  await test('on a phone nothing is wider than the screen', async () => {
+    const wide = await tab.evaluate(() => [...document.querySelectorAll('body *')]
+      .filter((e) => e.getBoundingClientRect().right > innerWidth + 1 && !e.closest('pre, .u-wrap, .u-legend'))
+      .map((e) => `${e.tagName}.${e.className}`));
+    assert.deepEqual(wide, []);
+    assert.ok(await tab.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+  });
+  await test('on a phone nothing is complained of', () => assert.deepEqual(complaints, []));
+});
+
+const tables = run('tables', 'ouafik-2020/conductive.toml', 'output.fields=false', 'mesh.box.cells=[16, 16]');
+await inBrowser(desktop, async (context) => {
+  const { tab, complaints } = await open(context, join(tables, 'report.html'));
+  await test('without field files the page says why and shows the curves', async () => {
+    assert.match(await tab.locator('.notices').textContent(), /output\.fields = false/);
+    assert.equal(await tab.locator('.view').count(), 0);
+    assert.ok((await colours(tab, '#contact canvas', 0)) > 3);
+    await goTo(tab, 3);
+    assert.match(await tab.locator('.moment').textContent(), /t = 0\.04 s/);
+    assert.deepEqual(complaints, []);
+  });
+});
+
+rmSync(folder, { recursive: true, force: true });
+console.log(failures === 0 ? 'all is as it should be' : `${failures} claims are wrong`);
+process.exit(failures === 0 ? 0 : 1);
