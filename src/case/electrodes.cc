@@ -73,11 +73,20 @@ void check_electrodes(const Case &asked) {
       if (const auto [first, is_new] = by_boundary.try_emplace(boundary, electrode.where); !is_new)
         fail(electrode, fmt::format("on = \"{}\": there is an electrode already, by {}", boundary,
                                     first->second));
-    if (asked.solver.method == "monolithic" && !electrode.is_driven())
-      fail(electrode,
-           "electrodes whose voltage is not given are not available with solver.method = "
-           "\"monolithic\"; use \"condensed\"");
   }
+  if (asked.solver.method == "monolithic")
+    require_given_voltages(asked, "solver.method = \"monolithic\"");
+  if (asked.solver.body == "iterative")
+    require_given_voltages(asked, "solver.body = \"iterative\"");
+}
+
+void require_given_voltages(const Case &asked, const std::string &solver) {
+  for (const ElectrodeCase &electrode : asked.electrodes)
+    if (!electrode.is_driven())
+      fail(electrode,
+           fmt::format("electrodes whose voltage is not given are not available with {}; use "
+                       "solver.method = \"condensed\" and solver.body = \"direct\"",
+                       solver));
 }
 
 }  // namespace tourmaline::casefile

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "tourmaline/case/electrodes.h"
 #include "tourmaline/case/resolved.h"
 #include "tourmaline/contact/friction.h"
 #include "tourmaline/error.h"
@@ -55,8 +56,10 @@ template <int dim>
 std::unique_ptr<Route> make_route(const Model<dim> &model) {
   if (model.asked.solver.method == "monolithic")
     return monolithic_route(model);
-  if (model.asked.solver.body == "iterative")
+  if (model.asked.solver.body == "iterative") {
+    casefile::require_given_voltages(model.asked, "the iterative solver");
     return iterative_route(model);
+  }
   return condensed_route(model);
 }
 

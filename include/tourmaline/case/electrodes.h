@@ -9,4 +9,8 @@ namespace tourmaline::casefile {
 /// potential in the monolithic route.
 void check_electrodes(const Case &asked);
 
+/// Throws CaseError, naming `solver`, where an electrode's voltage is not given: only the condensed
+/// method with a direct solver finds it.
+void require_given_voltages(const Case &asked, const std::string &solver);
+
 }  // namespace tourmaline::casefile
