@@ -97,7 +97,7 @@ void vtu_output(benchmark::State &state) {
   points.temperature.resize(grid.points.size());
   const auto file = std::filesystem::temp_directory_path() / "tourmaline-bench.vtu";
   for (auto _ : state)
-    writer.write(file, 0, points, body::derived_fields(m.body, m.material, x));
+    writer.write(file, 0, points, body::derived_fields(m.body, m.composition, x));
   std::filesystem::remove(file);
 }
 

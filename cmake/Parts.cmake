@@ -39,3 +39,7 @@ pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET PETSc)
 
 find_library(METIS_LIBRARY metis REQUIRED)
 find_library(OPENBLAS_LIBRARY openblas REQUIRED)
+
+# deal.II is linked with libgmsh already, so that this adds nothing to the start of the program.
+find_path(GMSH_INCLUDE gmsh.h REQUIRED)
+find_library(GMSH_LIBRARY gmsh REQUIRED)

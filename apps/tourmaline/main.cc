@@ -11,10 +11,12 @@
 #include "tourmaline/case/reference.h"
 #include "tourmaline/case/resolved.h"
 #include "tourmaline/error.h"
-#include "tourmaline/material/library.h"
+#include "tourmaline/material/description.h"
+#include "tourmaline/mesh/gmsh.h"
 #include "tourmaline/parallel/ranks.h"
 #include "tourmaline/report/page.h"
 #include "tourmaline/solve/simulation.h"
+#include "tourmaline/solve/survey.h"
 
 namespace {
 
@@ -25,12 +27,13 @@ struct Asked {
   std::filesystem::path file, directory;
   std::vector<std::filesystem::path> folders;
   std::vector<std::string> overrides;
-  std::string material;
+  std::string material, materials_file;
   bool quiet = false;
 };
 
 void run(const Asked &asked) {
-  const auto read = tourmaline::casefile::read_file(asked.file, asked.overrides);
+  const auto read = tourmaline::casefile::read_file(asked.file, asked.overrides,
+                                                    tourmaline::mesh::read_mesh_file);
   const auto directory = asked.directory.empty()
                              ? std::filesystem::path("results") / asked.file.stem()
                              : asked.directory;
@@ -38,14 +41,22 @@ void run(const Asked &asked) {
 }
 
 void check(const Asked &asked) {
-  const auto read = tourmaline::casefile::read_file(asked.file, asked.overrides);
+  const auto read = tourmaline::casefile::read_file(asked.file, asked.overrides,
+                                                    tourmaline::mesh::read_mesh_file);
   tourmaline::solve::check(read);
-  std::cout << tourmaline::casefile::resolved(read);
+  std::cout << tourmaline::casefile::resolved(read) << tourmaline::solve::survey(read);
 }
 
 void materials(const Asked &asked) {
-  std::cout << (asked.material.empty() ? tourmaline::material::describe_library()
-                                       : tourmaline::material::describe(asked.material));
+  if (asked.material.empty()) {
+    std::cout << tourmaline::material::describe_library(asked.materials_file);
+    return;
+  }
+  tourmaline::casefile::MaterialCase material;
+  material.library = asked.material;
+  if (!asked.materials_file.empty())
+    material.file = asked.materials_file;
+  std::cout << tourmaline::material::describe(material);
 }
 
 // Two folders are no part of each other, so their page stands beside them, where one stands now.
@@ -98,6 +109,7 @@ void add_report(CLI::App &app, Asked &asked) {
 void add_materials(CLI::App &app, Asked &asked) {
   CLI::App *command = app.add_subcommand("materials", "list the built-in materials, or show one");
   command->add_option("NAME", asked.material, "the material to show");
+  command->add_option("--file", asked.materials_file, "a file of materials instead of the library");
   command->callback([&asked] { materials(asked); });
 }
 

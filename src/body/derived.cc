@@ -63,28 +63,56 @@ double von_mises(const output::SymmetricTensor &s) {
                    3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
 
+namespace {
+
+void add_fields(const Means &m, const material::Constants &c, output::CellFields &fields) {
+  const material::Voigt strain = voigt_strain(m.displacement_gradient);
+  // (1) and (2) with E = -grad phi, (3).
+  const material::Voigt stress = c.stiffness * strain +
+                                 c.piezoelectric.transpose() * m.potential_gradient -
+                                 c.thermal_stress * m.temperature;
+  fields.strain.push_back(in_file_order(strain, 0.5));
+  fields.stress.push_back(in_file_order(stress, 1));
+  fields.von_mises.push_back(von_mises(fields.stress.back()));
+  fields.electric_displacement.push_back(plain(c.piezoelectric * strain -
+                                               c.permittivity * m.potential_gradient +
+                                               c.pyroelectric * m.temperature));
+  fields.heat_flux.push_back(plain(-c.conductivity * m.temperature_gradient));
+}
+
+}  // namespace
+
 template <int dim>
-output::CellFields derived_fields(const Discretisation<dim> &body, const material::Constants &c,
+output::CellFields derived_fields(const Discretisation<dim> &body,
+                                  const material::Composition<dim> &composition,
                                   std::span<const double> state) {
   output::CellFields fields;
   body.for_each_cell([&](const Quadrature<dim> &cell) {
-    const Means m = means(cell, state);
-    const material::Voigt strain = voigt_strain(m.displacement_gradient);
-    // (1) and (2) with E = -grad phi, (3).
-    const material::Voigt stress = c.stiffness * strain +
-                                   c.piezoelectric.transpose() * m.potential_gradient -
-                                   c.thermal_stress * m.temperature;
-    fields.strain.push_back(in_file_order(strain, 0.5));
-    fields.stress.push_back(in_file_order(stress, 1));
-    fields.von_mises.push_back(von_mises(fields.stress.back()));
-    fields.electric_displacement.push_back(plain(c.piezoelectric * strain -
-                                                 c.permittivity * m.potential_gradient +
-                                                 c.pyroelectric * m.temperature));
-    fields.heat_flux.push_back(plain(-c.conductivity * m.temperature_gradient));
+    const std::array<double, 3> centre = cell.centre();
+    add_fields(means(cell, state), composition.in_space(cell.region, centre), fields);
+    if (!composition.varies())
+      return;
+    fields.region.push_back(static_cast<double>(cell.region));
+    fields.poling.push_back(plain(composition.poling(cell.region, centre)));
   });
   return fields;
 }
 
+template <int dim>
+output::CellFields derived_fields(const Discretisation<dim> &body, const material::Constants &c,
+                                  std::span<const double> state) {
+  output::CellFields fields;
+  body.for_each_cell(
+      [&](const Quadrature<dim> &cell) { add_fields(means(cell, state), c, fields); });
+  return fields;
+}
+
+template output::CellFields derived_fields<2>(const Discretisation<2> &,
+                                              const material::Composition<2> &,
+                                              std::span<const double>);
+template output::CellFields derived_fields<3>(const Discretisation<3> &,
+                                              const material::Composition<3> &,
+                                              std::span<const double>);
 template output::CellFields derived_fields<2>(const Discretisation<2> &,
                                               const material::Constants &, std::span<const double>);
 template output::CellFields derived_fields<3>(const Discretisation<3> &,

@@ -18,6 +18,20 @@
 namespace tourmaline::body {
 
 template <int dim>
+std::array<double, 3> Quadrature<dim>::centre() const {
+  std::array<double, 3> sum{};
+  double volume = 0;
+  for (std::size_t q = 0; q < jxw.size(); ++q) {
+    volume += jxw[q];
+    for (int axis = 0; axis < 3; ++axis)
+      sum[axis] += jxw[q] * points[q][axis];
+  }
+  for (double &coordinate : sum)
+    coordinate /= volume;
+  return sum;
+}
+
+template <int dim>
 struct Discretisation<dim>::Parts {
   using Dofs = std::vector<dealii::types::global_dof_index>;
 
@@ -227,6 +241,7 @@ void Discretisation<dim>::for_each_cell(
   for (std::size_t i = 0; i < parts_->cells.size(); ++i) {
     shape.reinit(parts_->cells[i]);
     parts_->copy(shape, parts_->nodes_of(i), plain_values);
+    plain_values.region = parts_->cells[i]->material_id();
     for (unsigned int q = 0; q < shape.n_quadrature_points; ++q)
       for (unsigned int a = 0; a < n_shapes; ++a)
         plain_values.gradients[q * n_shapes + a] = plain<dim>(shape.shape_grad(a, q));
@@ -244,7 +259,7 @@ std::set<dealii::types::boundary_id> ids_of(const mesh::Mesh<dim> &mesh,
     const auto found = mesh.boundaries.find(name);
     if (found == mesh.boundaries.end())
       throw CaseError("the mesh has no boundary named \"" + name + "\"");
-    ids.insert(found->second);
+    ids.insert(found->second.begin(), found->second.end());
   }
   return ids;
 }
@@ -395,6 +410,8 @@ output::Grid Discretisation<dim>::grid() const {
   return grid;
 }
 
+template struct Quadrature<2>;
+template struct Quadrature<3>;
 template class Discretisation<2>;
 template class Discretisation<3>;
 

@@ -116,6 +116,20 @@ Operator<dim>::Operator(const Discretisation<dim> &body,
 }
 
 template <int dim>
+Operator<dim>::Operator(const Discretisation<dim> &body,
+                        const material::Composition<dim> &composition)
+    : graph_(body.graph()),
+      storage_(graph_.column.size(), Block::Zero()),
+      conduction_(graph_.column.size(), 0.),
+      reference_temperature_(composition.reference_temperature()) {
+  parallel::together([&] {
+    body.for_each_cell([&](const Quadrature<dim> &cell) {
+      add_cell(cell, composition.at(cell.region, cell.centre()));
+    });
+  });
+}
+
+template <int dim>
 void Operator<dim>::add_cell(const Quadrature<dim> &cell,
                              const material::BodyConstants<dim> &material) {
   const std::size_t n_shapes = cell.nodes.size();

@@ -12,20 +12,36 @@ namespace tourmaline::casefile {
 
 namespace {
 
-/// What has been prescribed so far: boundary and field -> the formula that prescribes it.
+/// What has been prescribed so far: part of the boundary and field -> the formula that prescribes
+/// it. A side of a box is one part; names in a mesh file may share parts.
 class Prescribed {
  public:
+  explicit Prescribed(const MeshCase &mesh) : mesh_(mesh) {}
+
   void add(const std::string &boundary, const std::string &field, const Formula &formula) {
-    const auto [entry, is_new] = claims_.try_emplace({boundary, field}, formula);
-    if (!is_new)
-      throw CaseError(
-          fmt::format("{}: \"{}\" has already a condition on the {}, {}; one is possible",
-                      stated(formula), boundary, field, stated(entry->second)));
+    for (const std::string &part : parts(boundary)) {
+      const auto [entry, is_new] = claims_.try_emplace({part, field}, formula);
+      if (!is_new)
+        throw CaseError(
+            fmt::format("{}: \"{}\" has already a condition on the {}, {}; one is possible",
+                        stated(formula), boundary, field, stated(entry->second)));
+    }
   }
 
   const Formula *find(const std::string &boundary, const std::string &field) const {
-    const auto entry = claims_.find({boundary, field});
-    return entry == claims_.end() ? nullptr : &entry->second;
+    for (const std::string &part : parts(boundary))
+      if (const auto entry = claims_.find({part, field}); entry != claims_.end())
+        return &entry->second;
+    return nullptr;
+  }
+
+  std::vector<std::string> parts(const std::string &boundary) const {
+    if (!mesh_.content)
+      return {boundary};
+    std::vector<std::string> all;
+    for (const int set : mesh_.content->boundaries.sets_with(boundary))
+      all.push_back(std::to_string(set));
+    return all;
   }
 
   // "case.toml:12:13 [boundary[0]] potential = 0"
@@ -34,6 +50,7 @@ class Prescribed {
   }
 
  private:
+  const MeshCase &mesh_;
   std::map<std::pair<std::string, std::string>, Formula> claims_;
 };
 
@@ -89,10 +106,22 @@ void check_contact(const ContactCase &contact, const std::string &boundary, int 
          "heat.law = \"exchange\" says what heat flows there, but it is prescribed as well");
 }
 
+// A facet in contact under two names would count twice.
+void check_contact_once(const ContactCase &contact, const Prescribed &prescribed) {
+  std::map<std::string, std::string> name_of_part;
+  for (const std::string &name : contact.on)
+    for (const std::string &part : prescribed.parts(name))
+      if (const auto [entry, is_new] = name_of_part.try_emplace(part, name); !is_new)
+        throw CaseError(
+            fmt::format("{} on: \"{}\" and \"{}\" are in part the same boundary; name "
+                        "one of them",
+                        contact.where, entry->second, name));
+}
+
 }  // namespace
 
 void check_conditions(const Case &asked) {
-  Prescribed prescribed;
+  Prescribed prescribed(asked.mesh);
   for (const BoundaryCase &boundary : asked.boundaries)
     for (const std::string &name : boundary.on)
       add(prescribed, boundary, name);
@@ -103,9 +132,11 @@ void check_conditions(const Case &asked) {
             fmt::format("{} on = \"{}\": this boundary has already a condition on the {}, {}; "
                         "one is possible",
                         electrode.where, name, electric, Prescribed::stated(*formula)));
-  if (asked.contact)
-    for (const std::string &name : asked.contact->on)
-      check_contact(*asked.contact, name, asked.dimension, prescribed);
+  if (!asked.contact)
+    return;
+  check_contact_once(*asked.contact, prescribed);
+  for (const std::string &name : asked.contact->on)
+    check_contact(*asked.contact, name, asked.dimension, prescribed);
 }
 
 }  // namespace tourmaline::casefile

@@ -147,8 +147,6 @@ void check_holding(const Case &asked) {
                          : " [[electrode]]: the electric potential floats, as no electrode has a "
                            "path to a given voltage; give one a `voltage`, or a boundary a "
                            "`potential`"));
-  if (!asked.mesh.box && !asked.mesh.annulus)
-    return;
   const std::vector<std::string> free = free_motions(asked.dimension, supports_of(asked));
   if (!free.empty())
     throw CaseError(fmt::format(

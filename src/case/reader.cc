@@ -79,7 +79,14 @@ std::string found_elsewhere(const std::string &name) {
 /// Reads one table of the case file.
 class Reader : public Visitor {
  public:
-  Reader(const toml::table &table, std::string path) : table_(table), path_(std::move(path)) {}
+  /// What the tables inside inherit.
+  struct Context {
+    std::filesystem::path folder;  ///< of the case
+    const MeshFileReader &read_mesh;
+  };
+
+  Reader(const toml::table &table, std::string path, const Context &context)
+      : table_(table), path_(std::move(path)), context_(context) {}
 
   /// Checks that every key of the table is declared, then reads those that are.
   void read_all(const Body &body) {
@@ -119,7 +126,7 @@ class Reader : public Visitor {
     const toml::table *inner = node->as_table();
     if (!inner)
       fail(item(*node, key), "must be a table: [" + path_to(key.name) + "]");
-    Reader(*inner, path_to(key.name)).read_all(body);
+    Reader(*inner, path_to(key.name), context_).read_all(body);
   }
 
   int count(const Key &key, int) override {
@@ -139,7 +146,8 @@ class Reader : public Visitor {
   void entry(const Key &key, int index, const Body &body) override {
     const toml::node *node =
         table_.get_as<toml::array>(key.name)->get(static_cast<std::size_t>(index));
-    Reader(*node->as_table(), fmt::format("{}[{}]", path_to(key.name), index)).read_all(body);
+    Reader(*node->as_table(), fmt::format("{}[{}]", path_to(key.name), index), context_)
+        .read_all(body);
   }
 
   void check(const std::string &name, const Complaint &complaint) override {
@@ -150,6 +158,24 @@ class Reader : public Visitor {
     if (!node)
       throw CaseError(where(table_.source(), name) + ": " + text);
     fail(item(*node, {.name = name, .description = ""}), text);
+  }
+
+  void locate(const std::string &name, std::string &file) override {
+    if (table_.contains(name))
+      file = std::filesystem::absolute(context_.folder / file).lexically_normal().string();
+  }
+
+  void load(MeshCase &mesh) override {
+    if (!mesh.file)
+      return;
+    const Item file = item(*table_.get("file"), {.name = "file", .description = ""});
+    if (!context_.read_mesh)
+      fail(file, "mesh files cannot be read here; give mesh.box instead");
+    try {
+      mesh.content = context_.read_mesh(mesh);
+    } catch (const CaseError &error) {
+      fail(file, error.what() + (" (" + *mesh.file + ")"));
+    }
   }
 
   void place(std::string &where_) override { where_ = where(table_.source(), ""); }
@@ -197,6 +223,7 @@ class Reader : public Visitor {
 
   const toml::table &table_;
   std::string path_;  ///< of the table, with dots
+  const Context &context_;
 };
 
 toml::table parsed(const std::string &text, const std::string &name) {
@@ -241,13 +268,14 @@ std::string text_of_file(const std::filesystem::path &file) {
 }  // namespace
 
 Case read_text(const std::string &text, const std::string &name,
-               const std::vector<std::string> &overrides) {
+               const std::vector<std::string> &overrides, const MeshFileReader &read_mesh) {
   toml::table root = parsed(text, name);
   for (const std::string &assignment : overrides)
     apply_override(root, assignment);
   Case asked;
   asked.source = name;
-  Reader(root, "").read_all([&](Visitor &visitor) { declare(visitor, asked); });
+  const Reader::Context context{std::filesystem::path(name).parent_path(), read_mesh};
+  Reader(root, "", context).read_all([&](Visitor &visitor) { declare(visitor, asked); });
   if (asked.output.every == 0)
     asked.output.every = steps_between_files(asked.time.steps);
   check_conditions(asked);
@@ -256,8 +284,34 @@ Case read_text(const std::string &text, const std::string &name,
   return asked;
 }
 
-Case read_file(const std::filesystem::path &file, const std::vector<std::string> &overrides) {
-  return read_text(text_of_file(file), file.string(), overrides);
+std::vector<std::pair<std::string, MaterialCase>> read_materials(const std::string &text,
+                                                                 const std::string &name) {
+  const toml::table root = parsed(text, name);
+  const MeshFileReader none;
+  const Reader::Context context{std::filesystem::path(name).parent_path(), none};
+  std::vector<std::pair<std::string, MaterialCase>> entries;
+  for (const auto &[key, node] : root) {
+    const std::string entry(key.str());
+    const toml::table *table = node.as_table();
+    if (!table)
+      throw CaseError(fmt::format("{} {}: must be a table, the material of that name",
+                                  place_of(node.source()), entry));
+    entries.emplace_back(entry, MaterialCase{});
+    Reader(*table, entry, context).read_all([&](Visitor &visitor) {
+      declare_entry(visitor, entries.back().second);
+    });
+  }
+  return entries;
+}
+
+std::vector<std::pair<std::string, MaterialCase>> read_materials(
+    const std::filesystem::path &file) {
+  return read_materials(text_of_file(file), file.string());
+}
+
+Case read_file(const std::filesystem::path &file, const std::vector<std::string> &overrides,
+               const MeshFileReader &read_mesh) {
+  return read_text(text_of_file(file), file.string(), overrides, read_mesh);
 }
 
 }  // namespace tourmaline::casefile

@@ -49,6 +49,8 @@ int dimension_of(CellShape shape) {
 int dimension_of(const MeshCase &mesh) {
   if (mesh.annulus)
     return dimension_of(mesh.annulus->cell);
+  if (mesh.content)
+    return mesh.content->dimension;
   return mesh.box ? dimension_of(mesh.box->cell) : 2;
 }
 
@@ -229,12 +231,65 @@ void declare(Visitor &v, Annulus &ring, int degree) {
   v.check("cells", [&] { return cells_complaint(ring, degree); });
 }
 
-void declare(Visitor &v, MeshCase &mesh) {
+// Where the file has no name, nobody could give a condition.
+std::string unnamed_complaint(const MeshCase &mesh) {
+  if (!mesh.content || mesh.unnamed != "error")
+    return "";
+  const MeshFile &file = *mesh.content;
+  const auto unnamed = std::count(file.boundaries.set_of.begin(), file.boundaries.set_of.end(), 0);
+  if (unnamed == 0)
+    return "";
+  const auto first = std::find(file.boundaries.set_of.begin(), file.boundaries.set_of.end(), 0) -
+                     file.boundaries.set_of.begin();
+  const auto &p = file.points[file.facets[first * file.vertices_per_facet()]];
+  return fmt::format(
+      "{} of the {} facets of the boundary have no name, one of them at ({:g}, {:g}, {:g}), so "
+      "that "
+      "no condition can be given there. Put them into a physical group, or say mesh.unnamed = "
+      "\"natural\": no traction, no charge and no heat flow there",
+      unnamed, std::count(file.inside.begin(), file.inside.end(), false), p[0], p[1], p[2]);
+}
+
+void declare_file(Visitor &v, MeshCase &mesh) {
+  const std::string used_with = "mesh.file";
   v.optional(
       {.name = "file",
-       .description = "Gmsh file whose physical groups name the boundaries; not available in "
-                      "this version"},
+       .description =
+           "mesh or geometry, found from the folder of the case. Gmsh's .msh (2.2 or 4.1, text or "
+           "binary; triangles, quadrilaterals, tetrahedra or hexahedra of order 1; a plane body "
+           "lies in z = 0): physical groups name boundaries and regions, a group without a name "
+           "goes by its number. Gmsh's .geo, and .step, .iges, .brep from CAD, are meshed with "
+           "simplices; faces and solids from CAD go by their labels or by \"surface 1\", "
+           "\"volume 1\", ... (`tourmaline check` lists them with their places)"},
       mesh.file);
+  const bool file = mesh.file.has_value();
+  v.optional({.name = "size",
+              .description = "size of the largest cells of a geometry; required for .step, .iges "
+                             "and .brep",
+              .unit = "m",
+              .range = positive(),
+              .used = file,
+              .used_with = used_with},
+             mesh.size);
+  v.key({.name = "scale",
+         .description = "the unit of length of the file, 1e-3 when it is in millimetres; .step and "
+                        ".iges know theirs and come in metres",
+         .unit = "m",
+         .range = positive(),
+         .used = file,
+         .used_with = used_with},
+        &mesh.scale);
+  v.key({.name = "unnamed",
+         .description = "what facets of the boundary without a name are; error: a mistake; "
+                        "natural: free of traction, charge and heat flow",
+         .choices = {"error", "natural"},
+         .used = file,
+         .used_with = used_with},
+        &mesh.unnamed);
+}
+
+void declare(Visitor &v, MeshCase &mesh) {
+  declare_file(v, mesh);
   v.key({.name = "degree",
          .description = "of the finite elements for all fields",
          .range = from_to(1, 2)},
@@ -276,8 +331,76 @@ void declare(Visitor &v, MeshCase &mesh) {
     if ((mesh.box || mesh.annulus) && mesh.file)
       return mesh.box ? "both mesh.box and mesh.file are given; a case has one mesh"
                       : "both mesh.annulus and mesh.file are given; a case has one mesh";
-    return mesh.file ? "Gmsh files are not available yet; give mesh.box instead" : "";
+    return "";
   });
+  if (mesh.file)
+    v.locate("file", *mesh.file);
+  v.load(mesh);
+  v.check("file", [&] { return unnamed_complaint(mesh); });
+}
+
+std::string all_regions(const MeshCase &mesh) {
+  if (!mesh.content)
+    return "";
+  std::string all;
+  for (const std::string &name : mesh.content->regions.names)
+    all += (all.empty() ? "\"" : ", \"") + name + "\"";
+  return all;
+}
+
+void declare(Visitor &v, RegionCase &region, const MeshCase &mesh) {
+  v.place(region.place);
+  const Key on = {
+      .name = "on",
+      .description = "region, or list of regions, of a mesh file",
+      .choices = mesh.content ? mesh.content->regions.names : std::vector<std::string>{},
+      .choices_words = "the names of a mesh file",
+      .default_words = "none",
+      .used = !mesh.box && !mesh.annulus,
+      .used_with = "mesh.file"};
+  v.key(on, &region.on);
+  v.optional({.name = "where",
+              .description = "formula: a cell belongs to the region when this is not 0 at its "
+                             "centre, as with \"y > 0.01\"",
+              .constant_in_time = true},
+             region.inside);
+  v.check("", [&]() -> std::string {
+    if (region.on.empty() == !region.inside)
+      return "give either `on`, a name in the mesh file, or `where`, a formula";
+    return "";
+  });
+  v.table({.name = "material",
+           .description = "What the region is made of; the keys are those of [material]",
+           .required = true},
+          [&](Visitor &inner) { declare(inner, region.material, dimension_of(mesh)); });
+}
+
+// A region of the mesh that no entry names has no material.
+std::string uncovered_complaint(const std::vector<RegionCase> &regions, const MeshCase &mesh) {
+  if (!mesh.content || regions.empty())
+    return "";
+  for (const RegionCase &region : regions)
+    if (region.inside)
+      return "";  // to be seen cell by cell
+  for (const std::string &name : mesh.content->regions.names)
+    if (std::none_of(regions.begin(), regions.end(), [&](const RegionCase &region) {
+          return std::find(region.on.begin(), region.on.end(), name) != region.on.end();
+        }))
+      return fmt::format("no entry says what \"{}\" is made of; the mesh has the regions {}", name,
+                         all_regions(mesh));
+  return "";
+}
+
+void declare_regions(Visitor &v, std::vector<RegionCase> &regions, const MeshCase &mesh) {
+  const Key key = {.name = "region",
+                   .description =
+                       "A part of the body with a material of its own, instead of [material]. "
+                       "Every cell must be in exactly one region; where regions meet they are "
+                       "bonded"};
+  regions.resize(static_cast<std::size_t>(v.count(key, static_cast<int>(regions.size()))));
+  for (std::size_t i = 0; i < regions.size(); ++i)
+    v.entry(key, static_cast<int>(i), [&](Visitor &inner) { declare(inner, regions[i], mesh); });
+  v.check("region", [&] { return uncovered_complaint(regions, mesh); });
 }
 
 void declare(Visitor &v, TimeCase &time) {
@@ -295,13 +418,30 @@ void declare(Visitor &v, TimeCase &time) {
 }
 
 Key on_sides(const std::string &description, const MeshCase &mesh) {
+  std::vector<std::string> names = side_names(mesh);
+  if (mesh.content)  // a complaint of their own awaits those that lie inside
+    for (const std::string &name : mesh.content->inner_names())
+      names.push_back(name);
   return {.name = "on",
           .description = description,
           .required = true,
-          .choices = side_names(mesh),
+          .choices = names,
           .choices_words =
               "left, right, bottom, top, in 3D also front, back, of a box; inner, "
-              "outer, in 3D also bottom, top, of an annulus"};
+              "outer, in 3D also bottom, top, of an annulus; the names of a mesh file"};
+}
+
+// Of names in a mesh file that lie inside, where a condition would mean something else.
+std::string inside_complaint(const std::vector<std::string> &on, const MeshCase &mesh) {
+  if (!mesh.content)
+    return "";
+  const std::vector<std::string> inner = mesh.content->inner_names();
+  for (const std::string &name : on)
+    if (std::find(inner.begin(), inner.end(), name) != inner.end())
+      return fmt::format(
+          "\"{}\" lies inside the body, at least in part; conditions are possible on its boundary",
+          name);
+  return "";
 }
 
 void declare_mechanics(Visitor &v, BoundaryCase &boundary, int dimension) {
@@ -323,6 +463,7 @@ void declare(Visitor &v, BoundaryCase &boundary, const MeshCase &mesh, int dimen
   v.place(boundary.where);
   v.key(on_sides("boundary, or list of boundaries, that the conditions hold on", mesh),
         &boundary.on);
+  v.check("on", [&] { return inside_complaint(boundary.on, mesh); });
   declare_mechanics(v, boundary, dimension);
   v.optional({.name = "potential", .description = "prescribed electric potential", .unit = "V"},
              boundary.potential);
@@ -387,6 +528,7 @@ void declare(Visitor &v, ContactCase &contact, const MeshCase &mesh) {
   v.place(contact.where);
   v.key(on_sides("boundary, or list of boundaries, in contact with the foundation", mesh),
         &contact.on);
+  v.check("on", [&] { return inside_complaint(contact.on, mesh); });
   v.key({.name = "normal",
          .description = "bilateral: contact is never lost, u_nu = 0 (9)",
          .choices = {"bilateral"},
@@ -594,6 +736,27 @@ void declare_contact(Visitor &v, std::optional<ContactCase> &contact, const Mesh
   v.table(key, [&](Visitor &inner) { declare(inner, *contact, mesh); });
 }
 
+void declare_material(Visitor &v, Case &c) {
+  declare_regions(v, c.regions, c.mesh);
+  const Key key = {
+      .name = "material",
+      .description =
+          "What the whole body is made of: constants of (1)-(3) in crystal axes, sigma = F eps(u) "
+          "- "
+          "E^T E(phi) - M theta, D = E eps(u) + beta E(phi) + P theta, q = -K grad theta, with "
+          "E(phi) = -grad phi. Each of them may be given in the stress-charge form (c, e, "
+          "permittivity at constant strain) or in the strain-charge form of data sheets (s, d, "
+          "permittivity at constant stress), from which the first is computed. What is not given "
+          "is taken from the library's entry; without an entry it must be given",
+      .required = c.regions.empty()};
+  const bool given = v.given(key, c.regions.empty());
+  if (given)
+    v.table(key, [&](Visitor &inner) { declare(inner, c.material, c.dimension); });
+  v.check("material", [&] {
+    return given && !c.regions.empty() ? "stands beside [[region]]; a body has either of them" : "";
+  });
+}
+
 }  // namespace
 
 void declare(Visitor &v, Case &c) {
@@ -601,14 +764,7 @@ void declare(Visitor &v, Case &c) {
   v.table({.name = "mesh", .description = "The body's shape and its cells", .required = true},
           [&](Visitor &inner) { declare(inner, c.mesh); });
   c.dimension = dimension_of(c.mesh);
-  v.table({.name = "material",
-           .description =
-               "Constants of (1)-(3) in crystal axes, in the stress-charge form at constant "
-               "strain: sigma = F eps(u) - E^T E(phi) - M theta, D = E eps(u) + beta E(phi) + "
-               "P theta, q = -K grad theta, with E(phi) = -grad phi. What is not given is "
-               "taken from the library's entry; without an entry it must be given",
-           .required = true},
-          [&](Visitor &inner) { declare(inner, c.material, c.dimension); });
+  declare_material(v, c);
   v.table({.name = "time", .description = "The simulated time", .required = true},
           [&](Visitor &inner) { declare(inner, c.time); });
   declare_boundaries(v, c.boundaries, c.mesh, c.dimension);

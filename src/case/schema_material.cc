@@ -1,70 +1,113 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 
+#include "tourmaline/case/given.h"
 #include "tourmaline/case/schema.h"
+#include "tourmaline/case/symmetry.h"
 
 namespace tourmaline::casefile {
 
 namespace {
 
-struct Constant {
-  Key key;
-  std::string tensor;  ///< the key that gives the whole tensor; empty when there is none
-};
+const char *axes_words(const std::string &indices) {
+  static const std::map<std::string, const char *> words{{"11", "along axis 1"},
+                                                         {"22", "along axis 2"},
+                                                         {"33", "along axis 3"},
+                                                         {"12", "between axes 1 and 2"},
+                                                         {"13", "between axes 1 and 3"},
+                                                         {"23", "between axes 2 and 3"},
+                                                         {"14", "between axis 1 and the shear 23"},
+                                                         {"44", "of the shear 23"},
+                                                         {"55", "of the shear 13"},
+                                                         {"66", "of the shear 12"}};
+  return words.at(indices);
+}
 
-// The constants of a crystal of class 6mm (and of poled ceramics) with the axis 3 as its axis of
-// symmetry. Signs as in (1)-(3): sigma = F eps - E^T E - M theta, D = E eps + beta E + P theta.
-const std::vector<Constant> &named_constants() {
-  static const std::vector<Constant> all = {
-      {{"c11", "stiffness along axis 1 (and 2)", "Pa", false, positive()}, "stiffness"},
-      {{"c12", "stiffness between axes 1 and 2", "Pa"}, "stiffness"},
-      {{"c13", "stiffness between axis 3 and axis 1 (and 2)", "Pa"}, "stiffness"},
-      {{"c33", "stiffness along axis 3", "Pa", false, positive()}, "stiffness"},
-      {{"c44", "shear stiffness in planes through axis 3", "Pa", false, positive()}, "stiffness"},
-      {{"e31", "charge along axis 3 for a strain along axis 1", "C/m^2"}, "piezoelectric"},
-      {{"e33", "charge along axis 3 for a strain along axis 3", "C/m^2"}, "piezoelectric"},
-      {{"e15", "charge along axis 1 for a shear in the plane of the axes 1 and 3", "C/m^2"},
-       "piezoelectric"},
-      {{"beta11", "permittivity across axis 3 at constant strain", "C/(V m)", false, positive()},
-       "permittivity"},
-      {{"beta33", "permittivity along axis 3 at constant strain", "C/(V m)", false, positive()},
-       "permittivity"},
-      {{"m11", "thermal stress coefficient across axis 3: sigma = ... - m theta", "N/(K m^2)"},
-       "thermal_stress"},
-      {{"m33", "thermal stress coefficient along axis 3", "N/(K m^2)"}, "thermal_stress"},
-      {{"p3", "pyroelectric coefficient along axis 3 at constant strain: D = ... + p theta",
-        "C/(K m^2)"},
-       "pyroelectric"},
-      {{"k11", "thermal conductivity across axis 3", "W/(K m)", false, positive()}, "conductivity"},
-      {{"k33", "thermal conductivity along axis 3", "W/(K m)", false, positive()}, "conductivity"},
-      {{"density", "rho", "kg/m^3", false, positive()}, ""},
-      {{"specific_heat", "c_v; the heat capacity of (6) is rho c_v / theta_ref", "J/(kg K)", false,
-        positive()},
-       ""},
-      {{"reference_temperature",
-        "theta_ref, the absolute temperature that all others are "
-        "differences to",
-        "K", false, positive()},
-       ""},
-  };
+Key elastic(const std::string &letter, const std::string &indices) {
+  const bool stiffness = letter == "c";
+  const bool diagonal = indices[0] == indices[1];
+  return {.name = letter + indices,
+          .description = std::string(stiffness ? "stiffness " : "compliance ") +
+                         axes_words(indices) + ", at constant electric field",
+          .unit = stiffness ? "Pa" : "1/Pa",
+          .range = diagonal ? positive() : Range{}};
+}
+
+Key piezoelectric(const std::string &letter, const std::string &indices) {
+  return {.name = letter + indices,
+          .description = fmt::format("charge along axis {} for the {} {} (Voigt)", indices[0],
+                                     letter == "e" ? "strain" : "stress", indices[1]),
+          .unit = letter == "e" ? "C/m^2" : "C/N"};
+}
+
+Key diagonal(const std::string &name, const std::string &what, const std::string &unit,
+             Range range) {
+  const std::size_t digit = name.find_first_of("123");
+  return {.name = name,
+          .description = what + " " + axes_words(name.substr(digit, 2)),
+          .unit = unit,
+          .range = range};
+}
+
+void add_diagonals(std::vector<Key> &all, const std::string &letters, const std::string &suffix,
+                   const std::string &what, const std::string &unit, Range range) {
+  for (const char *indices : {"11", "22", "33"})
+    all.push_back(diagonal(letters + indices + suffix, what, unit, range));
+}
+
+// Signs as in (1)-(3): sigma = F eps - E^T E - M theta, D = E eps + beta E + P theta. Which of them
+// a crystal has, its class says (symmetry.h).
+std::vector<Key> make_constants() {
+  std::vector<Key> all;
+  for (const char *letter : {"c", "s"})
+    for (const char *indices : {"11", "12", "13", "14", "22", "23", "33", "44", "55", "66"})
+      all.push_back(elastic(letter, indices));
+  all.push_back({"young", "Young's modulus of an isotropic material", "Pa", false, positive()});
+  all.push_back({"poisson", "Poisson's ratio of an isotropic material", "", false,
+                 Range{-1, 0.5, false, false}});
+  for (const char *letter : {"e", "d"})
+    for (const char *indices : {"11", "14", "15", "22", "24", "31", "32", "33"})
+      all.push_back(piezoelectric(letter, indices));
+  add_diagonals(all, "beta", "", "permittivity at constant strain", "C/(V m)", positive());
+  add_diagonals(all, "eps", "", "relative permittivity at constant strain", "", at_least(1));
+  add_diagonals(all, "eps", "_T", "relative permittivity at constant stress", "", at_least(1));
+  add_diagonals(all, "m", "", "thermal stress coefficient, sigma = ... - m theta,", "N/(K m^2)",
+                Range{});
+  add_diagonals(all, "a", "", "thermal expansion", "1/K", Range{});
+  all.push_back({"p3",
+                 "pyroelectric coefficient along axis 3 at constant strain: D = ... + p theta",
+                 "C/(K m^2)"});
+  all.push_back({"p3_T", "pyroelectric coefficient along axis 3 at constant stress", "C/(K m^2)"});
+  add_diagonals(all, "k", "", "thermal conductivity", "W/(K m)", positive());
+  all.push_back({"density", "rho", "kg/m^3", false, positive()});
+  all.push_back({"specific_heat", "c_v; the heat capacity of (6) is rho c_v / theta_ref",
+                 "J/(kg K)", false, positive()});
+  all.push_back({"reference_temperature",
+                 "theta_ref, the absolute temperature that all others are differences to", "K",
+                 false, positive()});
+  return all;
+}
+
+const std::vector<Key> &named_constants() {
+  static const std::vector<Key> all = make_constants();
   return all;
 }
 
 void declare_constants(Visitor &v, MaterialCase &material) {
-  for (const Constant &constant : named_constants()) {
-    const auto entry = material.constants.find(constant.key.name);
+  for (const Key &constant : named_constants()) {
+    const auto entry = material.constants.find(constant.name);
     std::optional<double> value;
     if (entry != material.constants.end())
       value = entry->second;
-    v.optional(constant.key, value);
+    v.optional(constant, value);
     if (value)
-      material.constants[constant.key.name] = *value;
+      material.constants[constant.name] = *value;
   }
-  v.refuse("c66",
-           "not a constant of its own: it is (c11 - c12)/2 in a material that is isotropic "
-           "about axis 3; other materials are given by `stiffness`");
 }
+
+const Length six{{6}, "one for each Voigt index"}, three{{3}, "one for each crystal axis"};
 
 void declare_mechanical_tensors(Visitor &v, MaterialCase &material) {
   v.optional(
@@ -72,35 +115,66 @@ void declare_mechanical_tensors(Visitor &v, MaterialCase &material) {
        .description = "F, instead of c11, ...: rows and columns in the Voigt order 11, 22, 33, "
                       "23, 13, 12, at constant electric field and temperature",
        .unit = "Pa",
-       .length = {{6}, "one for each Voigt index"},
+       .length = six,
        .rows = 6},
       material.stiffness);
+  v.optional({.name = "compliance",
+              .description = "inverse of `stiffness`, instead of s11, ...",
+              .unit = "1/Pa",
+              .length = six,
+              .rows = 6},
+             material.compliance);
   v.optional({.name = "piezoelectric",
               .description = "E, instead of e31, ...: a row for each axis of the field, columns in "
                              "Voigt order (for engineering shear strains)",
               .unit = "C/m^2",
-              .length = {{6}, "one for each Voigt index"},
+              .length = six,
               .rows = 3},
              material.piezoelectric);
+  v.optional({.name = "strain_coefficients",
+              .description = "d, instead of d31, ..., ordered like `piezoelectric`",
+              .unit = "C/N",
+              .length = six,
+              .rows = 3},
+             material.strain_coefficients);
+}
+
+void declare_thermal_tensors(Visitor &v, MaterialCase &material) {
   v.optional(
       {.name = "thermal_stress",
        .description = "M, instead of m11, ..., in Voigt order; positive when heating a clamped "
                       "body compresses it",
        .unit = "N/(K m^2)",
-       .length = {{6}, "one for each Voigt index"}},
+       .length = six},
       material.thermal_stress);
+  v.optional({.name = "thermal_expansion",
+              .description = "instead of a11, ..., in Voigt order (engineering shear strains)",
+              .unit = "1/K",
+              .length = six},
+             material.thermal_expansion);
+  v.optional({.name = "conductivity",
+              .description = "K, instead of k11, ...",
+              .unit = "W/(K m)",
+              .length = three,
+              .rows = 3},
+             material.conductivity);
 }
 
-void declare_other_tensors(Visitor &v, MaterialCase &material, int dimension) {
+void declare_electric_tensors(Visitor &v, MaterialCase &material, int dimension) {
   v.optional({.name = "permittivity",
               .description = "beta, instead of beta11, ..., at constant strain",
               .unit = "C/(V m)",
-              .length = {{3}, "one for each crystal axis"},
+              .length = three,
               .rows = 3},
              material.permittivity);
+  v.optional({.name = "permittivity_T",
+              .description = "the same at constant stress",
+              .unit = "C/(V m)",
+              .length = three,
+              .rows = 3},
+             material.permittivity_T);
   // In the plane of the axes 1 and 3 nobody wants to write the second entry.
-  const Length pyroelectric = dimension == 2 ? Length{{2, 3}, "[p1, p3] or [p1, p2, p3]"}
-                                             : Length{{3}, "one for each crystal axis"};
+  const Length pyroelectric = dimension == 2 ? Length{{2, 3}, "[p1, p3] or [p1, p2, p3]"} : three;
   v.optional(
       {.name = "pyroelectric",
        .description = "P, instead of p3, at constant strain: [p1, p2, p3], in two dimensions "
@@ -108,30 +182,54 @@ void declare_other_tensors(Visitor &v, MaterialCase &material, int dimension) {
        .unit = "C/(K m^2)",
        .length = pyroelectric},
       material.pyroelectric);
-  v.optional({.name = "conductivity",
-              .description = "K, instead of k11, ...",
-              .unit = "W/(K m)",
-              .length = {{3}, "one for each crystal axis"},
-              .rows = 3},
-             material.conductivity);
+  v.optional({.name = "pyroelectric_T",
+              .description = "the same at constant stress",
+              .unit = "C/(K m^2)",
+              .length = pyroelectric},
+             material.pyroelectric_T);
 }
 
-bool has_tensor(const MaterialCase &material, const std::string &name) {
-  return (name == "stiffness" && material.stiffness) ||
-         (name == "piezoelectric" && material.piezoelectric) ||
-         (name == "permittivity" && material.permittivity) ||
-         (name == "thermal_stress" && material.thermal_stress) ||
-         (name == "pyroelectric" && material.pyroelectric) ||
-         (name == "conductivity" && material.conductivity);
+// What is given, by kind and form, with the key that says so.
+std::map<std::string, std::map<std::string, std::string>> given_forms(
+    const MaterialCase &material) {
+  std::map<std::string, std::map<std::string, std::string>> given;
+  const auto add = [&](const std::string &key) {
+    if (const ConstantForm form = form_of(key); !form.kind.empty())
+      given[form.kind].try_emplace(form.form, key);
+  };
+  for (const auto &[key, value] : material.constants)
+    add(key);
+  for (const auto &[key, is_given] : given_tensors(material))
+    if (is_given)
+      add(key);
+  return given;
 }
 
-void check_given_once(Visitor &v, const MaterialCase &material) {
-  for (const Constant &constant : named_constants())
-    v.check(constant.key.name, [&]() -> std::string {
-      if (!material.constants.contains(constant.key.name) || !has_tensor(material, constant.tensor))
-        return "";
-      return fmt::format("given twice, here and in `{}`", constant.tensor);
-    });
+// One constant in two forms would have two values.
+std::string twice_complaint(const MaterialCase &material, const std::string &key) {
+  if (!material.constants.contains(key))
+    return "";
+  const ConstantForm own = form_of(key);
+  const auto given = given_forms(material);
+  if (const auto kind = given.find(own.kind); kind != given.end())
+    for (const auto &[form, other] : kind->second)
+      if (form != own.form)
+        return fmt::format("given twice, here and in `{}`; give all of one kind in one form",
+                           other);
+  return "";
+}
+
+std::string class_complaint(const MaterialCase &material, const std::string &key) {
+  if (!material.constants.contains(key) || material.library)
+    return "";  // of an entry, the class is not known here
+  return absence(material.symmetry.value_or("6mm"), key);
+}
+
+void check_constants(Visitor &v, const MaterialCase &material) {
+  for (const Key &constant : named_constants()) {
+    v.check(constant.name, [&] { return class_complaint(material, constant.name); });
+    v.check(constant.name, [&] { return twice_complaint(material, constant.name); });
+  }
 }
 
 double length_of(const std::vector<double> &direction) {
@@ -146,10 +244,19 @@ std::string direction_complaint(const std::vector<double> &direction) {
   return usable ? "" : "is no direction; its length must not be 0";
 }
 
+// Nothing where the direction depends on the place, which is looked at cell by cell.
+std::vector<double> numbers(const FormulaVector &direction) {
+  std::vector<double> all;
+  for (const Formula &entry : direction)
+    if (entry.is_number())
+      all.push_back(entry.value({}, 0));
+  return all.size() == direction.size() ? all : std::vector<double>{};
+}
+
 // `poling` as given, or the last axis, which is its default.
 std::vector<double> poling_of(const MaterialCase &material, int dimension) {
   if (!material.poling.empty())
-    return material.poling;
+    return numbers(material.poling);
   std::vector<double> last(static_cast<std::size_t>(dimension), 0.0);
   last.back() = 1;
   return last;
@@ -169,8 +276,10 @@ std::string axis_complaint(const MaterialCase &material, int dimension) {
 
 void declare_orientation(Visitor &v, MaterialCase &material, int dimension) {
   v.key({.name = "poling",
-         .description = "direction of the crystal's axis 3",
+         .description = "direction of the crystal's axis 3, of any length; formulas give one by "
+                        "place, as [\"x\", \"y\"] the radial one",
          .length = one_each_axis(dimension),
+         .constant_in_time = true,
          .default_words = "y in 2D, z in 3D"},
         &material.poling);
   v.key({.name = "axis1",
@@ -180,22 +289,59 @@ void declare_orientation(Visitor &v, MaterialCase &material, int dimension) {
          .length = one_each_axis(dimension),
          .default_words = "x, or any direction when x is the poling axis"},
         &material.axis1);
-  v.check("poling", [&] { return direction_complaint(material.poling); });
+  v.check("poling", [&] { return direction_complaint(numbers(material.poling)); });
   v.check("axis1", [&] { return axis_complaint(material, dimension); });
+}
+
+void declare_properties(Visitor &v, MaterialCase &material, int dimension) {
+  v.optional({.name = "symmetry",
+              .description = "class of the crystal, which says what constants there are and what "
+                             "follows from them; 6mm stands for poled ceramics too, cubic for "
+                             "crystals that are not piezoelectric",
+              .choices = symmetry_classes(),
+              .default_words = "the entry's, or 6mm"},
+             material.symmetry);
+  v.optional({.name = "conductor",
+              .description = "true: a metal, in which there is no electric field; its permittivity "
+                             "is not given (docs/theory.md, section 11)",
+              .default_words = "the entry's, or false"},
+             material.conductor);
+  declare_constants(v, material);
+  declare_mechanical_tensors(v, material);
+  declare_electric_tensors(v, material, dimension);
+  declare_thermal_tensors(v, material);
+  check_constants(v, material);
 }
 
 }  // namespace
 
 void declare(Visitor &v, MaterialCase &material, int dimension) {
-  v.optional({.name = "library",
-              .description = "entry of the built-in library (`tourmaline materials` lists them); a "
-                             "constant that is given as well overrides the entry's"},
-             material.library);
-  declare_constants(v, material);
-  declare_mechanical_tensors(v, material);
-  declare_other_tensors(v, material, dimension);
-  check_given_once(v, material);
+  v.place(material.where);
+  v.optional(
+      {.name = "library",
+       .description = "entry of the built-in library (`tourmaline materials` lists them), or "
+                      "of `file`; a constant that is given as well overrides the entry's, "
+                      "and one in another form than the entry's replaces all of its kind"},
+      material.library);
+  v.optional({.name = "file",
+              .description = "file of materials of one's own, found from the folder of the case: a "
+                             "table for each, with the keys of this one and `source`",
+              .used = material.library.has_value(),
+              .used_with = "library"},
+             material.file);
+  if (material.file)
+    v.locate("file", *material.file);
+  declare_properties(v, material, dimension);
   declare_orientation(v, material, dimension);
+}
+
+void declare_entry(Visitor &v, MaterialCase &entry) {
+  v.place(entry.where);
+  v.key({.name = "source", .description = "where the numbers are from", .required = true},
+        &entry.source);
+  v.key({.name = "not_given", .description = "constants that a case must add to this entry"},
+        &entry.not_given);
+  declare_properties(v, entry, 3);
 }
 
 }  // namespace tourmaline::casefile

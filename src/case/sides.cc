@@ -1,11 +1,16 @@
 #include "tourmaline/case/sides.h"
 
+#include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 namespace tourmaline::casefile {
 
 namespace {
+
+using Eigen::Vector3d;
 
 std::vector<SidePoint> points_on(const Box &box, const Side &side) {
   std::vector<SidePoint> all;
@@ -52,6 +57,39 @@ std::vector<SidePoint> points_on(const Annulus &ring, const std::string &side) {
   return all;
 }
 
+// The facet's normal, as long as the facet is large, outward or not.
+Vector3d normal_of(const MeshFile &mesh, const std::uint32_t *at) {
+  const auto point = [&](std::size_t i) {
+    return Eigen::Map<const Vector3d>(mesh.points[at[i]].data());
+  };
+  const Vector3d along = point(1) - point(0);
+  return mesh.dimension == 2 ? Vector3d(along.y(), -along.x(), 0)
+                             : Vector3d(along.cross(point(2) - point(0)));
+}
+
+// All vertices, each with the mean of its facets' normals; these need not be outward here.
+std::vector<SidePoint> points_on(const MeshFile &mesh, const std::string &side) {
+  const std::vector<int> sets = mesh.boundaries.sets_with(side);
+  const std::size_t each = mesh.vertices_per_facet();
+  std::map<std::uint32_t, Vector3d> normals;
+  for (std::size_t facet = 0; facet < mesh.n_facets(); ++facet) {
+    if (std::find(sets.begin(), sets.end(), mesh.boundaries.set_of[facet]) == sets.end())
+      continue;
+    const std::uint32_t *at = &mesh.facets[facet * each];
+    const Vector3d normal = normal_of(mesh, at);
+    for (std::size_t i = 0; i < each; ++i) {
+      Vector3d &mean = normals.try_emplace(at[i], Vector3d::Zero()).first->second;
+      mean += mean.dot(normal) < 0 ? Vector3d(-normal) : normal;
+    }
+  }
+  std::vector<SidePoint> all;
+  for (const auto &[vertex, mean] : normals) {
+    const Vector3d normal = mean.normalized();
+    all.push_back({mesh.points[vertex], {normal.x(), normal.y(), normal.z()}});
+  }
+  return all;
+}
+
 }  // namespace
 
 const std::vector<Side> &sides(int dimension) {
@@ -68,6 +106,8 @@ std::vector<std::string> side_names(const MeshCase &mesh) {
   if (mesh.annulus)
     return dimension == 2 ? std::vector<std::string>{"inner", "outer"}
                           : std::vector<std::string>{"inner", "outer", "bottom", "top"};
+  if (mesh.content)
+    return mesh.content->boundary_names();
   std::vector<std::string> names;
   for (const Side &side : sides(dimension))
     names.push_back(side.name);
@@ -77,6 +117,8 @@ std::vector<std::string> side_names(const MeshCase &mesh) {
 std::vector<SidePoint> points_on(const MeshCase &mesh, const std::string &name) {
   if (mesh.annulus)
     return points_on(*mesh.annulus, name);
+  if (mesh.content)
+    return points_on(*mesh.content, name);
   for (const Side &side : sides(dimension_of(mesh)))
     if (mesh.box && side.name == name)
       return points_on(*mesh.box, side);

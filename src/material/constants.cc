@@ -2,53 +2,27 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "tourmaline/case/given.h"
+#include "tourmaline/case/symmetry.h"
 #include "tourmaline/error.h"
+#include "tourmaline/material/crystal_class.h"
 #include "tourmaline/material/library.h"
 
 namespace tourmaline::material {
 
 namespace {
 
-using Named = std::map<std::string, double>;
+using casefile::MaterialCase;
 
-double need(const Named &named, const char *constant) {
-  const auto found = named.find(constant);
-  if (found == named.end())
-    throw CaseError(
-        fmt::format("[material] {} is missing: give it, or a library entry that has it "
-                    "(`tourmaline materials` lists them)",
-                    constant));
-  return found->second;
+std::string where_of(const MaterialCase &given) {
+  return given.where.empty() ? "[material]" : given.where;
 }
 
-double or_zero(const Named &named, const char *constant) {
-  const auto found = named.find(constant);
-  return found == named.end() ? 0 : found->second;
-}
-
-// Class 6mm: five elastic constants, c66 = (c11 - c12) / 2.
-Stiffness hexagonal_stiffness(const Named &named) {
-  const double c11 = need(named, "c11"), c12 = need(named, "c12"), c13 = need(named, "c13");
-  const double c33 = need(named, "c33"), c44 = need(named, "c44");
-  Stiffness c = Stiffness::Zero();
-  c.topLeftCorner<3, 3>() << c11, c12, c13, c12, c11, c13, c13, c13, c33;
-  c.diagonal().tail<3>() << c44, c44, (c11 - c12) / 2;
-  return c;
-}
-
-Piezoelectric hexagonal_piezoelectric(const Named &named) {
-  const double e31 = or_zero(named, "e31"), e33 = or_zero(named, "e33");
-  const double e15 = or_zero(named, "e15");
-  Piezoelectric e = Piezoelectric::Zero();
-  e(0, 4) = e(1, 3) = e15;
-  e.row(2).head<3>() << e31, e31, e33;
-  return e;
-}
-
-Tensor about_axis3(double across, double along) {
-  return Vector(across, across, along).asDiagonal();
+std::string symmetry_of(const MaterialCase &given) {
+  return given.symmetry.value_or("6mm");
 }
 
 Stiffness matrix66(const std::vector<std::vector<double>> &rows) {
@@ -80,53 +54,235 @@ Vector pyroelectric_of(const std::vector<double> &p) {
   return p.size() == 2 ? Vector(p[0], 0, p[1]) : Vector(p.at(0), p.at(1), p.at(2));
 }
 
+// What a state of the energy is made of: the names of the entries of an eigenvector.
+const std::vector<std::string> &entries(Eigen::Index size) {
+  static const std::vector<std::string> strain{"eps11",   "eps22",   "eps33",
+                                               "2 eps23", "2 eps13", "2 eps12"},
+      field{"E1", "E2", "E3", "theta"};
+  return size == 6 ? strain : field;
+}
+
+// "0.71 eps11 - 0.71 eps22": the state of unit length whose energy is least.
+template <typename Column>
+std::string state(const Column &vector) {
+  std::string text;
+  for (Eigen::Index i = 0; i < vector.size(); ++i)
+    if (std::abs(vector[i]) > 0.05 * vector.cwiseAbs().maxCoeff())
+      text +=
+          fmt::format("{}{:.2g} {}",
+                      text.empty() ? (vector[i] < 0 ? "-" : "") : (vector[i] < 0 ? " - " : " + "),
+                      std::abs(vector[i]), entries(vector.size())[i]);
+  return text;
+}
+
 template <typename Matrix>
-void need_positive(const Matrix &matrix, const char *name) {
+void need_positive(const Matrix &matrix, const char *name, const std::string &where) {
   const double size = matrix.cwiseAbs().maxCoeff();
-  if ((matrix - matrix.transpose()).cwiseAbs().maxCoeff() > 1e-12 * size)
-    throw CaseError(fmt::format("[material] {} is not symmetric", name));
+  if (!((matrix - matrix.transpose()).cwiseAbs().maxCoeff() <= 1e-12 * size))
+    throw CaseError(fmt::format("{} {} is not symmetric", where, name));
   const Eigen::SelfAdjointEigenSolver<Matrix> spectrum(matrix);
   if (spectrum.eigenvalues()(0) <= 0)
-    throw CaseError(
-        fmt::format("[material] {} is not positive definite: its smallest eigenvalue is {:.6g}; a "
-                    "stored energy "
-                    "must be positive for every state",
-                    name, spectrum.eigenvalues()(0)));
+    throw CaseError(fmt::format(
+        "{} {} is not positive definite: its smallest eigenvalue is {:.6g}, so that the state {} "
+        "would store no positive energy; a stored energy must be positive for every state",
+        where, name, spectrum.eigenvalues()(0), state(spectrum.eigenvectors().col(0).eval())));
+}
+
+// Formulas below: IEEE Std 176-1987, table 4, with D = e eps + eps^S E + p^S theta and the strain
+// s sigma + d^T E + a theta.
+class Conversion {
+ public:
+  explicit Conversion(const MaterialCase &given)
+      : given_(given), crystal_{symmetry_of(given), where_of(given), given.constants} {}
+
+  Stiffness stiffness() const {
+    if (given_.stiffness)
+      return matrix66(*given_.stiffness);
+    if (given_.compliance)
+      return inverse(matrix66(*given_.compliance));
+    return crystal_.gives("s11") ? inverse(crystal_.compliance()) : crystal_.stiffness();
+  }
+
+  Piezoelectric piezoelectric(const Stiffness &c) const {
+    if (given_.piezoelectric)
+      return matrix36(*given_.piezoelectric);
+    if (given_.strain_coefficients)
+      return matrix36(*given_.strain_coefficients) * c;
+    return gives_any("d") ? Piezoelectric(crystal_.strain_coefficients() * c)
+                          : crystal_.stress_coefficients();
+  }
+
+  Tensor permittivity(const Stiffness &c, const Piezoelectric &e) const {
+    const Tensor clamped = e * c.ldlt().solve(e.transpose());  // eps^T - eps^S
+    if (given_.permittivity)
+      return matrix33(*given_.permittivity);
+    if (given_.permittivity_T)
+      return matrix33(*given_.permittivity_T) - clamped;
+    if (crystal_.gives("eps11_T"))
+      return along_axes("eps", "_T", vacuum) - clamped;
+    return crystal_.gives("eps11") ? along_axes("eps", "", vacuum) : along_axes("beta", "", 1);
+  }
+
+  Voigt thermal_stress(const Stiffness &c) const {
+    if (given_.thermal_stress)
+      return Eigen::Map<const Voigt>(given_.thermal_stress->data());
+    if (given_.thermal_expansion)
+      return c * Eigen::Map<const Voigt>(given_.thermal_expansion->data());
+    if (gives_any("a"))
+      return c * normal(crystal_.diagonal("a"));
+    return gives_any("m") ? normal(given_in_part("m")) : Voigt(Voigt::Zero());
+  }
+
+  Vector pyroelectric(const Stiffness &c, const Piezoelectric &e, const Voigt &m) const {
+    const Vector by_expansion = e * c.ldlt().solve(m);  // p^T - p^S
+    if (given_.pyroelectric)
+      return pyroelectric_of(*given_.pyroelectric);
+    if (given_.pyroelectric_T)
+      return pyroelectric_of(*given_.pyroelectric_T) - by_expansion;
+    if (crystal_.gives("p3_T"))
+      return Vector(0, 0, crystal_.need("p3_T")) - by_expansion;
+    return {0, 0, crystal_.or_zero("p3")};
+  }
+
+  Tensor conductivity() const {
+    return given_.conductivity ? matrix33(*given_.conductivity)
+                               : Tensor(crystal_.diagonal("k").asDiagonal());
+  }
+
+  const CrystalClass &crystal() const { return crystal_; }
+
+ private:
+  bool gives_any(const std::string &letters) const {
+    return std::any_of(given_.constants.begin(), given_.constants.end(), [&](const auto &constant) {
+      return casefile::form_of(constant.first).form == letters;
+    });
+  }
+
+  Stiffness inverse(const Stiffness &compliance) const {
+    need_positive(compliance, "compliance", where_of(given_));
+    const Stiffness c = compliance.inverse();
+    return (c + c.transpose()) / 2;
+  }
+
+  Tensor along_axes(const char *letters, const char *suffix, double unit) const {
+    return Tensor((unit * crystal_.diagonal(letters, suffix)).asDiagonal());
+  }
+
+  // What is not given of m is zero.
+  Vector given_in_part(const std::string &letter) const {
+    const double along1 = crystal_.or_zero(letter + "11");
+    if (crystal_.symmetry == "isotropic" || crystal_.symmetry == "cubic")
+      return Vector::Constant(along1);
+    return {along1, crystal_.symmetry == "mm2" ? crystal_.or_zero(letter + "22") : along1,
+            crystal_.or_zero(letter + "33")};
+  }
+
+  static Voigt normal(const Vector &v) {
+    Voigt voigt;
+    voigt << v, 0, 0, 0;
+    return voigt;
+  }
+
+  static constexpr double vacuum = 8.8541878128e-12;  // CODATA 2018 [C/(V m)]
+
+  const MaterialCase &given_;
+  CrystalClass crystal_;
+};
+
+void check_class(const MaterialCase &given) {
+  for (const auto &[constant, value] : given.constants)
+    if (const std::string reason = casefile::absence(symmetry_of(given), constant); !reason.empty())
+      throw CaseError(fmt::format("{} {}: {}", where_of(given), constant, reason));
+}
+
+void check_conductor(const MaterialCase &given) {
+  const auto is_electric = [](const std::string &key) {
+    const std::string kind = casefile::form_of(key).kind;
+    return kind == "permittivity" || kind == "piezoelectric" || kind == "pyroelectric";
+  };
+  for (const auto &[key, value] : given.constants)
+    if (is_electric(key))
+      throw CaseError(fmt::format("{} {} is given for a conductor, in which there is no field",
+                                  where_of(given), key));
+  for (const auto &[key, is_given] : casefile::given_tensors(given))
+    if (is_given && is_electric(key))
+      throw CaseError(fmt::format("{} {} is given for a conductor, in which there is no field",
+                                  where_of(given), key));
 }
 
 }  // namespace
 
-Constants constants_of(const casefile::MaterialCase &asked) {
-  Named named = asked.library ? find(*asked.library).constants : Named{};
-  for (const auto &[constant, value] : asked.constants)
-    named[constant] = value;
+MaterialCase with_entry(const MaterialCase &asked) {
+  return asked.library ? casefile::merged(find(asked).given, asked) : asked;
+}
 
+std::vector<std::string> missing_constants(const MaterialCase &given) {
+  const auto says = [&](const std::string &name) {
+    const std::string kind = casefile::form_of(name).kind;
+    const auto tensors = casefile::given_tensors(given);
+    return given.constants.contains(name) ||
+           std::any_of(tensors.begin(), tensors.end(), [&](const auto &tensor) {
+             return tensor.second && casefile::form_of(tensor.first).kind == kind;
+           });
+  };
+  // A constant in another form says the same: m11 for a11, p3_T for p3.
+  const auto says_otherwise = [&](const std::string &name) {
+    const casefile::ConstantForm own = casefile::form_of(name);
+    return std::any_of(given.constants.begin(), given.constants.end(), [&](const auto &constant) {
+      const casefile::ConstantForm form = casefile::form_of(constant.first);
+      return !own.kind.empty() && form.kind == own.kind && form.form != own.form;
+    });
+  };
+  std::vector<std::string> missing;
+  for (const std::string &name : given.not_given)
+    if (!says(name) && !says_otherwise(name))
+      missing.push_back(name);
+  return missing;
+}
+
+Constants electromechanical(const MaterialCase &given) {
+  check_class(given);
+  const Conversion conversion(given);
   Constants c;
-  c.stiffness = asked.stiffness ? matrix66(*asked.stiffness) : hexagonal_stiffness(named);
-  c.piezoelectric =
-      asked.piezoelectric ? matrix36(*asked.piezoelectric) : hexagonal_piezoelectric(named);
-  c.permittivity = asked.permittivity ? matrix33(*asked.permittivity)
-                                      : about_axis3(need(named, "beta11"), need(named, "beta33"));
-  c.thermal_stress << or_zero(named, "m11"), or_zero(named, "m11"), or_zero(named, "m33"), 0, 0, 0;
-  if (asked.thermal_stress)
-    c.thermal_stress = Eigen::Map<const Voigt>(asked.thermal_stress->data());
-  c.pyroelectric = asked.pyroelectric ? pyroelectric_of(*asked.pyroelectric)
-                                      : Vector(0, 0, or_zero(named, "p3"));
-  c.conductivity = asked.conductivity ? matrix33(*asked.conductivity)
-                                      : about_axis3(need(named, "k11"), need(named, "k33"));
-  c.density = need(named, "density");
-  c.specific_heat = need(named, "specific_heat");
-  c.reference_temperature = need(named, "reference_temperature");
-  check_stored_energy(c);
+  c.stiffness = conversion.stiffness();
+  need_positive(c.stiffness, "stiffness", where_of(given));
+  if (given.conductor.value_or(false)) {
+    check_conductor(given);
+    return c;
+  }
+  c.piezoelectric = conversion.piezoelectric(c.stiffness);
+  c.permittivity = conversion.permittivity(c.stiffness, c.piezoelectric);
   return c;
 }
 
-void check_stored_energy(const Constants &constants) {
+Constants constants_of(const MaterialCase &asked) {
+  const MaterialCase given = with_entry(asked);
+  if (const auto missing = missing_constants(given); !missing.empty())
+    throw CaseError(fmt::format("{} \"{}\" has no published value for {}: the case must give it",
+                                where_of(given), given.library.value_or(""),
+                                fmt::join(missing, ", ")));
+  Constants c = electromechanical(given);
+  const Conversion conversion(given);
+  c.conductor = given.conductor.value_or(false);
+  c.thermal_stress = conversion.thermal_stress(c.stiffness);
+  if (!c.conductor)
+    c.pyroelectric = conversion.pyroelectric(c.stiffness, c.piezoelectric, c.thermal_stress);
+  c.conductivity = conversion.conductivity();
+  c.density = conversion.crystal().need("density");
+  c.specific_heat = conversion.crystal().need("specific_heat");
+  c.reference_temperature = conversion.crystal().need("reference_temperature");
+  check_stored_energy(c, where_of(given));
+  return c;
+}
+
+void check_stored_energy(const Constants &constants, const std::string &where) {
   if (!(constants.heat_capacity() > 0) || !std::isfinite(constants.heat_capacity()))
-    throw CaseError("[material] density, specific_heat and reference_temperature must be positive");
-  need_positive(constants.stiffness, "stiffness");
-  need_positive(constants.permittivity, "permittivity");
-  need_positive(constants.conductivity, "conductivity");
+    throw CaseError(where + " density, specific_heat and reference_temperature must be positive");
+  need_positive(constants.stiffness, "stiffness", where);
+  need_positive(constants.conductivity, "conductivity", where);
+  if (constants.conductor)
+    return;
+  need_positive(constants.permittivity, "permittivity", where);
   // The electro-thermal part in units in which permittivity and heat capacity are about 1.
   const double volt = 1 / std::sqrt(constants.permittivity.trace() / 3);
   const double kelvin = 1 / std::sqrt(constants.heat_capacity());
@@ -137,7 +293,8 @@ void check_stored_energy(const Constants &constants) {
   energy(3, 3) = 1;
   need_positive(
       energy,
-      "the electro-thermal energy [permittivity pyroelectric; pyroelectric^T rho c_v / theta_ref]");
+      "the electro-thermal energy [permittivity pyroelectric; pyroelectric^T rho c_v / theta_ref]",
+      where);
 }
 
 }  // namespace tourmaline::material

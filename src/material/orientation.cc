@@ -9,7 +9,7 @@ namespace tourmaline::material {
 namespace {
 
 Vector direction(const std::vector<double> &given, const Vector &otherwise, const char *key,
-                 int dimension) {
+                 int dimension, const std::array<double, 3> &place) {
   if (given.empty())
     return otherwise;
   if (static_cast<int>(given.size()) != dimension)
@@ -18,8 +18,18 @@ Vector direction(const std::vector<double> &given, const Vector &otherwise, cons
   Vector v = Vector::Zero();
   std::copy(given.begin(), given.end(), v.data());
   if (!(v.norm() > 0))
-    throw CaseError(fmt::format("[material] {} is zero; it must be a direction", key));
+    throw CaseError(
+        fmt::format("[material] {} is zero at ({:g}, {:g}, {:g}); it must be a direction", key,
+                    place[0], place[1], place[2]));
   return v.normalized();
+}
+
+std::vector<double> numbers(const casefile::FormulaVector &formulas,
+                            const std::array<double, 3> &place) {
+  std::vector<double> all;
+  for (const casefile::Formula &formula : formulas)
+    all.push_back(formula.value(place, 0));
+  return all;
 }
 
 // In 2D the crystal's axis 2 is the plane's normal, so axis 1 follows from the poling axis alone.
@@ -45,10 +55,11 @@ Stiffness bond(const Tensor &r) {
 
 }  // namespace
 
-Tensor crystal_axes(const casefile::MaterialCase &asked, int dimension) {
+Tensor crystal_axes(const casefile::MaterialCase &asked, int dimension,
+                    const std::array<double, 3> &place) {
   const Vector up = dimension == 2 ? Vector::UnitY() : Vector::UnitZ();
-  const Vector axis3 = direction(asked.poling, up, "poling", dimension);
-  Vector axis1 = direction(asked.axis1, default_axis1(axis3, dimension), "axis1", dimension);
+  const Vector axis3 = direction(numbers(asked.poling, place), up, "poling", dimension, place);
+  Vector axis1 = direction(asked.axis1, default_axis1(axis3, dimension), "axis1", dimension, place);
   axis1 -= axis1.dot(axis3) * axis3;
   if (axis1.norm() < 1e-8)
     throw CaseError("[material] axis1 is parallel to poling; it must be another direction");

@@ -138,9 +138,9 @@ Mesh<dim> annulus(const casefile::Annulus &asked) {
   mesh.cells = std::make_unique<dealii::Triangulation<dim>>();
   mesh.cells->create_triangulation(ring.vertices(), cells, {});
   name_sides(*mesh.cells, asked);
-  mesh.boundaries = {{"inner", inner}, {"outer", outer}};
+  mesh.boundaries = {{"inner", {inner}}, {"outer", {outer}}};
   if (dim == 3)
-    mesh.boundaries.insert({{"bottom", bottom}, {"top", top}});
+    mesh.boundaries.insert({{"bottom", {bottom}}, {"top", {top}}});
   return mesh;
 }
 

@@ -64,7 +64,7 @@ Mesh<dim> box(const casefile::Box &asked) {
   name_sides(*mesh.cells, min, max);
   grade(*mesh.cells, asked);
   for (unsigned int side = 0; side < 2 * dim; ++side)
-    mesh.boundaries[side_names<dim>()[side]] = side;
+    mesh.boundaries[side_names<dim>()[side]] = {side};
   return mesh;
 }
 

@@ -1,4 +1,3 @@
-#include "tourmaline/error.h"
 #include "tourmaline/mesh/mesh.h"
 #include "tourmaline/mesh/shapes.h"
 
@@ -8,8 +7,8 @@ template <int dim>
 Mesh<dim> build(const casefile::MeshCase &asked) {
   if (asked.annulus)
     return annulus<dim>(*asked.annulus);
-  if (!asked.box)
-    throw CaseError("[mesh] file: Gmsh files are not available yet; use mesh.box");
+  if (asked.content)
+    return imported<dim>(*asked.content);
   return box<dim>(*asked.box);
 }
 

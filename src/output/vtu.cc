@@ -127,6 +127,10 @@ void VtuWriter::write(const std::filesystem::path &path, double time, const Poin
   file.append(field("strain", cells.strain, n_cells_));
   file.append(field("electric_displacement", cells.electric_displacement, n_cells_));
   file.append(field("heat_flux", cells.heat_flux, n_cells_));
+  if (!cells.region.empty()) {
+    file.append(field("region", cells.region, n_cells_));
+    file.append(field("poling", cells.poling, n_cells_));
+  }
   file.append("</CellData>\n");
   file.append(topology_);
   file.append(closing);
@@ -141,7 +145,7 @@ std::string declared(const char *name, std::string_view attributes) {
 
 }  // namespace
 
-std::string pvtu_text(double time, std::span<const std::string> pieces) {
+std::string pvtu_text(double time, std::span<const std::string> pieces, bool regions) {
   std::string text = fmt::format(
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" "
@@ -158,8 +162,10 @@ std::string pvtu_text(double time, std::span<const std::string> pieces) {
           declared("stress", tensor_components) + declared("von_mises", "") +
           declared("strain", tensor_components) +
           declared("electric_displacement", vector_components) +
-          declared("heat_flux", vector_components) + "</PCellData>\n<PPoints>\n" +
-          declared("Points", vector_components) + "</PPoints>\n";
+          declared("heat_flux", vector_components);
+  if (regions)
+    text += declared("region", "") + declared("poling", vector_components);
+  text += "</PCellData>\n<PPoints>\n" + declared("Points", vector_components) + "</PPoints>\n";
   for (const std::string &piece : pieces)
     text += fmt::format("<Piece Source=\"{}\"/>\n", piece);
   return text + "</PUnstructuredGrid>\n</VTKFile>\n";

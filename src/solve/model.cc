@@ -26,12 +26,12 @@ mesh::Mesh<dim> shared_out(mesh::Mesh<dim> mesh) {
 template <int dim>
 struct Model<dim>::Built {
   Built(const casefile::Case &asked, const std::function<mesh::Mesh<dim>()> &make_mesh)
-      : material(body_material(asked)),
+      : composition(asked),
         body(shared_out(make_mesh()), asked.mesh.degree),
         mesh_seconds(watch.lap()) {}
 
   Stopwatch watch;
-  material::Constants material;
+  material::Composition<dim> composition;
   body::Discretisation<dim> body;
   double mesh_seconds;
   Stopwatch since_mesh;
@@ -39,7 +39,7 @@ struct Model<dim>::Built {
 
 template <int dim>
 Model<dim>::Model(const casefile::Case &asked_for)
-    : Model(asked_for, Built(asked_for, [&] { return mesh::build<dim>(asked_for.mesh); })) {}
+    : Model(asked_for, Built(asked_for, [&] { return mesh::build<dim>(asked_for); })) {}
 
 template <int dim>
 Model<dim>::Model(const casefile::Case &asked_for, mesh::Mesh<dim> mesh)
@@ -49,12 +49,12 @@ template <int dim>
 Model<dim>::Model(const casefile::Case &asked_for, Built built)
     : asked(asked_for),
       step(asked.time.end / asked.time.steps),
-      material(built.material),
+      composition(std::move(built.composition)),
       body(std::move(built.body)),
-      op(body, material::restricted<dim>(material)),
+      op(body, composition),
       prescribed(body::prescribed_unknowns(body, asked.boundaries, asked.electrodes)),
       electrodes(body::electrode_nodes<dim>(prescribed, asked.electrodes)),
-      loads(body, asked, step, material.reference_temperature),
+      loads(body, asked, step, composition.reference_temperature()),
       mesh_seconds(built.mesh_seconds) {
   if (asked.contact) {
     interface = contact::interface_nodes(body, asked.contact->on);

@@ -101,7 +101,7 @@ void Recorder<dim>::put_fields(int n, std::span<const double> state) {
     return;
   parallel::together([&] {
     folder_.put_fields(n, model_.time(n), grid_, point_fields(state, nodes_),
-                       body::derived_fields(model_.body, model_.material, state));
+                       body::derived_fields(model_.body, model_.composition, state));
   });
   parallel::on_first([&] { folder_.list_fields(n, model_.time(n)); });
 }

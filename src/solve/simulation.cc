@@ -9,7 +9,7 @@
 #include "tourmaline/case/resolved.h"
 #include "tourmaline/contact/friction.h"
 #include "tourmaline/error.h"
-#include "tourmaline/material/plane.h"
+#include "tourmaline/material/composition.h"
 #include "tourmaline/output/progress.h"
 #include "tourmaline/parallel/ranks.h"
 #include "tourmaline/report/page.h"
@@ -214,11 +214,10 @@ output::Summary Simulation<dim>::summary() const {
 }  // namespace
 
 void check(const casefile::Case &asked) {
-  const material::Constants constants = body_material(asked);
   if (asked.dimension == 2)
-    material::restricted<2>(constants);
-  if (!asked.mesh.box && !asked.mesh.annulus)
-    throw CaseError(asked.source + ": [mesh] file: Gmsh files are not available yet; use mesh.box");
+    material::Composition<2>{asked};
+  else
+    material::Composition<3>{asked};
   require_memory(asked);
 }
 

@@ -116,7 +116,7 @@ TEST_P(Paper, TheHighestVonMisesStressOutsideTheSingularCornersIsInTheContactZon
     for (std::size_t i = 0; i < values.size(); ++i)
       state[4 * i + c] = values[i];
   }
-  const output::CellFields fields = body::derived_fields(model.body, model.material, state);
+  const output::CellFields fields = body::derived_fields(model.body, model.composition, state);
   const output::Grid grid = model.body.grid();
   double best = 0, best_x = 1;
   for (std::size_t cell = 0; cell < grid.n_cells(); ++cell) {

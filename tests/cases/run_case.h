@@ -4,6 +4,7 @@
 
 #include "read_table.h"
 #include "tourmaline/case/reader.h"
+#include "tourmaline/mesh/gmsh.h"
 #include "tourmaline/solve/simulation.h"
 
 namespace tourmaline::testing {
@@ -13,7 +14,8 @@ class RunCase {
  public:
   RunCase(const std::string &file, std::vector<std::string> overrides = {}) {
     overrides.push_back("output.fields=false");
-    run(casefile::read_file(std::filesystem::path(TOURMALINE_SOURCE_DIR) / file, overrides));
+    run(casefile::read_file(std::filesystem::path(TOURMALINE_SOURCE_DIR) / file, overrides,
+                            mesh::read_mesh_file));
   }
   RunCase(const casefile::Case &asked) { run(asked); }
   ~RunCase() { std::filesystem::remove_all(folder_); }

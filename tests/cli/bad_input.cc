@@ -220,7 +220,7 @@ const BadInput values[] = {
     {"floating potential", good_case_with("potential = 0\n", ""), run_it, 2, "floats"},
     {"no mesh", good_case_with("box =", "#"), run_it, 2, "no mesh"},
     {"mesh file", good_case_with("box =", "file = \"block.msh\" #"), run_it, 2,
-     "not available yet"},
+     "there is no such file"},
     {"no time", good_case_with("[time]\nend = 0.2\nsteps = 2\n", ""), run_it, 2, "time: missing"},
 };
 INSTANTIATE_TEST_SUITE_P(Values, CommandLine, testing::ValuesIn(values), in_camel_case);

@@ -113,7 +113,9 @@ TEST(Material, AnEnergyThatIsNotPositiveIsRefused) {
 
 TEST(Material, AMisspeltNameIsAnsweredWithTheNearest) {
   try {
-    find("BaTiO3-Lui2014");
+    casefile::MaterialCase asked;
+    asked.library = "BaTiO3-Lui2014";
+    find(asked);
     FAIL();
   } catch (const CaseError &error) {
     EXPECT_NE(std::string(error.what()).find("\"BaTiO3-Liu2014\""), std::string::npos);

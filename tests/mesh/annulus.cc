@@ -46,8 +46,8 @@ std::map<std::string, double> sizes_of_sides(const Mesh<dim> &mesh) {
     for (const unsigned int f : cell->face_indices())
       if (cell->face(f)->at_boundary()) {
         int named = 0;
-        for (const auto &[name, id] : mesh.boundaries)
-          if (cell->face(f)->boundary_id() == id) {
+        for (const auto &[name, ids] : mesh.boundaries)
+          if (ids.contains(cell->face(f)->boundary_id())) {
             sizes[name] += cell->face(f)->measure();
             ++named;
           }

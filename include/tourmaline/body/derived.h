@@ -9,7 +9,12 @@ namespace tourmaline::body {
 
 /// Means over each cell of strain, stress (1), D (2), q (3) and the von Mises stress of the mean
 /// stress, in the order of `Discretisation::grid`. In 2D sigma_zz follows from plane strain and
-/// enters von Mises.
+/// enters von Mises. Where materials or poling vary, the region and the direction of poling too.
+template <int dim>
+output::CellFields derived_fields(const Discretisation<dim> &body,
+                                  const material::Composition<dim> &composition,
+                                  std::span<const double> state);
+/// The same for one material everywhere, in the axes of the body.
 template <int dim>
 output::CellFields derived_fields(const Discretisation<dim> &body,
                                   const material::Constants &body_axes,

@@ -26,11 +26,13 @@ struct Quadrature {
   std::vector<double> values;
   std::vector<std::array<double, dim>> gradients;  ///< empty on facets
   std::vector<std::array<double, dim>> normals;    ///< outward nu at each point; empty on cells
+  std::size_t region = 0;                          ///< of the cell, an index of the case's regions
 
   double value(std::size_t q, std::size_t a) const { return values[q * nodes.size() + a]; }
   const std::array<double, dim> &gradient(std::size_t q, std::size_t a) const {
     return gradients[q * nodes.size() + a];
   }
+  std::array<double, 3> centre() const;
 };
 
 /// Neighbourhood of the nodes in compressed rows: node i shares a cell with column[row[i]] ...

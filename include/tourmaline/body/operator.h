@@ -6,7 +6,7 @@
 
 #include "tourmaline/body/discretisation.h"
 #include "tourmaline/case/formula.h"
-#include "tourmaline/material/plane.h"
+#include "tourmaline/material/composition.h"
 
 namespace tourmaline::body {
 
@@ -53,7 +53,9 @@ class Operator {
   static constexpr int n = Fields<dim>::count;
   using Block = Eigen::Matrix<double, n, n, Eigen::RowMajor>;
 
+  /// Of one material everywhere.
   Operator(const Discretisation<dim> &body, const material::BodyConstants<dim> &material);
+  Operator(const Discretisation<dim> &body, const material::Composition<dim> &composition);
 
   /// Adds (k_c theta, eta) on the named boundaries (18); `coefficient` is k_c [W/(K m^2)], by
   /// place.

@@ -1,17 +1,17 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "tourmaline/case/formula.h"
+#include "tourmaline/case/mesh_file.h"
 
 /// What the user asked for: plain structs, one for each table of the case file. They hold values
 /// that have been read and checked; defaults stand here and nowhere else. All values are SI.
 namespace tourmaline::casefile {
-
-enum class CellShape { triangle, quadrilateral, tetrahedron, hexahedron };
 
 int dimension_of(CellShape shape);
 const char *name_of(CellShape shape);
@@ -41,30 +41,54 @@ struct Annulus {
 struct MeshCase {
   std::optional<Box> box;
   std::optional<Annulus> annulus;
-  std::optional<std::string> file;  ///< Gmsh; physical groups name the boundaries
-  int degree = 1;                   ///< of the finite elements, 1 or 2
+  std::optional<std::string> file;          ///< Gmsh's or CAD's, absolute once it is read
+  std::optional<double> size;               ///< of the largest cells of a geometry [m]
+  double scale = 1;                         ///< the file's unit of length [m]
+  std::string unnamed = "error";            ///< error | natural: boundary facets without a name
+  int degree = 1;                           ///< of the finite elements, 1 or 2
+  std::shared_ptr<const MeshFile> content;  ///< of `file`
 };
 
 int dimension_of(const MeshCase &mesh);
 
-/// [material] Constants in crystal axes, stress-charge form at constant strain. What is not given
-/// is taken from the library's entry; without an entry it must be given.
+/// [material], [region.material], and an entry of a file of materials: constants in crystal axes,
+/// of the stress-charge or the strain-charge form. What is not given is taken from the library's
+/// entry; without an entry it must be given.
 struct MaterialCase {
+  std::string where;  ///< file and line of the table, for error texts
   std::optional<std::string> library;
-  /// scalar constants by their usual names: c11, c12, c13, c33, c44, e31, e33, e15, beta11, beta33,
-  /// m11, m33, p3, k11, k33, density, specific_heat, reference_temperature
+  std::optional<std::string> file;      ///< of materials, absolute once it is read
+  std::string source;                   ///< of an entry: where its numbers are from
+  std::vector<std::string> not_given;   ///< of an entry: what a case must add to it
+  std::optional<std::string> symmetry;  ///< one of `symmetry_classes`; 6mm when nothing says it
+  std::optional<bool> conductor;        ///< no electric field inside
+  /// scalar constants by their usual names (`constants_of_class`)
   std::map<std::string, double> constants;
-  std::optional<std::vector<std::vector<double>>> stiffness;      ///< 6x6 Voigt [Pa]
-  std::optional<std::vector<std::vector<double>>> piezoelectric;  ///< 3x6 Voigt [C/m^2]
-  std::optional<std::vector<std::vector<double>>> permittivity;   ///< 3x3 [C/(V m)]
-  std::optional<std::vector<double>> thermal_stress;              ///< 6 Voigt [N/(K m^2)]
+  std::optional<std::vector<std::vector<double>>> compliance;           ///< 6x6 Voigt [1/Pa]
+  std::optional<std::vector<std::vector<double>>> strain_coefficients;  ///< d, 3x6 Voigt [C/N]
+  std::optional<std::vector<std::vector<double>>> permittivity_T;       ///< 3x3 [C/(V m)]
+  std::optional<std::vector<double>> thermal_expansion;                 ///< 6 Voigt [1/K]
+  std::optional<std::vector<double>> pyroelectric_T;                    ///< as `pyroelectric`
+  std::optional<std::vector<std::vector<double>>> stiffness;            ///< 6x6 Voigt [Pa]
+  std::optional<std::vector<std::vector<double>>> piezoelectric;        ///< 3x6 Voigt [C/m^2]
+  std::optional<std::vector<std::vector<double>>> permittivity;         ///< 3x3 [C/(V m)]
+  std::optional<std::vector<double>> thermal_stress;                    ///< 6 Voigt [N/(K m^2)]
   std::optional<std::vector<double>> pyroelectric;  ///< (p1, p3) in 2D, or (p1, p2, p3) [C/(K m^2)]
   std::optional<std::vector<std::vector<double>>> conductivity;  ///< 3x3 [W/(K m)]
-  /// direction of the crystal's axis 3 (the poling axis); empty: y in 2D, z in 3D
-  std::vector<double> poling;
+  /// direction of the crystal's axis 3 (the poling axis), by place; empty: y in 2D, z in 3D
+  FormulaVector poling;
   /// direction of the crystal's axis 1, made orthogonal to `poling`; empty: x, or any when x is the
   /// poling axis. Matters only for crystals that are not isotropic about axis 3.
   std::vector<double> axis1;
+};
+
+/// One [[region]] entry: a part of the body, by the names in a mesh file or by a condition on the
+/// centres of the cells, and what it is made of.
+struct RegionCase {
+  std::vector<std::string> on;
+  std::optional<Formula> inside;  ///< `where` in the case file: a cell belongs to it where not zero
+  std::string place;              ///< file and line of the entry, for error texts
+  MaterialCase material;
 };
 
 struct TimeCase {
@@ -158,7 +182,8 @@ struct Case {
   std::string title;
   std::string source;  ///< the file's name, for error texts
   MeshCase mesh;
-  MaterialCase material;
+  MaterialCase material;            ///< of the whole body, when there are no regions
+  std::vector<RegionCase> regions;  ///< each cell in exactly one of them
   TimeCase time;
   std::vector<BoundaryCase> boundaries;
   std::vector<ElectrodeCase> electrodes;

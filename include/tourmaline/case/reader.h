@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tourmaline/case/case.h"
@@ -10,11 +11,21 @@ namespace tourmaline::casefile {
 
 /// Reads and checks a case file. Each override is `key.path=value`, the value as TOML, as after
 /// `--set`. Throws CaseError: one paragraph with file, line, column and key, what was given, and
-/// what is allowed. Everything is checked that needs neither the mesh nor the library of materials.
-Case read_file(const std::filesystem::path &file, const std::vector<std::string> &overrides = {});
+/// what is allowed. Everything is checked that does not need the library of materials. `mesh.file`
+/// is found from the case's own folder and read by `read_mesh`; without that only boxes are
+/// possible.
+Case read_file(const std::filesystem::path &file, const std::vector<std::string> &overrides = {},
+               const MeshFileReader &read_mesh = {});
 
 /// The same for the text of a case file; error texts call it `name`.
 Case read_text(const std::string &text, const std::string &name,
-               const std::vector<std::string> &overrides = {});
+               const std::vector<std::string> &overrides = {},
+               const MeshFileReader &read_mesh = {});
+
+/// The entries of a file of materials, by name. Throws CaseError.
+std::vector<std::pair<std::string, MaterialCase>> read_materials(const std::filesystem::path &file);
+/// The same for its text; error texts call it `name`.
+std::vector<std::pair<std::string, MaterialCase>> read_materials(const std::string &text,
+                                                                 const std::string &name);
 
 }  // namespace tourmaline::casefile

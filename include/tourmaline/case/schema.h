@@ -85,6 +85,10 @@ class Visitor {
   /// A condition on several keys: `complaint` returns what is wrong with `name` (empty: the table),
   /// or nothing. Only called once all keys declared before have been read.
   virtual void check(const std::string & /*name*/, const Complaint & /*complaint*/) {}
+  /// The mesh that a file holds, so that what follows can be checked against its names.
+  virtual void load(MeshCase & /*mesh*/) {}
+  /// A file's name, to be found from the folder of the case.
+  virtual void locate(const std::string & /*name*/, std::string & /*file*/) {}
   /// Where this table stands, for later error texts.
   virtual void place(std::string & /*where*/) {}
 
@@ -103,7 +107,10 @@ class Visitor {
 /// visited.
 void declare(Visitor &visitor, Case &asked);
 
-/// The tables of [material], declared in a file of their own.
+/// [material] and [region.material], declared in a file of their own.
 void declare(Visitor &visitor, MaterialCase &material, int dimension);
+
+/// An entry of a file of materials: the same keys but those that depend on the body, and `source`.
+void declare_entry(Visitor &visitor, MaterialCase &entry);
 
 }  // namespace tourmaline::casefile

@@ -20,7 +20,7 @@ struct Side {
 const std::vector<Side> &sides(int dimension);
 
 /// The sides of the case's mesh: of a box as above; of an annulus inner, outer, in three dimensions
-/// also bottom and top.
+/// also bottom and top; of a mesh file the names it gives to boundaries.
 std::vector<std::string> side_names(const MeshCase &mesh);
 
 /// A place on a side of the mesh [m] with the outward unit normal there.
@@ -30,7 +30,8 @@ struct SidePoint {
 };
 
 /// So many places on a side that an affine function is zero on the side when it is zero there, and
-/// so is the normal component of a rigid motion: corners of a box, points of an annulus' circles.
+/// so is the normal component of a rigid motion: corners of a box, points of an annulus' circles,
+/// all vertices of a mesh file.
 std::vector<SidePoint> points_on(const MeshCase &mesh, const std::string &side);
 
 }  // namespace tourmaline::casefile

@@ -2,6 +2,8 @@
 
 #include <Eigen/Dense>
 #include <array>
+#include <string>
+#include <vector>
 
 #include "tourmaline/case/case.h"
 
@@ -27,19 +29,31 @@ struct Constants {
   double density = 0;                                   ///< rho [kg/m^3]
   double specific_heat = 0;                             ///< c_v [J/(kg K)]
   double reference_temperature = 0;                     ///< theta_ref [K]
+  bool conductor = false;  ///< no field inside; the electric constants are zero
 
   /// alpha = rho c_v / theta_ref of (6) [J/(K^2 m^3)]
   double heat_capacity() const { return density * specific_heat / reference_temperature; }
 };
 
 /// The constants that a case asks for, in crystal axes: the library's entry, then what the case
-/// gives. Throws CaseError for an unknown entry, a missing constant, or a stored energy that is not
+/// gives, all in stress-charge form at constant strain. Throws CaseError for an unknown entry, a
+/// missing constant, one that the crystal's class does not have, or a stored energy that is not
 /// positive.
 Constants constants_of(const casefile::MaterialCase &asked);
 
+/// The entry of the library, or of the case's own file of materials, with what the case gives laid
+/// over it; the case itself when it names none.
+casefile::MaterialCase with_entry(const casefile::MaterialCase &asked);
+
+/// The electromechanical part of `constants_of` for a material with its entry: elasticity,
+/// piezoelectricity and permittivity; the others stay zero.
+Constants electromechanical(const casefile::MaterialCase &given);
+/// Those of the entry's `not_given` that the case does not give either.
+std::vector<std::string> missing_constants(const casefile::MaterialCase &given);
+
 /// Throws CaseError unless elasticity, conductivity and the electro-thermal energy
 /// [beta P; P^T alpha] are symmetric and positive definite: the operator of a step is then
-/// symmetric quasi-definite, and a step has exactly one solution.
-void check_stored_energy(const Constants &constants);
+/// symmetric quasi-definite, and a step has exactly one solution. `where` begins the error's text.
+void check_stored_energy(const Constants &constants, const std::string &where = "[material]");
 
 }  // namespace tourmaline::material

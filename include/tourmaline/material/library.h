@@ -1,29 +1,25 @@
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
-#include "tourmaline/material/constants.h"
+#include "tourmaline/case/case.h"
 
 namespace tourmaline::material {
 
-/// A built-in material of class 6mm (isotropic about axis 3): named constants in SI units with
-/// source.
+/// A material by name, as the built-in library or a file of materials gives it.
 struct Entry {
-  std::string name, source;
-  std::map<std::string, double> constants;
+  std::string name;
+  casefile::MaterialCase given;
 };
 
+/// The built-in materials. Their text (library_text.cc) is a file of materials like a user's own.
 const std::vector<Entry> &library();
+/// Those of a file. Throws CaseError.
+std::vector<Entry> materials_in(const std::string &file);
 
-/// Throws CaseError naming the nearest entry.
-const Entry &find(const std::string &name);
-
-/// One line an entry.
-std::string describe_library();
-
-/// All constants of one entry with units, and the expanded tensors.
-std::string describe(const std::string &name);
+/// The entry that `asked.library` names, in `asked.file` or in the built-in library. Throws
+/// CaseError naming the nearest entry.
+Entry find(const casefile::MaterialCase &asked);
 
 }  // namespace tourmaline::material

@@ -4,22 +4,32 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 
 #include "tourmaline/case/case.h"
 
 namespace tourmaline::mesh {
 
-/// Cells of one shape and the boundaries by their names.
+/// Cells of one shape and the boundaries by their names. A facet has one id, but may have several
+/// names: a name stands for a set of ids.
 template <int dim>
 struct Mesh {
   std::unique_ptr<dealii::Triangulation<dim>> cells;
-  std::map<std::string, dealii::types::boundary_id> boundaries;
+  std::map<std::string, std::set<dealii::types::boundary_id>> boundaries;
   bool simplices = false;
 };
 
-/// The mesh that a case asks for. Throws CaseError when there is none of that kind.
+/// The mesh that a case asks for: a shape, or what was read from its mesh file.
 template <int dim>
 Mesh<dim> build(const casefile::MeshCase &asked);
+
+/// The same with the cells assigned to the case's regions: a cell's material id is the index of its
+/// region, 0 when the case has none. Throws CaseError for a cell in none or in several.
+template <int dim>
+Mesh<dim> build(const casefile::Case &asked);
+/// Assigns the cells of a mesh; by the names in `file`, if there is one.
+template <int dim>
+void assign_regions(Mesh<dim> &mesh, const casefile::Case &asked);
 
 }  // namespace tourmaline::mesh

@@ -2,7 +2,7 @@
 
 #include "tourmaline/mesh/mesh.h"
 
-/// The shapes that a case can describe without a mesh file.
+/// The shapes that a case can describe without a mesh file, and what is in one.
 namespace tourmaline::mesh {
 
 template <int dim>
@@ -10,5 +10,8 @@ Mesh<dim> box(const casefile::Box &asked);
 
 template <int dim>
 Mesh<dim> annulus(const casefile::Annulus &asked);
+
+template <int dim>
+Mesh<dim> imported(const casefile::MeshFile &file);
 
 }  // namespace tourmaline::mesh

@@ -30,7 +30,8 @@ class VtuWriter {
   std::string topology_;  // the elements <Points> and <Cells>
 };
 
-/// The file (.pvtu) that joins the pieces of one step, given by their names.
-std::string pvtu_text(double time, std::span<const std::string> pieces);
+/// The file (.pvtu) that joins the pieces of one step, given by their names; `regions` says whether
+/// they hold regions and poling.
+std::string pvtu_text(double time, std::span<const std::string> pieces, bool regions = false);
 
 }  // namespace tourmaline::output

@@ -5,7 +5,7 @@
 #include "tourmaline/body/operator.h"
 #include "tourmaline/case/case.h"
 #include "tourmaline/contact/interface.h"
-#include "tourmaline/material/constants.h"
+#include "tourmaline/material/composition.h"
 
 namespace tourmaline::solve {
 
@@ -13,13 +13,13 @@ namespace tourmaline::solve {
 template <int dim>
 struct Model {
   explicit Model(const casefile::Case &asked_for);
-  /// On a mesh of the caller's, whose boundaries the case names; `asked_for.mesh` says only the
-  /// degree.
+  /// On a mesh of the caller's, whose boundaries the case names, of one material; `asked_for.mesh`
+  /// says only the degree.
   Model(const casefile::Case &asked_for, mesh::Mesh<dim> mesh);
 
   casefile::Case asked;
-  double step;                   ///< k [s]
-  material::Constants material;  ///< in the axes of the body
+  double step;  ///< k [s]
+  material::Composition<dim> composition;
   body::Discretisation<dim> body;
   body::Operator<dim> op;
   std::vector<body::Prescribed> prescribed;
@@ -36,7 +36,8 @@ struct Model {
   explicit Model(const casefile::Case &asked_for, Built built);
 };
 
-/// The constants of a case in the axes of its body. Throws CaseError.
+/// The constants of a case without regions in the axes of its body, at the origin if its poling
+/// depends on the place. Throws CaseError.
 material::Constants body_material(const casefile::Case &asked);
 
 }  // namespace tourmaline::solve

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "tourmaline/case/case.h"
+
+namespace tourmaline::casefile {
+
+/// The tensors that a material may give as a whole, by their keys, and whether it does.
+std::map<std::string, bool> given_tensors(const MaterialCase &material);
+
+/// `over` laid over `entry`: a constant that `over` gives in the entry's form overrides it, one in
+/// another form (or a whole tensor) replaces all that the entry says of that kind.
+MaterialCase merged(const MaterialCase &entry, const MaterialCase &over);
+
+}  // namespace tourmaline::casefile

@@ -1,0 +1,98 @@
+#include "tourmaline/material/composition.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tourmaline/error.h"
+#include "tourmaline/material/orientation.h"
+
+namespace tourmaline::material {
+
+namespace {
+
+bool varies(const casefile::FormulaVector &direction) {
+  return std::any_of(direction.begin(), direction.end(),
+                     [](const casefile::Formula &entry) { return entry.depends_on_place(); });
+}
+
+bool is_polar(const Constants &c) {
+  return c.piezoelectric.squaredNorm() > 0 || c.pyroelectric.squaredNorm() > 0;
+}
+
+}  // namespace
+
+template <int dim>
+Composition<dim>::Composition(const casefile::Case &asked) {
+  if (asked.regions.empty())
+    add(asked.material);
+  for (const casefile::RegionCase &region : asked.regions)
+    add(region.material);
+  fill_conductors();
+  check_reference_temperatures();
+  for (Part &part : parts_)
+    if (!material::varies(part.asked.poling)) {
+      part.everywhere = rotated(part.crystal, crystal_axes(part.asked, dim));
+      part.restricted_everywhere = restricted<dim>(*part.everywhere);
+    }
+}
+
+template <int dim>
+void Composition<dim>::add(const casefile::MaterialCase &asked) {
+  parts_.push_back({asked, constants_of(asked), {}, {}});
+}
+
+template <int dim>
+void Composition<dim>::fill_conductors() {
+  double largest = 8.8541878128e-12;  // of the vacuum, for a body that is all metal
+  for (const Part &part : parts_)
+    largest = std::max(largest, part.crystal.permittivity.maxCoeff());
+  for (Part &part : parts_)
+    if (part.crystal.conductor)
+      part.crystal.permittivity = contrast * largest * Tensor::Identity();
+}
+
+template <int dim>
+void Composition<dim>::check_reference_temperatures() const {
+  for (const Part &part : parts_)
+    if (part.crystal.reference_temperature != reference_temperature())
+      throw CaseError(fmt::format(
+          "[[region]] the reference temperatures {} K and {} K of two materials differ; give all "
+          "the same `reference_temperature`, to which temperatures are differences",
+          reference_temperature(), part.crystal.reference_temperature));
+}
+
+template <int dim>
+BodyConstants<dim> Composition<dim>::at(std::size_t region, const Place &centre) const {
+  const Part &part = parts_.at(region);
+  if (part.restricted_everywhere)
+    return *part.restricted_everywhere;
+  return restricted<dim>(rotated(part.crystal, crystal_axes(part.asked, dim, centre)));
+}
+
+template <int dim>
+Constants Composition<dim>::in_space(std::size_t region, const Place &centre) const {
+  const Part &part = parts_.at(region);
+  Constants c = part.everywhere ? *part.everywhere
+                                : rotated(part.crystal, crystal_axes(part.asked, dim, centre));
+  if (c.conductor)
+    c.permittivity.setZero();
+  return c;
+}
+
+template <int dim>
+Vector Composition<dim>::poling(std::size_t region, const Place &centre) const {
+  const Part &part = parts_.at(region);
+  return is_polar(part.crystal) ? Vector(crystal_axes(part.asked, dim, centre).col(2))
+                                : Vector(Vector::Zero());
+}
+
+template <int dim>
+bool Composition<dim>::varies() const {
+  return parts_.size() > 1 || !parts_.front().everywhere;
+}
+
+template class Composition<2>;
+template class Composition<3>;
+
+}  // namespace tourmaline::material

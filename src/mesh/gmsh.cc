@@ -1,0 +1,352 @@
+#include "tourmaline/mesh/gmsh.h"
+
+#include <fmt/format.h>
+#include <gmsh.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+
+#include "tourmaline/error.h"
+#include "tourmaline/mesh/completed.h"
+
+namespace tourmaline::mesh {
+
+namespace {
+
+using casefile::CellShape;
+using casefile::Groups;
+using casefile::MeshFile;
+
+/// libgmsh between its start and its end; it keeps one model at a time for the whole process.
+class Session {
+ public:
+  Session() {
+    gmsh::initialize(0, nullptr, false);  // no settings of the user's own: same case, same mesh
+    gmsh::option::setNumber("General.Terminal", 0);
+    gmsh::logger::start();
+  }
+  ~Session() {
+    gmsh::logger::stop();  // what it holds would outlive the session
+    gmsh::finalize();
+  }
+  Session(const Session &) = delete;
+  Session &operator=(const Session &) = delete;
+
+  /// Throws CaseError with the first error that libgmsh has reported so far; it goes on after many.
+  static void check() {
+    std::vector<std::string> log;
+    gmsh::logger::get(log);
+    for (const std::string &line : log)
+      if (line.starts_with("Error"))
+        throw CaseError("Gmsh says: " + line);
+  }
+};
+
+enum class Format { msh2, msh4, geo, cad };
+
+std::string extension(const std::filesystem::path &file) {
+  std::string text = file.extension().string();
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+// libgmsh takes what there is of a file that was cut off.
+void check_whole(std::ifstream &in) {
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (text.find("$EndNodes") == std::string::npos || text.find("$EndElements") == std::string::npos)
+    throw CaseError("is not whole: it does not end its lists of nodes and elements");
+}
+
+Format format_of_msh(const std::filesystem::path &file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string head;
+  double version = 0;
+  if (!(in >> head >> version) || head != "$MeshFormat")
+    throw CaseError("is no Gmsh file: it does not begin with $MeshFormat");
+  const bool old = version >= 2 && version < 3;
+  if (!old && !(version >= 4 && version < 5))
+    throw CaseError(fmt::format("has Gmsh's format {}; 2.2 and 4.1 can be read", version));
+  check_whole(in);
+  return old ? Format::msh2 : Format::msh4;
+}
+
+Format format_of(const std::filesystem::path &file) {
+  const std::string ending = extension(file);
+  if (ending == ".msh")
+    return format_of_msh(file);
+  if (ending == ".geo" || ending == ".geo_unrolled")
+    return Format::geo;
+  for (const char *cad : {".step", ".stp", ".iges", ".igs", ".brep"})
+    if (ending == cad)
+      return Format::cad;
+  throw CaseError(
+      "is of an unknown kind; .msh (mesh), .geo, .step, .stp, .iges, .igs and .brep (geometries) "
+      "can be read");
+}
+
+// libgmsh does not see what stands behind the last end of a line.
+void check_last_line(Format format, const std::string &file) {
+  if (format != Format::geo)
+    return;
+  std::ifstream in(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (!text.empty() && text.back() != '\n')
+    throw CaseError("does not end with the end of a line; Gmsh would not see its last line");
+}
+
+void check_size(Format format, const casefile::MeshCase &asked) {
+  if (format == Format::cad && !asked.size)
+    throw CaseError("is a geometry without a mesh; give the size of its cells, mesh.size");
+  if (format != Format::geo && format != Format::cad && asked.size)
+    throw CaseError("is a mesh already; mesh.size is for geometries (.geo, .step, ...)");
+}
+
+// Solids that touch get common faces, so that they are bonded.
+void join_solids() {
+  gmsh::vectorpair solids;
+  gmsh::model::getEntities(solids, gmsh::model::getDimension());
+  if (solids.size() < 2)
+    return;
+  gmsh::model::occ::removeAllDuplicates();
+  gmsh::model::occ::synchronize();
+}
+
+void generate(Format format, const casefile::MeshCase &asked) {
+  if (format == Format::cad)
+    join_solids();
+  if (asked.size)
+    gmsh::option::setNumber("Mesh.MeshSizeMax", *asked.size / asked.scale);
+  gmsh::model::mesh::generate(gmsh::model::getDimension());
+}
+
+void open(Format format, const casefile::MeshCase &asked) {
+  // A format-2 file may give elements of one entity to different groups, which libgmsh would give
+  // to all of them. With the two tags switched an entity is a group.
+  gmsh::option::setNumber("Mesh.SwitchElementTags", format == Format::msh2 ? 1 : 0);
+  // CAD files know their unit.
+  if (format == Format::cad)
+    gmsh::option::setString("Geometry.OCCTargetUnit", "M");
+  gmsh::open(*asked.file);
+  Session::check();
+  if (format == Format::geo || format == Format::cad)
+    generate(format, asked);
+  Session::check();
+}
+
+/// Names of the groups that an entity is in.
+class Names {
+ public:
+  explicit Names(Format format) : format_(format) {}
+
+  std::vector<std::string> of(int dimension, int entity) const {
+    if (format_ == Format::cad)
+      return {cad_name(dimension, entity)};
+    if (format_ == Format::msh2)
+      return entity == 0 ? std::vector<std::string>{} : std::vector{group(dimension, entity)};
+    std::vector<int> tags;
+    gmsh::model::getPhysicalGroupsForEntity(dimension, entity, tags);
+    std::vector<std::string> names;
+    for (const int tag : tags)
+      names.push_back(group(dimension, tag));
+    return names;
+  }
+
+ private:
+  static std::string group(int dimension, int tag) {
+    std::string name;
+    gmsh::model::getPhysicalName(dimension, tag, name);
+    if (name.find_first_of(",\"\n") != std::string::npos)
+      throw CaseError("has a physical group called " + name +
+                      "; names may not contain commas, quotes and ends of lines, as result files "
+                      "list them");
+    return name.empty() ? std::to_string(std::abs(tag)) : name;
+  }
+
+  static std::string cad_name(int dimension, int entity) {
+    std::string label;
+    gmsh::model::getEntityName(dimension, entity, label);
+    constexpr const char *kind[] = {"point", "curve", "surface", "volume"};
+    return label.empty() ? fmt::format("{} {}", kind[dimension], entity)
+                         : label.substr(label.find_last_of('/') + 1);
+  }
+
+  Format format_;
+};
+
+/// Elements of one dimension in the order of the file.
+struct Elements {
+  std::map<int, std::size_t> count;  // by Gmsh's type
+  std::vector<std::size_t> nodes;    // tags
+  Groups groups;
+};
+
+std::vector<int> members(Groups &groups, const std::vector<std::string> &names) {
+  std::vector<int> indices;
+  for (const std::string &name : names) {
+    const auto found = std::find(groups.names.begin(), groups.names.end(), name);
+    indices.push_back(static_cast<int>(found - groups.names.begin()));
+    if (found == groups.names.end())
+      groups.names.push_back(name);
+  }
+  std::sort(indices.begin(), indices.end());
+  indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+  return indices;
+}
+
+Elements elements_of(int dimension, const Names &names) {
+  Elements all;
+  gmsh::vectorpair entities;
+  gmsh::model::getEntities(entities, dimension);
+  for (const auto &[dim, entity] : entities) {
+    std::vector<int> types;
+    std::vector<std::vector<std::size_t>> tags, nodes;
+    gmsh::model::mesh::getElements(types, tags, nodes, dim, entity);
+    const int set = all.groups.set_index(members(all.groups, names.of(dim, entity)));
+    for (std::size_t i = 0; i < types.size(); ++i) {
+      all.count[types[i]] += tags[i].size();
+      all.nodes.insert(all.nodes.end(), nodes[i].begin(), nodes[i].end());
+      all.groups.set_of.insert(all.groups.set_of.end(), tags[i].size(), set);
+    }
+  }
+  return all;
+}
+
+struct Kind {
+  int type;  // Gmsh's number
+  CellShape cell;
+  int facet_type;
+  const char *name;
+};
+
+constexpr Kind kinds[] = {{2, CellShape::triangle, 1, "triangles"},
+                          {3, CellShape::quadrilateral, 1, "quadrilaterals"},
+                          {4, CellShape::tetrahedron, 2, "tetrahedra"},
+                          {5, CellShape::hexahedron, 3, "hexahedra"}};
+
+std::string counts(const std::map<int, std::size_t> &count) {
+  std::string text;
+  for (const auto &[type, number] : count) {
+    std::string name;
+    int dimension = 0, order = 0, nodes = 0, vertices = 0;
+    std::vector<double> places;
+    gmsh::model::mesh::getElementProperties(type, name, dimension, order, nodes, places, vertices);
+    text += fmt::format("{}{} of type \"{}\"", text.empty() ? "" : ", ", number, name);
+  }
+  return text;
+}
+
+int order_of(int type) {
+  std::string name;
+  int dimension = 0, order = 0, nodes = 0, vertices = 0;
+  std::vector<double> places;
+  gmsh::model::mesh::getElementProperties(type, name, dimension, order, nodes, places, vertices);
+  return order;
+}
+
+const Kind &kind_of(const Elements &cells) {
+  for (const auto &[type, number] : cells.count)
+    if (order_of(type) != 1)
+      throw CaseError(
+          fmt::format("holds cells of order {} ({}); cells must be straight: save it with "
+                      "Mesh.ElementOrder = 1, and take mesh.degree = 2 for quadratic fields",
+                      order_of(type), counts(cells.count)));
+  if (cells.count.size() > 1)
+    throw CaseError("mixes shapes of cells (" + counts(cells.count) +
+                    "); all must be of one shape");
+  for (const Kind &kind : kinds)
+    if (kind.type == cells.count.begin()->first)
+      return kind;
+  throw CaseError("holds cells of a shape that there are no elements for (" + counts(cells.count) +
+                  "); triangles, quadrilaterals, tetrahedra or hexahedra are possible");
+}
+
+/// Places of the nodes, and where to find a node by its tag.
+struct Nodes {
+  std::vector<std::array<double, 3>> points;
+  std::vector<std::uint32_t> index;  // by tag
+
+  explicit Nodes(double scale) {
+    std::vector<std::size_t> tags;
+    std::vector<double> places, parameters;
+    gmsh::model::mesh::getNodes(tags, places, parameters);
+    for (std::size_t i = 0; i < tags.size(); ++i) {
+      points.push_back(
+          {scale * places[3 * i], scale * places[3 * i + 1], scale * places[3 * i + 2]});
+      if (tags[i] >= index.size())
+        index.resize(tags[i] + 1, missing);
+      index[tags[i]] = static_cast<std::uint32_t>(i);
+    }
+  }
+
+  std::vector<std::uint32_t> indices(const std::vector<std::size_t> &tags) const {
+    std::vector<std::uint32_t> all;
+    for (const std::size_t tag : tags) {
+      if (tag >= index.size() || index[tag] == missing)
+        throw CaseError(
+            fmt::format("has an element with the node {}, which it does not list", tag));
+      all.push_back(index[tag]);
+    }
+    return all;
+  }
+
+ private:
+  static constexpr std::uint32_t missing = ~std::uint32_t{0};
+};
+
+MeshFile listed(Format format, const casefile::MeshCase &asked) {
+  const Names names(format);
+  int dimension = 3;
+  Elements cells = elements_of(dimension, names);
+  if (cells.nodes.empty())
+    cells = elements_of(dimension = 2, names);
+  if (cells.nodes.empty())
+    throw CaseError("holds no cells: neither volumes nor surfaces are meshed in it");
+  const Kind &kind = kind_of(cells);
+  Elements facets = elements_of(dimension - 1, names);
+  for (const auto &[type, number] : facets.count)
+    if (type != kind.facet_type)
+      throw CaseError(fmt::format("holds facets ({}) that are not those of its {}",
+                                  counts(facets.count), kind.name));
+  const Nodes nodes(asked.scale);
+  MeshFile mesh;
+  mesh.dimension = dimension;
+  mesh.cell = kind.cell;
+  mesh.points = nodes.points;
+  mesh.cells = nodes.indices(cells.nodes);
+  mesh.facets = nodes.indices(facets.nodes);
+  mesh.regions = std::move(cells.groups);
+  mesh.boundaries = std::move(facets.groups);
+  return mesh;
+}
+
+MeshFile read(const casefile::MeshCase &asked) {
+  const Format format = format_of(*asked.file);
+  check_size(format, asked);
+  check_last_line(format, *asked.file);
+  const Session session;
+  try {
+    open(format, asked);
+    return listed(format, asked);
+  } catch (const std::string &error) {  // libgmsh's own kind of exception
+    Session::check();
+    throw CaseError("Gmsh says: " + error);
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<const MeshFile> read_mesh_file(const casefile::MeshCase &asked) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(*asked.file, ignored))
+    throw CaseError("there is no such file");
+  if (!std::ifstream(*asked.file))
+    throw CaseError("cannot be read");
+  return std::make_shared<const MeshFile>(completed(read(asked)));
+}
+
+}  // namespace tourmaline::mesh

@@ -1,0 +1,90 @@
+// The cases of cases/devices: closed forms where there are any, facts of mechanics otherwise.
+#include "run_case.h"
+
+namespace tourmaline::testing {
+namespace {
+
+RunCase device(const std::string &name, const std::vector<std::string> &overrides = {}) {
+  return RunCase("cases/devices/" + name + ".toml", overrides);
+}
+
+double largest_of(const Table &table, const std::string &column) {
+  double most = 0;
+  for (const double value : table.numbers(column))
+    most = std::max(most, std::abs(value));
+  return most;
+}
+
+// BaTiO3-Liu2014 in plane strain with no stress through the thickness.
+constexpr double c_bar = 166e9 - 78e9 * 78e9 / 162e9;
+constexpr double e_bar = -4.4 - 78e9 * 18.6 / 162e9;
+constexpr double beta_bar = 12.6e-9 + 18.6 * 18.6 / 162e9;
+
+// The curvature of a free series bimorph of two layers of height h under V
+// (cases/devices/README.md).
+TEST(Bimorph, WithoutThePadItBendsByTheClosedForm) {
+  constexpr double h = 0.5e-3, length = 20e-3, volts = 50;
+  const double curvature =
+      e_bar * volts / (h * h * (4. / 3 * c_bar + e_bar * e_bar / (3 * beta_bar)));
+  casefile::Case asked = casefile::read_file(
+      std::filesystem::path(TOURMALINE_SOURCE_DIR) / "cases/devices/bimorph.toml",
+      {"output.fields=false"}, mesh::read_mesh_file);
+  asked.contact.reset();
+  const RunCase run(asked);
+  const Table nodes = run.nodes();
+  // Slender beams bend like this but for the ends: 1/20 of the length is as thick as the strip.
+  EXPECT_NEAR(largest_of(nodes, "u_y"), std::abs(curvature) * length * length / 2,
+              0.03 * std::abs(curvature) * length * length / 2);
+}
+
+TEST(Bimorph, ThePadSlipsAndItsFrictionStaysAtTheBound) {
+  const RunCase run = device("bimorph");
+  EXPECT_GT(run.history().numbers("slip").back(), 0);
+  EXPECT_LE(largest_of(run.contact(), "tangential_traction_x"), 2e3 * (1 + 1e-12));
+  for (const double imbalance : run.history().numbers("energy_imbalance"))
+    EXPECT_LT(std::abs(imbalance), 1e-9);
+}
+
+TEST(Washers, BothSendChargeOfOneSignToTheShim) {
+  const RunCase run = device("washers");
+  const Table history = run.history();
+  const auto shim = history.numbers("charge_rim of the shim"),
+             foot = history.numbers("charge_foot"), head = history.numbers("charge_head");
+  for (std::size_t i = 0; i < shim.size(); ++i) {
+    EXPECT_LT(foot[i] * shim[i], 0);
+    EXPECT_LT(head[i] * shim[i], 0);
+    EXPECT_NEAR(shim[i] + foot[i] + head[i], 0, 1e-9 * std::abs(shim[i]));
+  }
+  // Pressed twice as hard, without heat yet: linear but for friction and the heat of pressing.
+  EXPECT_NEAR(shim[1] / shim[0], 2, 0.02);
+}
+
+// Pure shear: gamma h = top - slip, |c44 gamma| <= S, D = e15 gamma on both faces.
+TEST(FrictionSensor, ChargeOverSlipIsTheExactLoop) {
+  constexpr double c44 = 43e9, e15 = 11.6, bound = 5e4, h = 2e-3, width = 0.01;
+  const RunCase run = device("friction-sensor");
+  const Table history = run.history();
+  const auto charge = history.numbers("charge_top"), time = history.numbers("time");
+  double slip = 0;
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    const double t = time[i], top = 4e-9 * (t < 1 ? t : t < 3 ? 2 - t : t - 4);
+    const double shear = std::clamp((top - slip) / h, -bound / c44, bound / c44);
+    slip = top - shear * h;
+    EXPECT_NEAR(std::abs(charge[i]), e15 * std::abs(shear) * width,
+                1e-9 * e15 * bound / c44 * width)
+        << "t = " << t;
+  }
+}
+
+TEST(LShape, ThePotentialStaysBetweenItsElectrodesAndTheBevelSlips) {
+  const RunCase run = device("l-shape");
+  const Table history = run.history();
+  EXPECT_NEAR(history.numbers("max_potential").back(), 20, 1);
+  EXPECT_NEAR(history.numbers("min_potential").back(), 0, 1);
+  EXPECT_GT(history.numbers("slip").back(), 0);
+  EXPECT_NEAR(history.numbers("charge_0 V").back() + history.numbers("charge_20 V").back(), 0,
+              1e-9 * std::abs(history.numbers("charge_20 V").back()));
+}
+
+}  // namespace
+}  // namespace tourmaline::testing

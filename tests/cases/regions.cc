@@ -1,0 +1,227 @@
+// Label: analytic. Bodies of several materials against closed forms; what the regions of a case
+// must be.
+#include <gmock/gmock.h>
+
+#include "run_case.h"
+#include "tourmaline/error.h"
+#include "tourmaline/solve/survey.h"
+
+namespace tourmaline::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string contents(const std::filesystem::path &file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+casefile::Case read(const std::string &text, std::vector<std::string> overrides = {}) {
+  overrides.push_back("output.fields=false");
+  return casefile::read_text(text, "case.toml", overrides, mesh::read_mesh_file);
+}
+
+std::string complaint(const std::string &text, const std::vector<std::string> &overrides = {}) {
+  try {
+    solve::survey(read(text, overrides));
+  } catch (const CaseError &error) {
+    return error.what();
+  }
+  return "";
+}
+
+const std::string square = R"(
+mesh.box = { min = [0, 0], max = [0.1, 0.1], cells = [8, 8] }
+time = { end = 1, steps = 2 }
+boundary = [
+  { on = "right", displacement = [0, 0], potential = 0 },
+  { on = "top", traction = [0, "-50*t"] },
+]
+[contact]
+on = "left"
+friction = { law = "tresca", bound = 15 }
+)";
+
+TEST(Regions, OneRegionOfTheWholeBodyGivesTheSameBytes) {
+  const RunCase whole(read(square + "[material]\nlibrary = \"BaTiO3-Liu2014\"\n"));
+  const RunCase region(read(square + R"([[region]]
+where = "1"
+material.library = "BaTiO3-Liu2014"
+)"));
+  const RunCase halves(read(square + R"([[region]]
+where = "x < 0.05"
+material.library = "BaTiO3-Liu2014"
+[[region]]
+where = "x >= 0.05"
+material.library = "BaTiO3-Liu2014"
+)"));
+  for (const char *file : {"nodes.csv", "contact.csv", "history.csv"}) {
+    EXPECT_EQ(contents(whole.folder() / file), contents(region.folder() / file)) << file;
+    EXPECT_EQ(contents(whole.folder() / file), contents(halves.folder() / file)) << file;
+  }
+}
+
+TEST(Regions, EveryCellMustBeInExactlyOne) {
+  const std::string left = "[[region]]\nwhere = \"x < 0.05\"\nmaterial.library = \"steel\"\n";
+  EXPECT_THAT(complaint(square + left), HasSubstr("is in no region"));
+  EXPECT_THAT(complaint(square + left + left), HasSubstr("is in the regions 0 and 1"));
+  EXPECT_THAT(complaint(square + left + "[material]\nlibrary = \"steel\"\n"),
+              HasSubstr("stands beside [[region]]"));
+  EXPECT_THAT(complaint(square + "[[region]]\nmaterial.library = \"steel\"\n"),
+              HasSubstr("give either `on`"));
+  EXPECT_THAT(complaint(square), HasSubstr("material"));
+}
+
+TEST(Regions, ReferenceTemperaturesMustAgree) {
+  EXPECT_THAT(complaint(square + R"([[region]]
+where = "x < 0.05"
+material.library = "steel"
+[[region]]
+where = "x >= 0.05"
+material = { library = "BaTiO3-Liu2014", reference_temperature = 300 }
+)"),
+              HasSubstr("reference temperatures 293 K and 300 K"));
+}
+
+TEST(Regions, TheSurveyTellsSizesAndPoling) {
+  const std::string text = solve::survey(read(square + R"([[region]]
+where = "x < 0.025"
+material.library = "steel"
+[[region]]
+where = "x >= 0.025"
+material = { library = "BaTiO3-Liu2014", poling = [-3, 4] }
+)"));
+  EXPECT_THAT(text, HasSubstr("steel, area 0.0025 m^2, centre (0.0125, 0.05), not poled"));
+  EXPECT_THAT(text, HasSubstr("area 0.0075 m^2, centre (0.0625, 0.05), poled along (-0.6, 0.8)"));
+}
+
+// Layers of a stack under pressure s and voltage V, sides held: in each layer strain and field are
+// uniform, and s and D are common,
+//     s = c33 eps + e33 phi',   D = e33 eps - beta33 phi',   sum of h phi' = V,
+// with e33 of the sign of the layer's poling; in a conductor phi' = 0 and eps = s / c33.
+struct Layer {
+  double height, c, e, beta;
+  bool conductor = false;
+};
+
+struct Stack {
+  double pressure, charge;  // s and D
+  std::vector<double> strain, slope;
+};
+
+Stack solved(const std::vector<Layer> &layers, double s, double volts) {
+  // phi' = (e s / c - D) / (beta + e^2 / c)
+  double by_stress = 0, by_charge = 0;
+  for (const Layer &layer : layers)
+    if (!layer.conductor) {
+      const double stiff = layer.beta + layer.e * layer.e / layer.c;
+      by_stress += layer.height * layer.e * s / layer.c / stiff;
+      by_charge += layer.height / stiff;
+    }
+  Stack stack{s, (by_stress - volts) / by_charge, {}, {}};
+  for (const Layer &layer : layers) {
+    const double stiff = layer.beta + layer.e * layer.e / layer.c;
+    const double slope = layer.conductor ? 0 : (layer.e * s / layer.c - stack.charge) / stiff;
+    stack.slope.push_back(slope);
+    stack.strain.push_back((s - layer.e * slope) / layer.c);
+  }
+  return stack;
+}
+
+// Without couplings to heat, which would warm the layers.
+const std::string laminate = R"(
+mesh.box = { min = [0, 0], max = [0.01, 0.03], cells = [2, 6] }
+time = { end = 1, steps = 1 }
+boundary = [
+  { on = ["left", "right"], displacement = [0, "free"] },
+  { on = "bottom", displacement = ["free", 0], potential = 0 },
+  { on = "top", traction = [0, 2e6], potential = 300 },
+]
+[[region]]
+where = "y < 0.01"
+material = { library = "BaTiO3-Liu2014", m11 = 0, m33 = 0, p3 = 0 }
+[[region]]
+where = "y > 0.01 && y < 0.02"
+material = { library = "BaTiO3-Liu2014", m11 = 0, m33 = 0, p3 = 0, c33 = 100e9, e33 = 5, beta33 = 3e-9, poling = [0, -1] }
+[[region]]
+where = "y > 0.02"
+)";
+
+void expect_stack(const RunCase &run, const std::vector<Layer> &layers, double tolerance) {
+  const Stack stack = solved(layers, 2e6, 300);
+  const Table nodes = run.nodes();
+  const auto y = nodes.numbers("y"), u = nodes.numbers("u_y"), phi = nodes.numbers("potential");
+  double top = 0;
+  for (std::size_t i = 0; i < layers.size(); ++i)
+    top += layers[i].height * std::abs(stack.strain[i]);
+  for (std::size_t node = 0; node < y.size(); ++node) {
+    double displacement = 0, potential = 0, below = 0;
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+      const double height = std::clamp(y[node] - below, 0., layers[i].height);
+      displacement += height * stack.strain[i];
+      potential += height * stack.slope[i];
+      below += layers[i].height;
+    }
+    EXPECT_NEAR(u[node], displacement, tolerance * top) << "at y = " << y[node];
+    EXPECT_NEAR(phi[node], potential, tolerance * 300) << "at y = " << y[node];
+  }
+  // D.nu on the top, per metre of depth.
+  const double charge = run.history().numbers("charge_top").back();
+  EXPECT_NEAR(charge, 0.01 * stack.charge, tolerance * 0.01 * std::abs(stack.charge));
+}
+
+TEST(Laminate, TwoPiezoelectricLayersAndADielectricAreExactAtEveryNode) {
+  const RunCase run(read(
+      laminate +
+      R"(material = { symmetry = "isotropic", young = 80e9, poisson = 0.25, eps11 = 100, k11 = 1, density = 3000, specific_heat = 500, reference_temperature = 293 }
+)"));
+  const double modulus = 80e9 * 0.75 / (1.25 * 0.5);
+  expect_stack(run,
+               {{0.01, 162e9, 18.6, 12.6e-9},
+                {0.01, 100e9, -5, 3e-9},
+                {0.01, modulus, 0, 100 * 8.8541878128e-12}},
+               1e-10);
+}
+
+// The conductor is a dielectric of a millionfold permittivity: an error of that order.
+TEST(Laminate, AFloatingConductorCarriesNoFieldAndPassesTheChargeOn) {
+  const RunCase run(read(
+      laminate +
+      R"(material = { symmetry = "isotropic", conductor = true, young = 80e9, poisson = 0.25, k11 = 1, density = 3000, specific_heat = 500, reference_temperature = 293 }
+)"));
+  expect_stack(run,
+               {{0.01, 162e9, 18.6, 12.6e-9},
+                {0.01, 100e9, -5, 3e-9},
+                {0.01, 80e9 * 0.75 / (1.25 * 0.5), 0, 1, true}},
+               5e-6);
+}
+
+// A ring of cells that a turn maps onto one another: poled along the radius, it must answer alike
+// in every direction.
+TEST(RadialPoling, ARingUnderVoltageGrowsAlikeInEveryDirection) {
+  const RunCase run(read(R"(
+mesh.annulus = { inner = 0.01, outer = 0.02, cells = [4, 12], cell = "quadrilateral" }
+material = { library = "BaTiO3-Liu2014", poling = ["x", "y"] }
+time = { end = 1, steps = 1 }
+boundary = [
+  { on = "inner", displacement = [0, 0], potential = 0, temperature = 0 },
+  { on = "outer", potential = 100, temperature = 0 },
+]
+)"));
+  const Table nodes = run.nodes();
+  const auto x = nodes.numbers("x"), y = nodes.numbers("y"), u = nodes.numbers("u_x"),
+             v = nodes.numbers("u_y");
+  double radial = 0;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (const double r = std::hypot(x[i], y[i]); r > 0.0199) {
+      const double here = (u[i] * x[i] + v[i] * y[i]) / r;
+      if (radial == 0)
+        radial = here;
+      EXPECT_NEAR(here, radial, 1e-10 * std::abs(radial));
+      EXPECT_NEAR(u[i] * y[i] - v[i] * x[i], 0, 1e-10 * r * std::abs(radial));
+    }
+  EXPECT_NE(radial, 0);
+}
+
+}  // namespace
+}  // namespace tourmaline::testing
