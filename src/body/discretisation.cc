@@ -340,11 +340,11 @@ std::vector<std::vector<Node>> separated(const std::vector<Node> &facets) {
 template <int dim>
 std::vector<output::NamedBoundary> Discretisation<dim>::boundaries() const {
   std::vector<output::NamedBoundary> all;
-  for (const auto &[name, id] : parts_->mesh.boundaries) {
+  for (const auto &[name, ids] : parts_->mesh.boundaries) {
     std::vector<Node> facets;
     for (const auto &cell : parts_->cells)
       for (const unsigned int f : cell->face_indices()) {
-        if (!cell->face(f)->at_boundary() || cell->face(f)->boundary_id() != id)
+        if (!cell->face(f)->at_boundary() || !ids.count(cell->face(f)->boundary_id()))
           continue;
         const auto dofs = facet_dofs(*cell->face(f), parts_->element->degree);
         facets.push_back(static_cast<Node>(dofs.size()));
