@@ -40,7 +40,8 @@ def on_one_core(command):
 
 def tourmaline(n, steps, folder, *overrides):
     arguments = [PROGRAM, "run", CASE, "-o", folder, "--set", f"mesh.box.cells=[{n},{n}]",
-                 "--set", f"time.steps={steps}", "--set", "output.fields=false"]
+                 "--set", f"time.steps={steps}", "--set", "output.fields=false",
+                 "--set", "output.report=false"]
     for override in overrides:
         arguments += ["--set", override]
     seconds, _ = on_one_core(arguments)
