@@ -124,7 +124,8 @@ export class Chart {
 }
 
 function padded(least: number, greatest: number, factor: number): [number, number] {
-  const room = (greatest - least || Math.abs(greatest) || 1) * 0.06;
+  if (least === greatest) return [(least - (Math.abs(least) || 1)) * factor, (greatest + (Math.abs(greatest) || 1)) * factor];
+  const room = (greatest - least) * 0.06;
   return [(least === 0 ? 0 : least - room) * factor, (greatest === 0 ? 0 : greatest + room) * factor];
 }
 

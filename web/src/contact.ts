@@ -21,7 +21,7 @@ export class Contact {
     this.steps = Array.from({ length: step.length / this.nodes }, (_, k) => step[k * this.nodes]);
     this.add('Normal traction on the body', 'N/m²', [
       { label: 'σν·ν', column: this.column('normal_traction'), colour: lineColours[0] }]);
-    this.add('Tangential traction and the bound ±S', 'N/m²', [
+    this.add(result.frictionBound ? 'Tangential traction and the bound ±S' : 'Tangential traction on the body', 'N/m²', [
       { label: 'tangential', column: this.tangential('tangential_traction_'), colour: lineColours[1] },
       ...this.bounds(),
     ]);

@@ -46,12 +46,17 @@ export class Values {
     }
   }
 
-  /** The range without the lowest and the highest hundredth of the last state. */
+  /** The range over all states, each without its lowest and highest hundredth. */
   usual(): { low: number; high: number } {
     if (!this.ends) {
-      const sorted = this.data.slice(Math.max(0, this.data.length - this.places)).sort();
-      const last = sorted.length - 1;
-      this.ends = { low: sorted[Math.floor(0.01 * last)] ?? 0, high: sorted[Math.ceil(0.99 * last)] ?? 0 };
+      this.ends = { low: Infinity, high: -Infinity };
+      const stride = Math.ceil(this.places / 5000);
+      for (let first = 0; first < this.data.length; first += this.places) {
+        const sorted = this.data.subarray(first, first + this.places).filter((_, i) => i % stride === 0).sort();
+        const last = sorted.length - 1;
+        this.ends.low = Math.min(this.ends.low, sorted[Math.floor(0.01 * last)]);
+        this.ends.high = Math.max(this.ends.high, sorted[Math.ceil(0.99 * last)]);
+      }
     }
     return this.ends;
   }
