@@ -4,7 +4,8 @@
 file(LOCK ${WEB}/.build-lock GUARD PROCESS TIMEOUT 300)
 set(installed ${WEB}/node_modules/.package-lock.json)
 if(NOT EXISTS ${installed} OR ${WEB}/package-lock.json IS_NEWER_THAN ${installed})
-  execute_process(COMMAND ${NPM} ci --ignore-scripts --no-audit --no-fund --loglevel=error
+  # Not `npm ci`, which refuses a lock file without the optional packages of other platforms.
+  execute_process(COMMAND ${NPM} install --no-save --ignore-scripts --no-audit --no-fund --loglevel=error
     WORKING_DIRECTORY ${WEB} RESULT_VARIABLE failed OUTPUT_VARIABLE text ERROR_VARIABLE text)
   if(failed)
     message(FATAL_ERROR "${text}\nThe packages of the report page (web/package-lock.json) could not be "
