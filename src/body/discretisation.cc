@@ -344,7 +344,7 @@ std::vector<output::NamedBoundary> Discretisation<dim>::boundaries() const {
     std::vector<Node> facets;
     for (const auto &cell : parts_->cells)
       for (const unsigned int f : cell->face_indices()) {
-        if (!cell->face(f)->at_boundary() || !ids.contains(cell->face(f)->boundary_id()))
+        if (!cell->face(f)->at_boundary() || !ids.count(cell->face(f)->boundary_id()))
           continue;
         const auto dofs = facet_dofs(*cell->face(f), parts_->element->degree);
         facets.push_back(static_cast<Node>(dofs.size()));
