@@ -1,12 +1,17 @@
 #include "tourmaline/body/conditions.h"
 
+#include <fmt/format.h>
+
 #include <map>
+
+#include "tourmaline/error.h"
 
 namespace tourmaline::body {
 
 template <int dim>
-std::vector<Prescribed> prescribed_unknowns(const Discretisation<dim> &body,
-                                            const std::vector<casefile::BoundaryCase> &boundaries) {
+std::vector<Prescribed> prescribed_unknowns(
+    const Discretisation<dim> &body, const std::vector<casefile::BoundaryCase> &boundaries,
+    const std::vector<casefile::ElectrodeCase> &electrodes) {
   std::map<std::size_t, Prescribed> by_unknown;
   for (const casefile::BoundaryCase &boundary : boundaries)
     for (const std::string &name : boundary.on)
@@ -23,10 +28,34 @@ std::vector<Prescribed> prescribed_unknowns(const Discretisation<dim> &body,
         if (boundary.temperature)
           prescribe(Fields<dim>::temperature, *boundary.temperature);
       }
+  for (std::size_t e = 0; e < electrodes.size(); ++e)
+    for (const Node node : body.nodes_on(electrodes[e].on)) {
+      const std::size_t i = unknown<dim>(node, Fields<dim>::potential);
+      by_unknown.try_emplace(
+          i, Prescribed{i, body.points()[node],
+                        electrodes[e].is_driven() ? *electrodes[e].voltage : casefile::Formula(0.),
+                        electrodes[e].name, static_cast<int>(e)});
+    }
   std::vector<Prescribed> all;
   for (auto &[i, prescribed] : by_unknown)
     all.push_back(std::move(prescribed));
   return all;
+}
+
+template <int dim>
+std::vector<std::vector<Node>> electrode_nodes(
+    const std::vector<Prescribed> &prescribed,
+    const std::vector<casefile::ElectrodeCase> &electrodes) {
+  std::vector<std::vector<Node>> nodes(electrodes.size());
+  for (const Prescribed &p : prescribed)
+    if (p.electrode >= 0)
+      nodes[p.electrode].push_back(static_cast<Node>(p.unknown / Fields<dim>::count));
+  for (std::size_t e = 0; e < electrodes.size(); ++e)
+    if (nodes[e].empty())
+      throw CaseError(
+          fmt::format("{} \"{}\": other conditions stand first at all nodes of this electrode",
+                      electrodes[e].where, electrodes[e].name));
+  return nodes;
 }
 
 template <int dim>
@@ -44,9 +73,15 @@ std::vector<double> initial_state(const Discretisation<dim> &body,
 }
 
 template std::vector<Prescribed> prescribed_unknowns<2>(
-    const Discretisation<2> &, const std::vector<casefile::BoundaryCase> &);
+    const Discretisation<2> &, const std::vector<casefile::BoundaryCase> &,
+    const std::vector<casefile::ElectrodeCase> &);
 template std::vector<Prescribed> prescribed_unknowns<3>(
-    const Discretisation<3> &, const std::vector<casefile::BoundaryCase> &);
+    const Discretisation<3> &, const std::vector<casefile::BoundaryCase> &,
+    const std::vector<casefile::ElectrodeCase> &);
+template std::vector<std::vector<Node>> electrode_nodes<2>(
+    const std::vector<Prescribed> &, const std::vector<casefile::ElectrodeCase> &);
+template std::vector<std::vector<Node>> electrode_nodes<3>(
+    const std::vector<Prescribed> &, const std::vector<casefile::ElectrodeCase> &);
 template std::vector<double> initial_state<2>(const Discretisation<2> &,
                                               const casefile::InitialCase &);
 template std::vector<double> initial_state<3>(const Discretisation<3> &,

@@ -125,6 +125,13 @@ void check_conditions(const Case &asked) {
   for (const BoundaryCase &boundary : asked.boundaries)
     for (const std::string &name : boundary.on)
       add(prescribed, boundary, name);
+  for (const ElectrodeCase &electrode : asked.electrodes)
+    for (const std::string &name : electrode.on)
+      if (const Formula *formula = prescribed.find(name, electric))
+        throw CaseError(
+            fmt::format("{} on = \"{}\": this boundary has already a condition on the {}, {}; "
+                        "one is possible",
+                        electrode.where, name, electric, Prescribed::stated(*formula)));
   if (!asked.contact)
     return;
   check_contact_once(*asked.contact, prescribed);

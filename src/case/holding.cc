@@ -132,12 +132,21 @@ std::vector<std::string> free_motions(int dimension, const std::vector<Support> 
 }
 
 void check_holding(const Case &asked) {
-  const bool grounded = std::any_of(asked.boundaries.begin(), asked.boundaries.end(),
-                                    [](const auto &boundary) { return boundary.potential; });
+  const bool grounded =
+      std::any_of(asked.boundaries.begin(), asked.boundaries.end(),
+                  [](const auto &boundary) { return boundary.potential; }) ||
+      std::any_of(asked.electrodes.begin(), asked.electrodes.end(),
+                  [](const ElectrodeCase &electrode) {
+                    return electrode.is_driven() || (electrode.is_loaded() && !electrode.to);
+                  });
   if (!grounded)
     throw CaseError(asked.source +
-                    " [[boundary]]: the electric potential floats, as no boundary "
-                    "prescribes it; give `potential` on at least one");
+                    (asked.electrodes.empty()
+                         ? " [[boundary]]: the electric potential floats, as no boundary "
+                           "prescribes it; give `potential` on at least one"
+                         : " [[electrode]]: the electric potential floats, as no electrode has a "
+                           "path to a given voltage; give one a `voltage`, or a boundary a "
+                           "`potential`"));
   const std::vector<std::string> free = free_motions(asked.dimension, supports_of(asked));
   if (!free.empty())
     throw CaseError(fmt::format(

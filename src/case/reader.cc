@@ -8,6 +8,7 @@
 
 #include "override.h"
 #include "tourmaline/case/conditions.h"
+#include "tourmaline/case/electrodes.h"
 #include "tourmaline/case/holding.h"
 #include "tourmaline/case/nearest.h"
 #include "tourmaline/case/schema.h"
@@ -278,6 +279,7 @@ Case read_text(const std::string &text, const std::string &name,
   if (asked.output.every == 0)
     asked.output.every = steps_between_files(asked.time.steps);
   check_conditions(asked);
+  check_electrodes(asked);
   check_holding(asked);
   return asked;
 }

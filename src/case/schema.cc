@@ -675,6 +675,55 @@ void declare_boundaries(Visitor &v, std::vector<BoundaryCase> &boundaries, const
             [&](Visitor &inner) { declare(inner, boundaries[i], mesh, dimension); });
 }
 
+void declare(Visitor &v, ElectrodeCase &electrode, const MeshCase &mesh) {
+  v.place(electrode.where);
+  v.key({.name = "name",
+         .description = "what its columns in history.csv are called; letters, digits, _ and -",
+         .required = true},
+        &electrode.name);
+  v.key(on_sides("boundary that the electrode covers, or list of boundaries that it joins", mesh),
+        &electrode.on);
+  v.optional({.name = "voltage",
+              .description = "potential of the electrode over time; beside a resistor or capacitor "
+                             "that of their other end, 0 when not given",
+              .unit = "V"},
+             electrode.voltage);
+  v.optional({.name = "charge",
+              .description = "total charge on the electrode over time, -integral of D.nu; its "
+                             "potential follows",
+              .unit = "C (2D: C/m)"},
+             electrode.charge);
+  v.optional({.name = "resistor",
+              .description = "resistance between the electrode and ground, or `voltage`, or `to`",
+              .unit = "ohm (2D: ohm m)",
+              .range = positive()},
+             electrode.resistor);
+  v.optional({.name = "capacitor",
+              .description = "capacitance between the same two, parallel to the resistor",
+              .unit = "F (2D: F/m)",
+              .range = positive()},
+             electrode.capacitor);
+  v.optional({.name = "to",
+              .description = "name of the electrode that resistor and capacitor lead to, instead "
+                             "of ground"},
+             electrode.to);
+}
+
+void declare_electrodes(Visitor &v, std::vector<ElectrodeCase> &electrodes, const MeshCase &mesh) {
+  const Key key = {
+      .name = "electrode",
+      .description =
+          "A conducting film on parts of the boundary: one potential all over. With "
+          "`voltage` it is driven (0: grounded); with `charge` it floats with that "
+          "charge; with a resistor or capacitor these lead to ground, to a given "
+          "voltage or to another electrode; with nothing it is open and keeps its "
+          "charge at the time 0. In 2D charges, resistances and capacitances are those "
+          "of one metre of thickness"};
+  electrodes.resize(static_cast<std::size_t>(v.count(key, static_cast<int>(electrodes.size()))));
+  for (std::size_t i = 0; i < electrodes.size(); ++i)
+    v.entry(key, static_cast<int>(i), [&](Visitor &inner) { declare(inner, electrodes[i], mesh); });
+}
+
 void declare_contact(Visitor &v, std::optional<ContactCase> &contact, const MeshCase &mesh) {
   const Key key = {.name = "contact",
                    .description =
@@ -720,6 +769,7 @@ void declare(Visitor &v, Case &c) {
   v.table({.name = "time", .description = "The simulated time", .required = true},
           [&](Visitor &inner) { declare(inner, c.time); });
   declare_boundaries(v, c.boundaries, c.mesh, c.dimension);
+  declare_electrodes(v, c.electrodes, c.mesh);
   declare_contact(v, c.contact, c.mesh);
   v.table({.name = "load", .description = "Loads on the volume"},
           [&](Visitor &inner) { declare(inner, c.load, c.dimension); });

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "tourmaline/parallel/ranks.h"
+#include "tourmaline/solve/electrodes.h"
 
 namespace tourmaline::solve {
 
@@ -97,6 +98,8 @@ template <int dim>
 Balance<dim>::Balance(const Model<dim> &model, std::span<const double> initial)
     : model_(model), state_(initial.begin(), initial.end()), is_prescribed_(initial.size(), false) {
   model.op.multiply_by_field(initial, products_);
+  if (!model.electrodes.empty())
+    electrode_charges_ = initial_charges(model, initial);
   stored_ = energy_of<dim>(
                 initial.size(), [&](std::size_t i) { return initial[i]; },
                 [&](int field, std::size_t i) { return products_.of[field][i]; })
@@ -109,7 +112,7 @@ Balance<dim>::Balance(const Model<dim> &model, std::span<const double> initial)
     const int component = static_cast<int>(p.unknown % Fields<dim>::count);
     if (component == Fields<dim>::temperature)
       add_once(heat_boundaries_, p.boundary);
-    else if (component == Fields<dim>::potential)
+    else if (component == Fields<dim>::potential && p.electrode < 0)
       add_once(charge_boundaries_, p.boundary);
   }
   for (const body::Load &load : model.loads.each())
@@ -174,6 +177,7 @@ typename Balance<dim>::Columns Balance<dim>::step(double time, std::span<const d
   add_energy(step, columns);
   add_forces(step, columns);
   add_charges(step, columns);
+  add_electrodes(step, columns);
   add_heat(step, columns);
   state_.assign(state.begin(), state.end());
   charges_ = std::move(step.charges);
@@ -251,11 +255,12 @@ void Balance<dim>::add_forces(const Step &step, Columns &columns) const {
 template <int dim>
 void Balance<dim>::add_charges(const Step &step, Columns &columns) const {
   std::map<std::string, double> through;
+  double on_electrodes = 0;
   Sum imbalance;
   for (const body::Prescribed &p : model_.prescribed)
     if (p.unknown % Fields<dim>::count == Fields<dim>::potential) {
       const double charge = step.charges[p.unknown] - step.loads[p.unknown];
-      through[p.boundary] += charge;
+      (p.electrode < 0 ? through[p.boundary] : on_electrodes) += charge;
       imbalance.add(charge);
     }
   double inside = 0;
@@ -266,11 +271,27 @@ void Balance<dim>::add_charges(const Step &step, Columns &columns) const {
       inside += load.resultant(step.time);
   for (const std::string &name : charge_boundaries_)
     columns.emplace_back("charge_" + name, through[name]);
-  double total = -inside;
+  double total = on_electrodes - inside;
   for (const auto &[name, charge] : through)
     total += charge;
   const double size = imbalance.size + std::abs(inside);
   columns.emplace_back("charge_imbalance", size > 0 ? total / size : 0);
+}
+
+template <int dim>
+void Balance<dim>::add_electrodes(const Step &step, Columns &columns) {
+  if (model_.electrodes.empty())
+    return;
+  const Eigen::VectorXd voltages = electrode_voltages(model_, step.state);
+  const Eigen::VectorXd charges = electrode_charges(model_, step.charges, step.loads);
+  for (std::size_t e = 0; e < model_.electrodes.size(); ++e) {
+    const auto i = static_cast<Eigen::Index>(e);
+    const std::string name = "electrode_" + model_.asked.electrodes[e].name;
+    columns.emplace_back(name + "_voltage", voltages[i]);
+    columns.emplace_back(name + "_charge", charges[i]);
+    columns.emplace_back(name + "_current", (charges[i] - electrode_charges_[i]) / model_.step);
+  }
+  electrode_charges_ = charges;
 }
 
 template <int dim>

@@ -5,10 +5,10 @@
 #include <Eigen/Sparse>
 #include <optional>
 
-#include "tourmaline/condensation/condensed_body.h"
 #include "tourmaline/contact/bilateral.h"
 #include "tourmaline/error.h"
 #include "tourmaline/parallel/ranks.h"
+#include "tourmaline/solve/connected_body.h"
 #include "tourmaline/solve/interface_newton.h"
 #include "tourmaline/solve/stopwatch.h"
 
@@ -19,14 +19,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-template <int dim>
-std::vector<body::Node> nodes_of(const std::vector<contact::InterfaceNode<dim>> &interface) {
-  std::vector<body::Node> nodes;
-  for (const auto &node : interface)
-    nodes.push_back(node.node);
-  return nodes;
-}
 
 // From the first rank to the others.
 void share(StepOutcome &outcome) {
@@ -65,7 +57,7 @@ class CondensedRoute : public Route {
 
   const Model<dim> &model_;
   std::vector<bool> is_prescribed_;
-  condensation::CondensedBody<dim> condensed_;
+  ConnectedBody<dim> condensed_;
   Eigen::SparseMatrix<double> directions_;  // T: admissible slips of all nodes, block diagonal
   MatrixXd slip_stiffness_;                 // T^T S T
   std::vector<ContactPoint> points_;
@@ -77,10 +69,7 @@ class CondensedRoute : public Route {
 
 template <int dim>
 CondensedRoute<dim>::CondensedRoute(const Model<dim> &model)
-    : model_(model),
-      is_prescribed_(model.n_unknowns(), false),
-      condensed_(model.op, model.step, model.prescribed, nodes_of(model.interface),
-                 model.asked.solver.threads) {
+    : model_(model), is_prescribed_(model.n_unknowns(), false), condensed_(model) {
   for (const body::Prescribed &p : model.prescribed)
     is_prescribed_[p.unknown] = true;
   Stopwatch watch;
@@ -200,7 +189,7 @@ template <int dim>
 StepOutcome CondensedRoute<dim>::advance(double time, std::span<const double> right_side,
                                          std::span<const double> before, std::span<double> state) {
   Stopwatch watch;
-  const VectorXd s = condensed_.reduce(right_side, state);
+  const VectorXd s = condensed_.reduce(time, right_side, state);
   substitution_seconds_ += watch.lap();
   StepOutcome outcome;
   VectorXd c = s;
@@ -215,7 +204,7 @@ StepOutcome CondensedRoute<dim>::advance(double time, std::span<const double> ri
   condensed_.expand(c, state);
   substitution_seconds_ += watch.lap();
   if (!measured_) {
-    backward_error_ = condensed_.backward_error(right_side, state, outcome.contact_forces);
+    backward_error_ = condensed_.body().backward_error(right_side, state, outcome.contact_forces);
     measured_ = true;
   }
   return outcome;
@@ -223,7 +212,7 @@ StepOutcome CondensedRoute<dim>::advance(double time, std::span<const double> ri
 
 template <int dim>
 RouteReport CondensedRoute<dim>::report() const {
-  const condensation::FactorisationStatistics &statistics = condensed_.statistics();
+  const condensation::FactorisationStatistics &statistics = condensed_.body().statistics();
   RouteReport report;
   report.factorisations = 1;
   report.analyse_seconds = statistics.analyse_seconds;
@@ -232,8 +221,8 @@ RouteReport CondensedRoute<dim>::report() const {
   report.substitution_seconds = substitution_seconds_;
   report.contact_seconds = contact_seconds_;
   report.factor_flops = statistics.flops;
-  report.unknowns = condensed_.n_unknowns();
-  report.electric_and_thermal_unknowns = condensed_.n_electric_and_thermal();
+  report.unknowns = condensed_.body().n_unknowns();
+  report.electric_and_thermal_unknowns = condensed_.body().n_electric_and_thermal();
   report.factor_entries = statistics.factor_entries;
   report.negative_pivots = statistics.negative_pivots;
   report.backward_error = backward_error_;

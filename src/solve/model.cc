@@ -52,7 +52,8 @@ Model<dim>::Model(const casefile::Case &asked_for, Built built)
       composition(std::move(built.composition)),
       body(std::move(built.body)),
       op(body, composition),
-      prescribed(body::prescribed_unknowns(body, asked.boundaries)),
+      prescribed(body::prescribed_unknowns(body, asked.boundaries, asked.electrodes)),
+      electrodes(body::electrode_nodes<dim>(prescribed, asked.electrodes)),
       loads(body, asked, step, composition.reference_temperature()),
       mesh_seconds(built.mesh_seconds) {
   if (asked.contact) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "tourmaline/case/electrodes.h"
 #include "tourmaline/case/resolved.h"
 #include "tourmaline/contact/friction.h"
 #include "tourmaline/error.h"
@@ -57,8 +58,10 @@ template <int dim>
 std::unique_ptr<Route> make_route(const Model<dim> &model, bool iterative) {
   if (model.asked.solver.method == "monolithic")
     return monolithic_route(model);
-  if (iterative)
+  if (iterative) {
+    casefile::require_given_voltages(model.asked, "the iterative solver");
     return iterative_route(model);
+  }
   return condensed_route(model);
 }
 

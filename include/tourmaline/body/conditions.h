@@ -15,13 +15,24 @@ struct Prescribed {
   output::Vector point;
   casefile::Formula value;
   std::string boundary;
+  int electrode = -1;  ///< of the case's electrodes; -1: a boundary's condition
 };
 
-/// Prescribed unknowns of all [[boundary]] entries, ascending. Where two boundaries meet and both
-/// prescribe an unknown, the entry that stands first in the case file holds.
+/// Prescribed unknowns of all [[boundary]] entries and the potentials of all [[electrode]] entries,
+/// ascending. An electrode whose voltage is not given has the value 0 here: the circuit adds its
+/// voltage. Where two boundaries meet and both prescribe an unknown, the entry that stands first in
+/// the case file holds, [[boundary]] before [[electrode]].
 template <int dim>
-std::vector<Prescribed> prescribed_unknowns(const Discretisation<dim> &body,
-                                            const std::vector<casefile::BoundaryCase> &boundaries);
+std::vector<Prescribed> prescribed_unknowns(
+    const Discretisation<dim> &body, const std::vector<casefile::BoundaryCase> &boundaries,
+    const std::vector<casefile::ElectrodeCase> &electrodes = {});
+
+/// The nodes that each electrode holds. Throws CaseError for an electrode that holds none because
+/// other conditions stand first at all of them.
+template <int dim>
+std::vector<std::vector<Node>> electrode_nodes(
+    const std::vector<Prescribed> &prescribed,
+    const std::vector<casefile::ElectrodeCase> &electrodes);
 
 /// Nodal values of formulas, component by component: u_0, phi_0, theta_0 of (14).
 template <int dim>

@@ -109,6 +109,24 @@ struct BoundaryCase {
   std::optional<Formula> heat_flux;       ///< q.nu [W/m^2], positive leaves the body
 };
 
+/// One [[electrode]] entry: boundaries that share one potential. In two dimensions charges,
+/// resistances and capacitances are those of one metre of thickness.
+struct ElectrodeCase {
+  std::string name;
+  std::vector<std::string> on;
+  std::string where;
+  /// [V] of the electrode; beside a resistor or capacitor of their other end, 0 when not given
+  std::optional<Formula> voltage;
+  std::optional<Formula> charge;    ///< total charge on the electrode [C]
+  std::optional<double> resistor;   ///< [ohm]
+  std::optional<double> capacitor;  ///< [F], parallel to the resistor
+  std::optional<std::string> to;    ///< electrode at the other end of resistor and capacitor
+
+  bool is_loaded() const { return resistor || capacitor; }
+  /// Whether the potential is given, and not an unknown of the step.
+  bool is_driven() const { return voltage && !is_loaded(); }
+};
+
 struct FrictionCase {
   std::string law = "none";  ///< none | tresca
   Formula bound = 0;         ///< S [N/m^2]
@@ -168,6 +186,7 @@ struct Case {
   std::vector<RegionCase> regions;  ///< each cell in exactly one of them
   TimeCase time;
   std::vector<BoundaryCase> boundaries;
+  std::vector<ElectrodeCase> electrodes;
   std::optional<ContactCase> contact;
   SolverCase solver;
   OutputCase output;

@@ -40,17 +40,19 @@ class Balance {
 
   void add_forces(const Step &step, Columns &columns) const;
   void add_charges(const Step &step, Columns &columns) const;
+  void add_electrodes(const Step &step, Columns &columns);
   void add_heat(const Step &step, Columns &columns) const;
   void add_energy(const Step &step, Columns &columns);
   std::vector<std::pair<body::Node, double>> exchange_weights(const std::string &boundary) const;
   double exchanged(const std::string &boundary, const Step &step) const;
 
   const Model<dim> &model_;
-  std::vector<double> state_;        // of the step before
-  body::FieldProducts products_;     // of that state
-  std::vector<double> charges_;      // electric right-hand side of that state, reactions included
-  double stored_ = 0;                // energy of that state [J]
-  std::vector<bool> is_prescribed_;  // by unknown
+  std::vector<double> state_;          // of the step before
+  body::FieldProducts products_;       // of that state
+  Eigen::VectorXd electrode_charges_;  // of that state [C]
+  std::vector<double> charges_;        // electric right-hand side of that state, reactions included
+  double stored_ = 0;                  // energy of that state [J]
+  std::vector<bool> is_prescribed_;    // by unknown
   std::vector<std::string> heat_boundaries_, charge_boundaries_;
   std::map<std::string, std::vector<std::pair<body::Node, double>>>
       exchange_;  // integral of k_c N_i

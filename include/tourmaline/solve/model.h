@@ -23,6 +23,7 @@ struct Model {
   body::Discretisation<dim> body;
   body::Operator<dim> op;
   std::vector<body::Prescribed> prescribed;
+  std::vector<std::vector<body::Node>> electrodes;  ///< nodes by electrode of the case
   body::Loads<dim> loads;
   std::vector<contact::InterfaceNode<dim>> interface;  ///< empty without contact
   double mesh_seconds = 0, assemble_seconds = 0;

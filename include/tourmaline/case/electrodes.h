@@ -1,0 +1,16 @@
+#pragma once
+
+#include "tourmaline/case/case.h"
+
+namespace tourmaline::casefile {
+
+/// Throws CaseError where electrodes contradict themselves or each other: a name or a boundary
+/// twice, conditions that exclude each other, a way `to` an electrode that is not there, an unknown
+/// potential in the monolithic route.
+void check_electrodes(const Case &asked);
+
+/// Throws CaseError, naming `solver`, where an electrode's voltage is not given: only the condensed
+/// method with a direct solver finds it.
+void require_given_voltages(const Case &asked, const std::string &solver);
+
+}  // namespace tourmaline::casefile

@@ -1,0 +1,65 @@
+#include "tourmaline/solve/electrodes.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "tourmaline/error.h"
+
+namespace tourmaline::solve {
+
+using body::Fields;
+using body::unknown;
+using Eigen::Index;
+using Eigen::VectorXd;
+
+template <int dim>
+VectorXd electrode_charges(const Model<dim> &model, std::span<const double> products,
+                           std::span<const double> loads) {
+  VectorXd charges = VectorXd::Zero(static_cast<Index>(model.electrodes.size()));
+  for (std::size_t e = 0; e < model.electrodes.size(); ++e)
+    for (const body::Node node : model.electrodes[e]) {
+      const std::size_t i = unknown<dim>(node, Fields<dim>::potential);
+      charges[static_cast<Index>(e)] -= products[i] - loads[i];
+    }
+  return charges;
+}
+
+template <int dim>
+VectorXd electrode_voltages(const Model<dim> &model, std::span<const double> state) {
+  VectorXd voltages(static_cast<Index>(model.electrodes.size()));
+  for (std::size_t e = 0; e < model.electrodes.size(); ++e) {
+    const auto potential = [&](body::Node node) {
+      return state[unknown<dim>(node, Fields<dim>::potential)];
+    };
+    const double voltage = potential(model.electrodes[e].front());
+    for (const body::Node node : model.electrodes[e])
+      if (std::abs(potential(node) - voltage) > 1e-9 * std::abs(voltage))
+        throw CaseError(fmt::format(
+            "{} \"{}\": the initial potential is {:g} V at one of its nodes and {:g} V at another, "
+            "but an electrode has one potential; change [initial] potential",
+            model.asked.electrodes[e].where, model.asked.electrodes[e].name, voltage,
+            potential(node)));
+    voltages[static_cast<Index>(e)] = voltage;
+  }
+  return voltages;
+}
+
+template <int dim>
+VectorXd initial_charges(const Model<dim> &model, std::span<const double> initial) {
+  std::vector<double> products(initial.size()), loads(initial.size(), 0.);
+  model.op.multiply(model.step, initial, products);
+  model.loads.integrate(0, loads);
+  return electrode_charges(model, products, loads);
+}
+
+template VectorXd electrode_charges<2>(const Model<2> &, std::span<const double>,
+                                       std::span<const double>);
+template VectorXd electrode_charges<3>(const Model<3> &, std::span<const double>,
+                                       std::span<const double>);
+template VectorXd electrode_voltages<2>(const Model<2> &, std::span<const double>);
+template VectorXd electrode_voltages<3>(const Model<3> &, std::span<const double>);
+template VectorXd initial_charges<2>(const Model<2> &, std::span<const double>);
+template VectorXd initial_charges<3>(const Model<3> &, std::span<const double>);
+
+}  // namespace tourmaline::solve
