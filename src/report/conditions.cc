@@ -68,6 +68,22 @@ void add_others(Conditions &conditions, const casefile::BoundaryCase &entry) {
   scalar(entry.heat_flux, "q·ν", "W/m²");
 }
 
+std::string electrode_text(const casefile::ElectrodeCase &electrode) {
+  std::string text = "electrode " + electrode.name;
+  const auto add = [&](const std::string &piece) { text += ", " + piece; };
+  if (electrode.voltage)
+    add(electrode.voltage->text() + " V");
+  if (electrode.charge)
+    add("Q = " + electrode.charge->text() + " C");
+  if (electrode.resistor)
+    add(fmt::format("{} Ω", *electrode.resistor));
+  if (electrode.capacitor)
+    add(fmt::format("{} F", *electrode.capacitor));
+  if (electrode.to)
+    add("to " + *electrode.to);
+  return text;
+}
+
 }  // namespace
 
 Conditions conditions_on(const casefile::Case &asked, const std::string &boundary) {
@@ -81,6 +97,9 @@ Conditions conditions_on(const casefile::Case &asked, const std::string &boundar
   };
   add_entries(add_mechanics);
   add_entries(add_others);
+  for (const casefile::ElectrodeCase &electrode : asked.electrodes)
+    if (names(electrode.on, boundary))
+      conditions.texts.push_back(electrode_text(electrode));
   return conditions;
 }
 

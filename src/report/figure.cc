@@ -25,8 +25,10 @@ std::vector<double> ticks(double low, double high) {
     if ((high - low) / step > 6)
       step = digit * power;
   std::vector<double> values;
-  for (double i = std::ceil(low / step - 1e-9); i <= high / step + 1e-9; ++i)
-    values.push_back(i * step);
+  const auto first = static_cast<long>(std::ceil(low / step - 1e-9)),
+             last = static_cast<long>(std::floor(high / step + 1e-9));
+  for (long i = first; i <= last; ++i)
+    values.push_back(static_cast<double>(i) * step);
   return values;
 }
 

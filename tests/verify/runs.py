@@ -59,7 +59,8 @@ class Program:
 
     def _start(self, case, settings):
         folder = pathlib.Path(self._folders.name) / str(len(self._runs))
-        command = [self.path, "run", ROOT / case, "-o", folder, "--set", "output.fields=false"]
+        command = [self.path, "run", ROOT / case, "-o", folder, "--set", "output.fields=false",
+                   "--set", "output.report=false"]
         for name, value in settings.items():
             command += ["--set", f"{name.replace('__', '.')}={value}"]
         done = subprocess.run(command, capture_output=True, text=True)

@@ -9,7 +9,12 @@ interface Group { title: string; unit: string; columns: [name: string, label: st
 function groups(history: Table): Group[] {
   const named = (prefix: string) => history.names.filter((n) => n.startsWith(prefix) && !n.endsWith('_imbalance'))
     .map((n): [string, string] => [n, n.slice(prefix.length)]);
+  const electrodes = (quantity: string) => history.names.filter((n) => n.startsWith('electrode_') && n.endsWith(quantity))
+    .map((n): [string, string] => [n, n.slice('electrode_'.length, -quantity.length - 1)]);
   return [
+    { title: 'Voltage of electrodes', unit: 'V', columns: electrodes('voltage') },
+    { title: 'Charge on electrodes', unit: 'C', columns: electrodes('charge') },
+    { title: 'Current into electrodes', unit: 'A', columns: electrodes('current') },
     { title: 'Energies', unit: 'J', columns: [['elastic_energy', 'elastic'], ['electric_energy', 'electric'],
       ['thermal_energy', 'thermal'], ['coupling_energy', 'coupling']] },
     { title: 'Friction dissipation and power of the loads', unit: 'W',

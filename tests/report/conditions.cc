@@ -1,0 +1,60 @@
+#include "tourmaline/report/conditions.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace tourmaline::report {
+namespace {
+
+using casefile::Formula;
+using testing::ElementsAre;
+
+casefile::BoundaryCase entry(const std::string &on) {
+  casefile::BoundaryCase boundary;
+  boundary.on = {on};
+  return boundary;
+}
+
+TEST(Conditions, WhatIsSaidInSeveralEntriesIsGathered) {
+  casefile::Case asked;
+  asked.boundaries = {entry("top"), entry("top")};
+  asked.boundaries[0].temperature = Formula(3.);
+  asked.boundaries[1].displacement = {Formula(0.), std::nullopt};
+  const Conditions conditions = conditions_on(asked, "top");
+  EXPECT_EQ(conditions.kind, "displacement");
+  EXPECT_THAT(conditions.texts, ElementsAre("u = (0, free) m", "θ = 3 K"));
+}
+
+TEST(Conditions, NothingSaidIsFree) {
+  const Conditions conditions = conditions_on({}, "top");
+  EXPECT_EQ(conditions.kind, "free");
+  EXPECT_TRUE(conditions.texts.empty());
+}
+
+TEST(Conditions, ContactNamesItsLawsAndStaysContactBesideAPotential) {
+  casefile::Case asked;
+  asked.boundaries = {entry("left")};
+  asked.boundaries[0].potential = Formula(0.);
+  asked.contact.emplace();
+  asked.contact->on = {"left"};
+  asked.contact->friction = {"tresca", Formula("10 + y")};
+  const Conditions conditions = conditions_on(asked, "left");
+  EXPECT_EQ(conditions.kind, "contact");
+  EXPECT_THAT(conditions.texts, ElementsAre("bilateral contact", "Tresca friction, S = 10 + y N/m²",
+                                            "insulated, q·ν = 0", "φ = 0 V"));
+}
+
+TEST(Conditions, AnElectrodeIsNamedWithItsCircuit) {
+  casefile::Case asked;
+  casefile::ElectrodeCase electrode;
+  electrode.name = "signal";
+  electrode.on = {"top"};
+  electrode.resistor = 1e6;
+  electrode.to = "ground";
+  asked.electrodes = {electrode};
+  EXPECT_THAT(conditions_on(asked, "top").texts,
+              ElementsAre("electrode signal, 1000000 Ω, to ground"));
+}
+
+}  // namespace
+}  // namespace tourmaline::report
