@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "tourmaline/material/description.h"
 #include "tourmaline/mesh/gmsh.h"
 #include "tourmaline/parallel/ranks.h"
+#include "tourmaline/report/figures.h"
 #include "tourmaline/report/page.h"
 #include "tourmaline/solve/simulation.h"
 #include "tourmaline/solve/survey.h"
@@ -29,6 +31,9 @@ struct Asked {
   std::vector<std::string> overrides;
   std::string material, materials_file;
   bool quiet = false;
+  std::string format = "svg";
+  std::vector<std::string> fields;
+  std::optional<double> time;
 };
 
 void run(const Asked &asked) {
@@ -68,6 +73,16 @@ void report_page(const Asked &asked) {
   std::cout << file.string() << '\n';
 }
 
+void figures(const Asked &asked) {
+  const tourmaline::report::FigureRequest request{tourmaline::report::figure_format(asked.format),
+                                                  asked.fields, asked.time};
+  const std::filesystem::path &folder = asked.folders.front();
+  const auto files = tourmaline::report::write_figures(
+      folder, asked.directory.empty() ? folder / "figures" : asked.directory, request);
+  for (const std::filesystem::path &file : files)
+    std::cout << file.string() << '\n';
+}
+
 void add_case(CLI::App &command, Asked &asked) {
   command.add_option("CASE", asked.file, "the case file (TOML)")->required();
   command
@@ -104,6 +119,22 @@ void add_report(CLI::App &app, Asked &asked) {
   command->add_option("-o,--output", asked.file,
                       "the page; if not given DIR/report.html, of two folders report.html");
   command->callback([&asked] { report_page(asked); });
+}
+
+void add_figures(CLI::App &app, Asked &asked) {
+  CLI::App *command = app.add_subcommand("figures", "draw figures of a result folder for a paper");
+  command->add_option("DIR", asked.folders, "a folder that `run` left")->required()->expected(1);
+  command->add_option("-o,--output", asked.directory,
+                      "folder of the figures, made when missing; DIR/figures if not given");
+  command->add_option("--format", asked.format, "svg, png or pdf; svg if not given");
+  command
+      ->add_option("--field", asked.fields,
+                   "a field to draw, NAME or NAME.COMPONENT; may be given several times; if not "
+                   "given, what the paper shows")
+      ->allow_extra_args(false);
+  command->add_option("--time", asked.time,
+                      "the moment [s]; the nearest field file is taken, if not given the last");
+  command->callback([&asked] { figures(asked); });
 }
 
 void add_materials(CLI::App &app, Asked &asked) {
@@ -148,6 +179,7 @@ int obey(int argc, char **argv) {
   add_run(app, asked);
   add_check(app, asked);
   add_report(app, asked);
+  add_figures(app, asked);
   add_materials(app, asked);
   add_reference(app);
   check_command(app, argc, argv);

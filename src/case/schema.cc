@@ -236,18 +236,19 @@ std::string unnamed_complaint(const MeshCase &mesh) {
   if (!mesh.content || mesh.unnamed != "error")
     return "";
   const MeshFile &file = *mesh.content;
-  const auto unnamed = std::count(file.boundaries.set_of.begin(), file.boundaries.set_of.end(), 0);
-  if (unnamed == 0)
+  std::vector<std::size_t> unnamed;
+  for (std::size_t facet = 0; facet < file.n_facets(); ++facet)
+    if (!file.inside[facet] && file.boundaries.set_of[facet] == 0)
+      unnamed.push_back(facet);
+  if (unnamed.empty())
     return "";
-  const auto first = std::find(file.boundaries.set_of.begin(), file.boundaries.set_of.end(), 0) -
-                     file.boundaries.set_of.begin();
-  const auto &p = file.points[file.facets[first * file.vertices_per_facet()]];
+  const auto &p = file.points[file.facets[unnamed.front() * file.vertices_per_facet()]];
   return fmt::format(
       "{} of the {} facets of the boundary have no name, one of them at ({:g}, {:g}, {:g}), so "
       "that "
       "no condition can be given there. Put them into a physical group, or say mesh.unnamed = "
       "\"natural\": no traction, no charge and no heat flow there",
-      unnamed, std::count(file.inside.begin(), file.inside.end(), false), p[0], p[1], p[2]);
+      unnamed.size(), std::count(file.inside.begin(), file.inside.end(), false), p[0], p[1], p[2]);
 }
 
 void declare_file(Visitor &v, MeshCase &mesh) {

@@ -303,7 +303,7 @@ void declare_properties(Visitor &v, MaterialCase &material, int dimension) {
              material.symmetry);
   v.optional({.name = "conductor",
               .description = "true: a metal, in which there is no electric field; its permittivity "
-                             "is not given (docs/theory.md, section 11)",
+                             "is not given (docs/conventions.md)",
               .default_words = "the entry's, or false"},
              material.conductor);
   declare_constants(v, material);

@@ -15,6 +15,7 @@ namespace {
 
 std::vector<Entry> sorted(const std::vector<std::pair<std::string, casefile::MaterialCase>> &read) {
   std::vector<Entry> entries;
+  entries.reserve(read.size());
   for (const auto &[name, given] : read)
     entries.push_back({name, given});
   return entries;

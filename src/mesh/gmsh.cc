@@ -151,6 +151,7 @@ class Names {
     std::vector<int> tags;
     gmsh::model::getPhysicalGroupsForEntity(dimension, entity, tags);
     std::vector<std::string> names;
+    names.reserve(tags.size());
     for (const int tag : tags)
       names.push_back(group(dimension, tag));
     return names;

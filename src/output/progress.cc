@@ -4,6 +4,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
@@ -11,6 +12,7 @@ namespace tourmaline::output {
 namespace {
 
 constexpr std::chrono::milliseconds redraw_interval(100);
+constexpr std::size_t widest_bar = 24, narrowest_bar = 10;
 constexpr std::string_view clear_line = "\r\033[K";
 
 /// A line that wrapped could not be rewritten in place.
@@ -44,27 +46,47 @@ std::string progress_text(const HistoryRow &row, int steps, double seconds_left)
   return text;
 }
 
-Progress::Progress(int steps, bool quiet)
-    : steps_(steps), shown_(!quiet && ::isatty(STDERR_FILENO)) {}
+std::string progress_bar(int done, int all, std::size_t width) {
+  const std::size_t inside = width - 2;
+  const std::size_t full = all > 0 ? inside * static_cast<std::size_t>(done) / all : 0;
+  return "[" + std::string(full, '#') + std::string(inside - full, '-') + "]";
+}
+
+Progress::Progress(int steps, bool quiet, std::chrono::milliseconds pause)
+    : steps_(steps),
+      quiet_(quiet),
+      terminal_(::isatty(STDERR_FILENO)),
+      pause_(terminal_ ? redraw_interval : pause),
+      last_draw_(Clock::now()) {}
+
+bool Progress::due(Clock::time_point now) const {
+  return now - last_draw_ >= pause_;
+}
 
 void Progress::stage(const std::string &what) {
-  if (shown_)
+  if (!quiet_ && (terminal_ || due(Clock::now())))
     draw(what + " ...");
 }
 
 void Progress::step(const HistoryRow &row) {
-  if (!shown_)
+  if (quiet_)
     return;
   const Clock::time_point now = Clock::now();
-  if (!started_) {
+  const bool first = !started_;
+  if (first) {
     started_ = true;
     first_step_ = row.step;
     first_step_end_ = now;
-  } else if (now - last_draw_ < redraw_interval) {
-    return;
   }
+  if (!due(now) && !(first && terminal_))
+    return;
   last_draw_ = now;
-  draw(progress_text(row, steps_, seconds_left(row.step, now)));
+  std::string text = progress_text(row, steps_, seconds_left(row.step, now));
+  if (terminal_ && terminal_width() > text.size() + narrowest_bar + 1)
+    text =
+        progress_bar(row.step, steps_, std::min(widest_bar, terminal_width() - text.size() - 2)) +
+        " " + text;
+  draw(text);
 }
 
 double Progress::seconds_left(int step, Clock::time_point now) const {
@@ -75,6 +97,11 @@ double Progress::seconds_left(int step, Clock::time_point now) const {
 }
 
 void Progress::draw(const std::string &text) {
+  if (!terminal_) {
+    put(text + "\n");
+    last_draw_ = Clock::now();
+    return;
+  }
   put(std::string(clear_line) + text.substr(0, terminal_width() - 1));
   drawn_ = true;
 }

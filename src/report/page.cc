@@ -132,7 +132,8 @@ void write_page(const std::vector<std::filesystem::path> &folders,
   Packing packing;
   Json results = Json::array();
   for (const std::filesystem::path &folder : folders)
-    results.push_back(result_json(packing, read_result(folder, most_numbers / folders.size())));
+    results.push_back(
+        result_json(packing, read_result(folder, {most_numbers / folders.size(), {}})));
   const Json page{
       {"results", results},
       {"colourMaps", {{"even", map_json(viridis())}, {"signed", map_json(blue_red())}}}};

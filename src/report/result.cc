@@ -183,15 +183,25 @@ void say_why_no_fields(Result &result) {
                                : "There are no fields: the folder holds no result.pvd.");
 }
 
-void read_fields(Result &result, const fs::path &folder, std::size_t most_numbers) {
-  const std::vector<State> series = series_of(folder);
+/// The state whose time is nearest, alone.
+std::vector<State> nearest(const std::vector<State> &series, double time) {
+  return {*std::min_element(series.begin(), series.end(), [&](const State &a, const State &b) {
+    return std::abs(a.time - time) < std::abs(b.time - time);
+  })};
+}
+
+void read_fields(Result &result, const fs::path &folder, const States &states) {
+  std::vector<State> series = series_of(folder);
   if (series.empty())
     return say_why_no_fields(result);
+  if (states.time)
+    series = nearest(series, *states.time);
   const FieldFile last = read_field_file(series.back().file);
   begin_fields(result, last);
-  const std::size_t most = std::max<std::size_t>(1, most_numbers / numbers_of(last, result.skin));
+  const std::size_t most =
+      std::max<std::size_t>(1, states.most_numbers / numbers_of(last, result.skin));
   const std::vector<State> kept = thinned(series, most);
-  if (kept.size() < series.size())
+  if (kept.size() < series.size() && kept.size() > 1)
     result.remarks.push_back(fmt::format("Of {} field files {} are shown, to keep the page small.",
                                          series.size(), kept.size()));
   for (const State &state : kept) {
@@ -240,14 +250,14 @@ const Field *Result::field(const std::string &wanted) const {
   return nullptr;
 }
 
-Result read_result(const fs::path &folder, std::size_t most_numbers) {
+Result read_result(const fs::path &folder, const States &states) {
   check_folder(folder);
   Result result;
   result.name = name_of(folder);
   read_case(result, folder);
   read_tables(result, folder);
   evaluate_friction_bound(result);
-  read_fields(result, folder, most_numbers);
+  read_fields(result, folder, states);
   read_boundaries(result, folder);
   return result;
 }

@@ -89,6 +89,7 @@ std::vector<Face> outer(const std::vector<Face> &faces) {
       single.push_back(keys[i].second);
   std::sort(single.begin(), single.end());
   std::vector<Face> result;
+  result.reserve(single.size());
   for (const std::size_t i : single)
     result.push_back(faces[i]);
   return result;

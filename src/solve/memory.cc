@@ -9,6 +9,7 @@
 #include <string>
 
 #include "tourmaline/error.h"
+#include "tourmaline/parallel/ranks.h"
 
 namespace tourmaline::solve {
 
@@ -38,10 +39,21 @@ double nodes_of(const casefile::MeshCase &mesh) {
 
 }  // namespace
 
-double estimated_memory(const casefile::Case &asked) {
+double factorised_memory(const casefile::Case &asked) {
   const double unknowns = nodes_of(asked.mesh) * (asked.dimension + 2);
   return program + (asked.dimension == 2 ? unknowns * (440 + 115 * std::log2(unknowns))
                                          : 310 * std::pow(unknowns, 4. / 3));
+}
+
+double iterative_memory(const casefile::Case &asked) {
+  return program + 5000 * nodes_of(asked.mesh) * (asked.dimension + 2);
+}
+
+bool solves_iteratively(const casefile::Case &asked) {
+  if (asked.solver.method != "condensed" || asked.solver.body == "direct")
+    return false;
+  const bool too_large = asked.dimension == 3 && factorised_memory(asked) > available_memory() / 2;
+  return asked.solver.body == "iterative" || parallel::from_first(too_large) != 0;
 }
 
 double available_memory() {
@@ -53,7 +65,9 @@ double available_memory() {
 }
 
 void require_memory(const casefile::Case &asked) {
-  const double needed = estimated_memory(asked), available = available_memory();
+  const double needed =
+      solves_iteratively(asked) ? iterative_memory(asked) : factorised_memory(asked);
+  const double available = available_memory();
   if (needed > available)
     throw CaseError(
         fmt::format("{}: [mesh] this mesh needs about {:.3g} GiB of memory, {:.3g} GiB are "

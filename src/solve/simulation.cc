@@ -1,5 +1,6 @@
 #include "tourmaline/solve/simulation.h"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -43,6 +44,7 @@ class Simulation {
 
   double start_seconds_ = process_age();
   output::Progress progress_;
+  bool iterative_;  // decided once: what is available changes with what is taken
   Model<dim> model_;
   std::vector<double> state_, before_, loads_, right_side_;
   std::optional<output::ResultFolder> folder_;
@@ -53,10 +55,10 @@ class Simulation {
 };
 
 template <int dim>
-std::unique_ptr<Route> make_route(const Model<dim> &model) {
+std::unique_ptr<Route> make_route(const Model<dim> &model, bool iterative) {
   if (model.asked.solver.method == "monolithic")
     return monolithic_route(model);
-  if (model.asked.solver.body == "iterative") {
+  if (iterative) {
     casefile::require_given_voltages(model.asked, "the iterative solver");
     return iterative_route(model);
   }
@@ -70,6 +72,7 @@ template <int dim>
 Simulation<dim>::Simulation(const casefile::Case &asked, const std::filesystem::path &directory,
                             bool quiet)
     : progress_(asked.time.steps, quiet || !parallel::is_first()),
+      iterative_(solves_iteratively(asked)),
       model_((progress_.stage("mesh and operator"), asked)) {
   state_ = body::initial_state(model_.body, asked.initial);
   std::vector<double> trial = state_;
@@ -79,8 +82,8 @@ Simulation<dim>::Simulation(const casefile::Case &asked, const std::filesystem::
     contact::friction_at(asked.contact->friction, node.point, model_.time(1));
   open_folder(directory);
   recorder_.emplace(model_, *folder_);
-  progress_.stage("factorisation");
-  route_ = make_route(model_);
+  progress_.stage(iterative_ ? "preconditioner" : "factorisation");
+  route_ = make_route(model_, iterative_);
 }
 
 template <int dim>
@@ -207,6 +210,11 @@ output::Summary Simulation<dim>::summary() const {
   summary.seconds.start = start_seconds_;
   summary.seconds.total = process_age();
   summary.seconds.output = recorder_->seconds();
+  if (model_.asked.solver.body == "automatic" && iterative_)
+    summary.warnings.push_back(fmt::format(
+        "solver.body = \"automatic\": the body's equations were solved iteratively, because a "
+        "factorisation needs about {:.3g} GiB, more than half of what is available",
+        factorised_memory(model_.asked) / (1 << 30)));
   summary.peak_memory_bytes = parallel::sum(peak_memory());
   return summary;
 }

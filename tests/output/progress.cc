@@ -59,13 +59,45 @@ TEST(ProgressText, TheTimeLeftIsSaidInTheUnitsOfAPerson) {
   EXPECT_THAT(progress_text(row(3), 20, 7500), HasSubstr("  2 h 05 min left"));
 }
 
-TEST(ProgressLine, InAPipeNothingIsSaid) {
+TEST(ProgressBar, ItFillsFromTheLeft) {
+  EXPECT_EQ(progress_bar(0, 20, 12), "[----------]");
+  EXPECT_EQ(progress_bar(5, 20, 12), "[##--------]");
+  EXPECT_EQ(progress_bar(20, 20, 12), "[##########]");
+}
+
+TEST(ProgressLine, InAPipeAShortRunSaysNothing) {
   testing::internal::CaptureStderr();
   {
     Progress progress(20, false);
     progress.stage("mesh");
     progress.step(row(1));
     progress.done();
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(ProgressLine, InAPipeALineFollowsEveryPause) {
+  testing::internal::CaptureStderr();
+  {
+    Progress progress(20, false, std::chrono::milliseconds(100));
+    for (int i = 1; i <= 3; ++i) {
+      progress.step(row(2 * i - 1));
+      ::usleep(120000);
+      progress.step(row(2 * i));
+    }
+  }
+  const std::string text = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3);
+  EXPECT_THAT(text, testing::StartsWith("step 2/20  t = 0.02 s  Newton 2  stick 30  slip 3  "));
+  EXPECT_EQ(text.find('\r'), std::string::npos);
+}
+
+TEST(ProgressLine, WhenQuietNothingIsSaidInAPipe) {
+  testing::internal::CaptureStderr();
+  {
+    Progress progress(20, true, std::chrono::milliseconds(0));
+    progress.stage("mesh");
+    progress.step(row(1));
   }
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
@@ -89,7 +121,8 @@ TEST(ProgressLine, ItIsRewrittenInPlaceAndClearedInTheEnd) {
     progress.done();
   });
   const std::string clear = "\r\033[K";
-  EXPECT_EQ(text, clear + "factorise ..." + clear + progress_text(row(1), 20, -1) + clear);
+  EXPECT_EQ(text, clear + "factorise ..." + clear + progress_bar(1, 20, 24) + " " +
+                      progress_text(row(1), 20, -1) + clear);
 }
 
 TEST(ProgressLine, ItIsClearedWhenAnErrorEndsTheRun) {

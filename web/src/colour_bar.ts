@@ -15,8 +15,10 @@ export class ColourBar {
   show(range: Range, unitOfField: string, clipped = false) {
     const power = thousands(Math.max(Math.abs(range.low), Math.abs(range.high)));
     this.strip.style.background = mapGradient(range.signed, 'to right');
+    // To three digits of the greatest: beside 1.24 the end of a bar is 0, not 9.6e-5.
+    const step = 10 ** (Math.floor(Math.log10(Math.max(Math.abs(range.low), Math.abs(range.high)))) - 2);
     const tick = (at: number) => element('span', {}, (clipped && at === 1 ? '≥ ' : '') +
-      shown((range.low + at * (range.high - range.low)) / 10 ** power, 3));
+      shown((Math.round((range.low + at * (range.high - range.low)) / step) * step) / 10 ** power, 3));
     const unit = element('span', { class: 'unit' }, unitWith(power, unitOfField));
     this.ticks.replaceChildren(...(this.small ? [tick(0), unit, tick(1)]
       : [...[0, 0.25, 0.5, 0.75, 1].map(tick), unit]));

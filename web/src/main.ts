@@ -5,6 +5,7 @@ import { Body } from './body';
 import { redrawMarks } from './chart';
 import { useColourMaps } from './colours';
 import { Contact } from './contact';
+import { ContactFace } from './contact_face';
 import { element } from './dom';
 import { Explorer } from './explorer';
 import { History } from './history';
@@ -72,9 +73,10 @@ if (drawn.length > 0 && !obstacle()) {
 
 }
 
-const touching = results.filter((r) => r.contact && r.contact.rows > 0 && r.dimension === 2);
+const touching = results.filter((r) => r.contact && r.contact.rows > 0);
 if (touching.length > 0) {
-  const contacts = new Map(touching.map((r, i) => [r, new Contact(r, timeline, String(i))]));
+  const contacts = new Map(touching.map((r, i) =>
+    [r, r.dimension === 2 ? new Contact(r, timeline, String(i)) : new ContactFace(r, timeline)] as const));
   page.append(section('contact', 'Along the contact', beside((r) => !!contacts.get(r) &&
     element('div', { class: 'charts' }, ...contacts.get(r)!.charts))));
   timeline.onChange(() => { for (const contact of contacts.values()) contact.update(); });

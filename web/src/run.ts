@@ -28,11 +28,15 @@ function balances(result: Result): Row[] {
   });
 }
 
+// In the order in which they happen.
+const stages = ['start', 'mesh', 'assemble', 'analyse', 'factorise', 'condense', 'step', 'output'];
+
 function times(summary: any): HTMLElement {
   const parts: [string, number][] = [];
-  for (const [name, value] of Object.entries<any>(summary.seconds)) {
-    const time = name === 'step' ? value.total : value;
-    if (name !== 'total' && typeof time === 'number') parts.push([name === 'step' ? 'all steps' : name, time]);
+  for (const name of stages) {
+    const value = summary.seconds[name];
+    const time = name === 'step' ? value?.total : value;
+    if (typeof time === 'number') parts.push([name === 'step' ? 'all steps' : name, time]);
   }
   const most = Math.max(...parts.map((p) => p[1]), 1e-9);
   return element('section', { class: 'facts' }, element('h3', {}, `Time: ${seconds(summary.seconds.total ?? 0)}`),

@@ -9,11 +9,11 @@ const switches = [
   '--disable-background-networking', '--disable-component-update', '--disable-sync',
 ];
 
-/** Runs `work(context)` in a fresh profile. */
-export async function inBrowser(options, work) {
+/** Runs `work(context)` in a fresh profile; `further` are more switches. */
+export async function inBrowser(options, work, further = []) {
   const profile = mkdtempSync(join(tmpdir(), 'tourmaline-chromium-'));
   const context = await chromium.launchPersistentContext(profile, {
-    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', headless: true, args: switches, ...options,
+    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', headless: true, args: [...switches, ...further], ...options,
   });
   try {
     return await work(context);

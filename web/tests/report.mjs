@@ -1,7 +1,7 @@
 // node tests/report.mjs TOURMALINE: runs the paper's case and looks at its page in Chromium, as a reader would.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync, statSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { inBrowser } from './browser.mjs';
@@ -41,11 +41,20 @@ async function open(context, file) {
   tab.on('console', (m) => ['error', 'warning'].includes(m.type()) && complaints.push(m.text()));
   tab.on('pageerror', (e) => complaints.push(e.message));
   tab.on('request', (r) => /^(file|data|blob):/.test(r.url()) || complaints.push(`request of ${r.url()}`));
-  const begin = Date.now();
+  // The processor's time: on a busy machine the clock says nothing of the page.
+  const session = await context.newCDPSession(tab);
+  await session.send('Performance.enable', { timeDomain: 'threadTicks' });
   await tab.goto('file://' + file);
   await tab.waitForSelector('#run');
   await settled(tab);
-  return { tab, complaints, seconds: (Date.now() - begin) / 1000 };
+  const { metrics } = await session.send('Performance.getMetrics');
+  return { tab, complaints, seconds: metrics.find((m) => m.name === 'TaskDuration').value };
+}
+
+/** Scrolls an element to the middle of the window; its place there. */
+async function centred(tab, selector) {
+  await tab.locator(selector).first().evaluate((e) => e.scrollIntoView({ block: 'center', behavior: 'instant' }));
+  return tab.locator(selector).first().boundingBox();
 }
 
 /** Two frames later everything that was asked for is drawn. */
@@ -72,7 +81,7 @@ const goTo = (tab, step) => tab.locator('#time').fill(String(step));
 /** Moves the pointer over the body until it finds `wanted` nodes; what the page says of each. */
 async function probe(tab, wanted) {
   const found = new Map();
-  const box = await tab.locator('.view canvas').first().boundingBox();
+  const box = await centred(tab, '.view canvas');
   for (let k = 0; k < 400 && found.size < wanted; ++k) {
     const [u, v] = [(0.31 + 0.618034 * k) % 1, (0.17 + 0.7548777 * k) % 1];
     await tab.mouse.move(box.x + u * box.width, box.y + v * box.height);
@@ -122,8 +131,10 @@ await inBrowser(desktop, async (context) => {
     const size = statSync(page).size;
     assert.ok(size < 8e6, `${size} bytes`);
   });
-  await test('the page is on the screen within 2 s (drawn in software: 4 s)', () =>
-    assert.ok(seconds < 4, `${seconds} s`));
+  await test('two seconds of a processor are enough to put the page on the screen', () => {
+    assert.ok(seconds > 0.05 && seconds < 2, `${seconds} s`);
+    console.log(`      it took ${seconds.toFixed(2)} s`);
+  });
   await test('setting, deformed mesh, potential, temperature and stress are there at once', async () => {
     assert.deepEqual(await tab.locator('.card figcaption').allTextContents(),
       ['Physical setting', 'Deformed mesh', 'Electric potential', 'Temperature', 'von Mises stress']);
@@ -251,6 +262,102 @@ await inBrowser(desktop, async (context) => {
     assert.match(await tab.locator('.moment').textContent(), /t = 0\.04 s/);
     assert.deepEqual(complaints, []);
   });
+});
+
+await inBrowser(desktop, async (context) => {
+  const { tab } = await open(context, page);
+  await test('without WebGL the page says so and shows the curves', async () => {
+    assert.match(await tab.locator('.notices').textContent(), /no WebGL/);
+    assert.ok((await colours(tab, '#contact canvas', 0)) > 3);
+  });
+}, ['--disable-3d-apis']);
+
+const [insulated, coarse] = ['insulated', 'conductive'].map((name) =>
+  run(`${name}-16`, `ouafik-2020/${name}.toml`, 'mesh.box.cells=[16, 16]'));
+const both = join(folder, 'both.html');
+execFileSync(program, ['report', insulated, coarse, '-o', both]);
+await inBrowser(desktop, async (context) => {
+  const { tab, complaints } = await open(context, both);
+  const images = async () => [await pixels(tab, '.view canvas', 0), await pixels(tab, '.view canvas', 1)];
+  const ends = () => tab.locator('.view .ticks').evaluateAll((bars) => bars.map((b) => b.textContent));
+  await test('two results stand side by side and differ', async () => {
+    const [left, right] = await images();
+    assert.notEqual(left, right);
+  });
+  await test('their colours mean the same until they are told not to', async () => {
+    const [left, right] = await ends();
+    assert.equal(left, right);
+    await tab.locator('.tick input').nth(1).uncheck();
+    await settled(tab);
+    const [alone, other] = await ends();
+    assert.notEqual(alone, other);
+    await tab.locator('.tick input').nth(1).check();
+  });
+  await test('moment and camera move together', async () => {
+    const before = await images();
+    await goTo(tab, 10);
+    const earlier = await images();
+    await tab.locator('.view canvas').nth(1).focus();
+    await tab.keyboard.press('+');
+    const closer = await images();
+    for (const i of [0, 1]) assert.equal(new Set([before[i], earlier[i], closer[i]]).size, 3, `view ${i}`);
+    await tab.keyboard.press('0');
+    await goTo(tab, 20);
+  });
+  await test('the pointer on one tells the values of both at the same place', async () => {
+    const found = await probe(tab, 4);
+    compare(found, nodesOf(insulated));
+    const other = await tab.locator('.readout').nth(1).evaluate((readout) => ({
+      node: Number(readout.dataset.node),
+      values: [...readout.querySelectorAll('[data-field]')].map((e) =>
+        [e.dataset.field, e.dataset.component, Number(e.dataset.value), e.textContent]) }));
+    compare(new Map([[other.node, other.values]]), nodesOf(coarse));
+  });
+  await test('side by side nothing is complained of', () => assert.deepEqual(complaints, []));
+});
+
+const solid = join(folder, 'solid.toml');
+writeFileSync(solid, `title = "A block"
+mesh.box = { min = [0, 0, 0], max = [0.1, 0.1, 0.1], cells = [6, 6, 6], cell = "tetrahedron" }
+material.library = "BaTiO3-Liu2014"
+time = { end = 1, steps = 3 }
+boundary = [ { on = "right", displacement = [0, 0, 0], potential = 0, temperature = 0 },
+             { on = "top", traction = [0, 0, "-50*t"] } ]
+[contact]
+on = "left"
+friction = { law = "tresca", bound = 15 }
+heat = { law = "exchange", coefficient = 1, foundation_temperature = -27 }
+`);
+const block = join(folder, 'block');
+execFileSync(program, ['run', solid, '-q', '-o', block]);
+await inBrowser(desktop, async (context) => {
+  const { tab, complaints } = await open(context, join(block, 'report.html'));
+  await test('a solid body turns under the mouse and zooms with the wheel', async () => {
+    const box = await centred(tab, '.view canvas');
+    const middle = [box.x + box.width / 2, box.y + box.height / 2];
+    const before = await pixels(tab, '.view canvas');
+    await tab.mouse.move(...middle);
+    await tab.mouse.down();
+    await tab.mouse.move(middle[0] + 120, middle[1] - 40, { steps: 4 });
+    await tab.mouse.up();
+    const turned = await pixels(tab, '.view canvas');
+    await tab.locator('.view canvas').first().focus();
+    await tab.mouse.wheel(0, -300);
+    await tab.waitForTimeout(200);
+    const closer = await pixels(tab, '.view canvas');
+    assert.equal(new Set([before, turned, closer]).size, 3);
+    await tab.keyboard.press('0');
+  });
+  await test('values on the surface of a solid body are those of nodes.csv', async () =>
+    compare(await probe(tab, 3), nodesOf(block)));
+  await test('the contact face shows stick and slip, tractions, slip and temperature', async () => {
+    assert.equal(await tab.locator('#contact canvas.face').count(), 5);
+    for (const i of [1, 3]) assert.ok((await colours(tab, '#contact canvas.face', i)) > 3, `face ${i} is empty`);
+    const late = await pixels(tab, '#contact canvas.face', 1);
+    await goTo(tab, 1);
+    assert.notEqual(await pixels(tab, '#contact canvas.face', 1), late);
+  });
+  await test('of a solid body nothing is complained of', () => assert.deepEqual(complaints, []));
 });
 
 rmSync(folder, { recursive: true, force: true });

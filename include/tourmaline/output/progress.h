@@ -11,11 +11,15 @@ namespace tourmaline::output {
 /// known yet).
 std::string progress_text(const HistoryRow &row, int steps, double seconds_left);
 
-/// A line on the terminal that says how far a run is, rewritten in place. Says nothing when `quiet`
-/// or when stderr is not a terminal. Never throws for what the terminal does.
+/// `done` of `all` as a bar of that many characters with its ends: "[####----]".
+std::string progress_bar(int done, int all, std::size_t width);
+
+/// Says on stderr how far a run is: on a terminal in one line with a bar that is rewritten in
+/// place, elsewhere (a pipe, a log) in a line of its own every `pause`, so that a short run says
+/// nothing. Says nothing when `quiet`. Never throws for what the terminal does.
 class Progress {
  public:
-  Progress(int steps, bool quiet);
+  Progress(int steps, bool quiet, std::chrono::milliseconds pause = std::chrono::seconds(5));
   Progress(const Progress &) = delete;
   Progress &operator=(const Progress &) = delete;
   ~Progress() { done(); }
@@ -33,12 +37,14 @@ class Progress {
   using Clock = std::chrono::steady_clock;
 
   double seconds_left(int step, Clock::time_point now) const;
+  bool due(Clock::time_point now) const;
   void draw(const std::string &text);
 
   int steps_;
-  bool shown_;            // whether there is a terminal to draw on
-  bool drawn_ = false;    // whether the line holds text
-  bool started_ = false;  // whether a step has been reported
+  bool quiet_, terminal_;
+  std::chrono::milliseconds pause_;  // between two drawings
+  bool drawn_ = false;               // whether the line holds text
+  bool started_ = false;             // whether a step has been reported
   int first_step_ = 0;
   Clock::time_point first_step_end_, last_draw_;
 };

@@ -53,9 +53,16 @@ struct Result {
   const Field *field(const std::string &name) const;
 };
 
-/// Reads the folder that a run left. Of the field files so many are taken, evenly and the last one
-/// among them, that they hold at most `most_numbers` numbers on the skin; the last one always.
-/// Throws CaseError when `folder` is no result folder or a file in it is damaged.
-Result read_result(const std::filesystem::path &folder, std::size_t most_numbers);
+/// Which of the field files are read: so many, evenly and the last one among them, that they hold
+/// at most `most_numbers` numbers on the skin; the last one always. Or the one nearest to `time`
+/// [s].
+struct States {
+  std::size_t most_numbers = 0;
+  std::optional<double> time;
+};
+
+/// Reads the folder that a run left. Throws CaseError when it is no result folder or a file in it
+/// is damaged.
+Result read_result(const std::filesystem::path &folder, const States &states);
 
 }  // namespace tourmaline::report

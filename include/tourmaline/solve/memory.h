@@ -4,10 +4,17 @@
 
 namespace tourmaline::solve {
 
-/// Bytes that a run will need at its peak, from the number of nodes alone: growing as N log N in 2D
-/// and as N^(4/3) in 3D (the factor of nested dissection), fitted to measured runs
-/// (docs/architecture.md).
-double estimated_memory(const casefile::Case &asked);
+/// Bytes that a run with a factorisation will need at its peak, from the number of nodes alone:
+/// growing as N log N in 2D and as N^(4/3) in 3D (the factor of nested dissection), fitted to
+/// measured runs (docs/architecture.md).
+double factorised_memory(const casefile::Case &asked);
+/// The same of a run that solves the body's equations iteratively: growing as N.
+double iterative_memory(const casefile::Case &asked);
+
+/// Whether the body's equations are solved iteratively: because the case says so, or, where it says
+/// automatic, because in three dimensions a factorisation needs more than half of what is
+/// available. The same on all ranks, which ask together.
+bool solves_iteratively(const casefile::Case &asked);
 
 /// Bytes that this process may still take: what the system has available, or its own limit if that
 /// is less.

@@ -1,0 +1,331 @@
+#include "figure.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tourmaline/report/number_text.h"
+#include "tourmaline/report/scale.h"
+#include "tourmaline/report/setting.h"
+
+namespace tourmaline::report {
+namespace {
+
+// All lengths in points.
+constexpr double body_size = 200, left_margin = 42, right_margin = 16, top_margin = 26,
+                 axis_room = 38, line_height = 11.5;
+constexpr double raster_pixels = 4;  // a point
+
+constexpr Colour ink{29, 33, 39}, grey{120, 126, 134}, body_colour{232, 235, 239};
+
+/// About five round numbers between the two.
+std::vector<double> ticks(double low, double high) {
+  const double power = std::pow(10, std::floor(std::log10((high - low) / 4)));
+  double step = power;
+  for (const double digit : {2., 5., 10.})
+    if ((high - low) / step > 6)
+      step = digit * power;
+  std::vector<double> values;
+  for (double i = std::ceil(low / step - 1e-9); i <= high / step + 1e-9; ++i)
+    values.push_back(i * step);
+  return values;
+}
+
+double points_per_metre(const View &view) {
+  return body_size / std::max({view.width(), view.height(), 1e-300});
+}
+
+}  // namespace
+
+Figure::Figure(const Result &result, FigureFormat format, double scale, double below)
+    : result_(result),
+      scale_(scale),
+      view_(view_of(result, scale)),
+      left_(left_margin + (body_size - view_.width() * points_per_metre(view_)) / 2),
+      top_(top_margin),
+      width_(view_.width() * points_per_metre(view_)),
+      height_(view_.height() * points_per_metre(view_)),
+      per_metre_(points_per_metre(view_)),
+      canvas_(format, left_margin + body_size + right_margin,
+              top_margin + view_.height() * points_per_metre(view_) + axis_room + below) {
+  if (result.dimension == 2)
+    axes();
+  else
+    solid_axes_cross();
+}
+
+Canvas::Point Figure::on_paper(std::uint32_t node) const {
+  const auto &place = view_.places[node];
+  return {left_ + (place[0] - view_.low[0]) * per_metre_,
+          top_ + (view_.high[1] - place[1]) * per_metre_};
+}
+
+void Figure::title(const std::string &text) {
+  canvas_.text(text, {left_margin, 15}, Canvas::Align::left, 9.5, true);
+}
+
+void Figure::say_scale() {
+  canvas_.text(scale_ == 0 ? "not deformed" : "displacement × " + number_text(scale_, 1),
+               {left_margin + body_size, top_ + height_ + (result_.dimension == 2 ? 26 : 30)},
+               Canvas::Align::right, 7);
+}
+
+void Figure::axes() {
+  axis(0, "x");
+  axis(1, "y");
+}
+
+// Coordinates are those of the undeformed body.
+void Figure::axis(int direction, const char *label) {
+  const double low = view_.low[direction], high = view_.high[direction];
+  const int power = shown_power(std::max(std::abs(low), std::abs(high)));
+  const double foot = top_ + height_ + 5, side = left_ - 5;
+  std::vector<std::vector<Canvas::Point>> marks;
+  for (const double value : ticks(low, high)) {
+    const double at = (value - low) * per_metre_;
+    const std::string text = number_text(value / std::pow(10, power), 4);
+    if (direction == 0) {
+      marks.push_back({{left_ + at, foot}, {left_ + at, foot + 3}});
+      canvas_.text(text, {left_ + at, foot + 11}, Canvas::Align::middle, 7);
+    } else {
+      const double y = top_ + height_ - at;
+      marks.push_back({{side, y}, {side - 3, y}});
+      canvas_.text(text, {side - 5, y + 2.5}, Canvas::Align::right, 7);
+    }
+  }
+  if (direction == 0)
+    marks.push_back({{left_, foot}, {left_ + width_, foot}});
+  else
+    marks.push_back({{side, top_}, {side, top_ + height_}});
+  canvas_.lines(marks, grey, 0.5);
+  const std::string name = std::string(label) + " [" + unit_text(power, "m") + "]";
+  if (direction == 0)
+    canvas_.text(name, {left_ + width_ / 2, foot + 21}, Canvas::Align::middle, 7.5);
+  else
+    canvas_.text(name, {left_ - 29, top_ + height_ / 2}, Canvas::Align::middle, 7.5, false, true);
+}
+
+void Figure::solid_axes_cross() {
+  const Canvas::Point origin{22, top_ + height_ + 14};
+  const char *const names[] = {"x", "y", "z"};
+  const auto axes = report::solid_axes();
+  for (int i = 0; i < 3; ++i) {
+    const Canvas::Point end{origin[0] + 16 * axes[i][0], origin[1] - 16 * axes[i][1]};
+    canvas_.lines({{origin, end}}, ink, 0.8);
+    canvas_.text(names[i], {origin[0] + 22 * axes[i][0], origin[1] - 22 * axes[i][1] + 2.5},
+                 Canvas::Align::middle, 7);
+  }
+  canvas_.text("largest extent " + number_text(size_of(result_), 3) + " m",
+               {left_margin + body_size, top_ + height_ + 20}, Canvas::Align::right, 7);
+}
+
+namespace {
+
+Colour shaded(const Colour &colour, double light) {
+  return {static_cast<std::uint8_t>(colour[0] * light),
+          static_cast<std::uint8_t>(colour[1] * light),
+          static_cast<std::uint8_t>(colour[2] * light)};
+}
+
+}  // namespace
+
+Raster Figure::bare_surface() const {
+  Raster raster(view_, per_metre_ * raster_pixels);
+  for (std::size_t i = 0; i < result_.skin.triangles.size(); ++i) {
+    const auto &t = result_.skin.triangles[i];
+    raster.triangle(view_.places[t[0]], view_.places[t[1]], view_.places[t[2]],
+                    [&](double, double, double) { return shaded(body_colour, view_.light[i]); });
+  }
+  return raster;
+}
+
+void Figure::put(const Raster &raster) {
+  canvas_.picture(raster, {left_, top_}, raster.width() / raster_pixels);
+}
+
+void Figure::field(const Field &field, std::size_t component) {
+  const std::vector<float> &all = field.values[component];
+  const std::size_t first =
+      all.size() - (field.on_points ? result_.skin.nodes : result_.skin.cells).size();
+  const auto [least, greatest] = std::minmax_element(all.begin() + first, all.end());
+  const double usual = usual_range(result_, field, component).high;
+  // Singular corners would leave nothing to be seen of the rest.
+  const bool clipped = !field.on_points && *least >= 0 && usual > 0 && *greatest > 1.5 * usual;
+  const ColourRange range = colour_range(*least, clipped ? usual : *greatest);
+  Raster raster(view_, per_metre_ * raster_pixels);
+  for (std::size_t i = 0; i < result_.skin.triangles.size(); ++i) {
+    const auto &t = result_.skin.triangles[i];
+    const auto value = [&](int corner) {
+      return all[first + (field.on_points ? t[corner] : result_.skin.triangle_cells[i])];
+    };
+    raster.triangle(view_.places[t[0]], view_.places[t[1]], view_.places[t[2]],
+                    [&, v = std::array<double, 3>{value(0), value(1), value(2)},
+                     light = view_.light[i]](double a, double b, double c) {
+                      return shaded(colour_of(a * v[0] + b * v[1] + c * v[2], range), light);
+                    });
+  }
+  put(raster);
+  colour_bar(range, field.unit, clipped);
+}
+
+namespace {
+
+using Path = std::vector<std::uint32_t>;
+
+/// Lines from node to node as few long paths, which makes files half as large.
+std::vector<Path> chained(const std::vector<std::array<std::uint32_t, 2>> &edges,
+                          std::size_t n_nodes) {
+  std::vector<std::vector<std::uint32_t>> left(n_nodes);  // ends of the lines not drawn yet
+  for (const auto &[a, b] : edges) {
+    left[a].push_back(b);
+    left[b].push_back(a);
+  }
+  std::vector<Path> paths;
+  for (std::uint32_t start = 0; start < n_nodes; ++start)
+    while (!left[start].empty()) {
+      Path path{start};
+      for (std::uint32_t at = start; !left[at].empty();) {
+        const std::uint32_t next = left[at].back();
+        left[at].pop_back();
+        left[next].erase(std::find(left[next].begin(), left[next].end(), at));
+        path.push_back(at = next);
+      }
+      paths.push_back(std::move(path));
+    }
+  return paths;
+}
+
+}  // namespace
+
+void Figure::mesh() {
+  Raster raster = bare_surface();
+  if (result_.dimension == 3)
+    for (const auto &edge : result_.skin.edges)
+      raster.line(view_.places[edge[0]], view_.places[edge[1]], 0.004 * size_of(result_));
+  put(raster);
+  if (result_.dimension == 3)
+    return;
+  std::vector<std::vector<Canvas::Point>> lines;
+  for (const Path &path : chained(result_.skin.edges, result_.points.size())) {
+    lines.emplace_back();
+    for (const std::uint32_t node : path)
+      lines.back().push_back(on_paper(node));
+  }
+  canvas_.lines(lines, ink, 0.18);
+}
+
+void Figure::outline() {
+  if (result_.dimension == 3)
+    return;
+  std::vector<std::vector<Canvas::Point>> sides;
+  for (const Boundary &boundary : result_.boundaries)
+    for (const auto &facet : boundary.facets) {
+      sides.emplace_back();
+      for (const std::uint32_t node : facet)
+        sides.back().push_back(on_paper(node));
+    }
+  canvas_.lines(sides, ink, 0.5);
+}
+
+void Figure::setting() {
+  if (result_.dimension == 2)
+    put(bare_surface());
+  Raster raster(view_, per_metre_ * raster_pixels);
+  for (const SettingGroup &group : groups_of(result_))
+    for (const Boundary *boundary : group.boundaries)
+      if (result_.dimension == 2)
+        paint_sides(*boundary, group.colour);
+      else
+        paint_faces(raster, *boundary, group.colour);
+  if (result_.dimension == 3)
+    put(raster);
+  legend();
+}
+
+void Figure::paint_sides(const Boundary &boundary, const Colour &colour) {
+  std::vector<std::vector<Canvas::Point>> sides;
+  for (const auto &facet : boundary.facets) {
+    sides.emplace_back();
+    for (const std::uint32_t node : facet)
+      sides.back().push_back(on_paper(node));
+  }
+  canvas_.lines(sides, colour, 3);
+}
+
+void Figure::paint_faces(Raster &raster, const Boundary &boundary, const Colour &colour) const {
+  for (const auto &facet : boundary.facets)
+    for (std::size_t i = 2; i < facet.size(); ++i)
+      raster.triangle(view_.places[facet[0]], view_.places[facet[i - 1]], view_.places[facet[i]],
+                      [&](double, double, double) { return colour; });
+}
+
+namespace {
+
+/// value / 10^power to three digits of `size`: beside 1.24 the end of a bar is 0, not 9.6e-5.
+double rounded(double value, double size, int power) {
+  const double step = size > 0 ? std::pow(10, std::floor(std::log10(size)) - 2) : 1;
+  return std::round(value / step) * step / std::pow(10, power);
+}
+
+}  // namespace
+
+void Figure::colour_bar(const ColourRange &range, const std::string &unit, bool clipped) {
+  const double top = top_ + height_ + axis_room, width = body_size - 40;
+  const double size = std::max(std::abs(range.low), std::abs(range.high));
+  const int power = shown_power(size);
+  canvas_.colour_strip(range.diverging ? blue_red() : viridis(), {left_margin, top}, width, 7);
+  for (int i = 0; i <= 4; ++i) {
+    const double at = i / 4., value = range.low + at * (range.high - range.low);
+    canvas_.lines({{{left_margin + at * width, top + 7}, {left_margin + at * width, top + 10}}},
+                  grey, 0.5);
+    canvas_.text((clipped && i == 4 ? "≥ " : "") + number_text(rounded(value, size, power), 3),
+                 {left_margin + at * width, top + 18}, Canvas::Align::middle, 7);
+  }
+  canvas_.text(unit_text(power, unit), {left_margin + width + 8, top + 6.5}, Canvas::Align::left,
+               7.5);
+}
+
+namespace {
+
+std::string names_of(const SettingGroup &group) {
+  std::string names;
+  for (const Boundary *boundary : group.boundaries)
+    names += (names.empty() ? "" : ", ") + boundary->name;
+  return names;
+}
+
+std::vector<std::string> texts_of(const SettingGroup &group) {
+  const std::vector<std::string> &texts = group.boundaries.front()->conditions.texts;
+  return texts.empty() ? std::vector<std::string>{"no condition"} : texts;
+}
+
+constexpr double legend_size = 7;
+
+}  // namespace
+
+void Figure::legend() {
+  const std::vector<SettingGroup> groups = groups_of(result_);
+  double column = 0;
+  for (const SettingGroup &group : groups)
+    column = std::max(column, canvas_.text_width(names_of(group), legend_size, true));
+  double y = top_ + height_ + axis_room + 6;
+  for (const SettingGroup &group : groups) {
+    const double left = left_margin - 20, right = left + 7;
+    canvas_.area({{left, y - 6}, {right, y - 6}, {right, y + 1}, {left, y + 1}}, group.colour);
+    canvas_.text(names_of(group), {left + 11, y}, Canvas::Align::left, legend_size, true);
+    for (const std::string &text : texts_of(group)) {
+      const double room = left_margin + body_size + right_margin - left - 21 - column;
+      const double fit = std::min(1., room / canvas_.text_width(text, legend_size));
+      canvas_.text(text, {left + 19 + column, y}, Canvas::Align::left, fit * legend_size);
+      y += line_height;
+    }
+  }
+}
+
+double legend_height(const Result &result) {
+  double lines = 0;
+  for (const SettingGroup &group : groups_of(result))
+    lines += static_cast<double>(texts_of(group).size());
+  return lines * line_height + 8;
+}
+
+}  // namespace tourmaline::report

@@ -1,0 +1,130 @@
+#include "tourmaline/report/figures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+
+#include "figure.h"
+#include "tourmaline/error.h"
+#include "tourmaline/report/number_text.h"
+#include "tourmaline/report/scale.h"
+
+namespace tourmaline::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Set {
+ public:
+  Set(const Result &result, const fs::path &directory, FigureFormat format)
+      : result_(result),
+        directory_(directory),
+        format_(format),
+        scale_(suitable_scale(result)),
+        moment_("t = " + number_text(result.times.back(), 4) + " s") {}
+
+  void setting() {
+    if (result_.boundaries.empty())
+      return;
+    Figure figure(result_, format_, 0, legend_height(result_));
+    figure.title("Physical setting");
+    figure.setting();
+    write(figure, "setting");
+  }
+
+  void deformed() {
+    Figure figure(result_, format_, scale_, 0);
+    figure.title("Deformed mesh, " + moment_);
+    figure.say_scale();
+    figure.mesh();
+    figure.outline();
+    write(figure, "deformed");
+  }
+
+  void field(const Field &field, std::size_t component) {
+    const std::string &name = field.components[component];
+    Figure figure(result_, format_, scale_, colour_bar_height);
+    figure.title(title_of(field.name) + (name.empty() ? "" : " " + name) + ", " + moment_);
+    figure.say_scale();
+    figure.field(field, component);
+    figure.outline();
+    write(figure, field.name + (name.empty() ? "" : "_" + name));
+  }
+
+  std::vector<fs::path> files;
+
+ private:
+  static std::string title_of(std::string name) {
+    if (name == "von_mises")
+      return "von Mises stress";
+    if (name == "potential")
+      return "Electric potential";
+    std::replace(name.begin(), name.end(), '_', ' ');
+    name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
+    return name;
+  }
+
+  void write(Figure &figure, const std::string &name) {
+    files.push_back(directory_ / (name + "." + name_of(format_)));
+    figure.write(files.back());
+  }
+
+  const Result &result_;
+  fs::path directory_;
+  FigureFormat format_;
+  double scale_;
+  std::string moment_;
+};
+
+std::string all_fields(const Result &result) {
+  std::string list;
+  for (const Field &field : result.fields)
+    for (const std::string &component : field.components)
+      list += (list.empty() ? "" : ", ") + field.name + (component.empty() ? "" : "." + component);
+  return list;
+}
+
+/// NAME or NAME.COMPONENT
+void draw_named(Set &set, const Result &result, const std::string &wanted) {
+  const std::size_t dot = wanted.find('.');
+  const std::string component = dot == std::string::npos ? "" : wanted.substr(dot + 1);
+  if (const Field *field = result.field(wanted.substr(0, dot)))
+    for (std::size_t c = 0; c < field->components.size(); ++c)
+      if (field->components[c] == component)
+        return set.field(*field, c);
+  throw CaseError(fmt::format("there is no field \"{}\" in the results; there are {}", wanted,
+                              all_fields(result)));
+}
+
+void make(const fs::path &directory) {
+  std::error_code error;
+  fs::create_directories(directory, error);
+  if (error)
+    throw MachineError(
+        fmt::format("cannot make the folder {}: {}", directory.string(), error.message()));
+}
+
+}  // namespace
+
+std::vector<fs::path> write_figures(const fs::path &folder, const fs::path &directory,
+                                    const FigureRequest &request) {
+  const Result result = read_result(folder, {0, request.time});
+  if (result.points.empty())
+    throw CaseError(folder.string() +
+                    ": holds no fields to draw; run the case with output.fields = true");
+  make(directory);
+  Set set(result, directory, request.format);
+  for (const std::string &wanted : request.fields)
+    draw_named(set, result, wanted);
+  if (!request.fields.empty())
+    return set.files;
+  set.setting();
+  set.deformed();
+  for (const char *name : {"potential", "temperature", "von_mises"})
+    if (result.field(name))
+      draw_named(set, result, name);
+  return set.files;
+}
+
+}  // namespace tourmaline::report

@@ -1,0 +1,71 @@
+#include "tourmaline/report/scale.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tourmaline::report {
+namespace {
+
+double greatest_displacement(const Result &result) {
+  const Field *u = result.field("displacement");
+  if (!u)
+    return 0;
+  double greatest = 0;
+  for (std::size_t i = 0; i < u->values.front().size(); ++i) {
+    double square = 0;
+    for (const std::vector<float> &component : u->values)
+      square += static_cast<double>(component[i]) * component[i];
+    greatest = std::max(greatest, std::sqrt(square));
+  }
+  return greatest;
+}
+
+double usual_strain(const Result &result) {
+  const Field *strain = result.field("strain");
+  double largest = 0;
+  for (std::size_t c = 0; strain && c < strain->values.size(); ++c) {
+    const Quantiles usual = usual_range(result, *strain, c);
+    largest = std::max({largest, -usual.low, usual.high});
+  }
+  return largest;
+}
+
+}  // namespace
+
+Quantiles usual_range(const Result &result, const Field &field, std::size_t component) {
+  const std::vector<float> &all = field.values[component];
+  const std::size_t places = all.size() / result.times.size();
+  std::vector<float> last(all.end() - static_cast<std::ptrdiff_t>(places), all.end());
+  if (last.empty())
+    return {};
+  std::sort(last.begin(), last.end());
+  const double end = static_cast<double>(last.size() - 1);
+  return {last[static_cast<std::size_t>(0.01 * end)],
+          last[static_cast<std::size_t>(std::ceil(0.99 * end))]};
+}
+
+double size_of(const Result &result) {
+  double size = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [low, high] =
+        std::minmax_element(result.points.begin(), result.points.end(),
+                            [axis](auto &a, auto &b) { return a[axis] < b[axis]; });
+    size = std::max(size, (*high)[axis] - (*low)[axis]);
+  }
+  return size;
+}
+
+double suitable_scale(const Result &result) {
+  const double largest = greatest_displacement(result);
+  if (!(largest > 0))
+    return 1;
+  const double wanted =
+      std::min(0.1 * size_of(result) / largest, 0.9 / std::max(usual_strain(result), 1e-300));
+  const double power = std::pow(10, std::floor(std::log10(wanted)));
+  for (const int digit : {8, 6, 5, 4, 3, 2})
+    if (digit * power <= wanted * 1.000001)
+      return digit * power;
+  return power;
+}
+
+}  // namespace tourmaline::report

@@ -1,0 +1,76 @@
+// The iterative solution of the body against the factorisation: the same states, tractions and
+// statuses, on sides of any direction.
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "run_case.h"
+
+namespace tourmaline::testing {
+namespace {
+
+// Largest difference over the largest size of a column.
+double difference(const std::vector<double> &expected, const std::vector<double> &found) {
+  double worst = 0, size = 0;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    worst = std::max(worst, std::abs(expected[i] - found.at(i)));
+    size = std::max(size, std::abs(expected[i]));
+  }
+  return size > 0 ? worst / size : worst;
+}
+
+void expect_equal(const Table &expected, const Table &found, const std::vector<std::string> &names,
+                  double tolerance) {
+  for (const std::string &name : names) {
+    SCOPED_TRACE(name);
+    if (expected.columns.contains(name))
+      EXPECT_LE(difference(expected.numbers(name), found.numbers(name)), tolerance);
+  }
+}
+
+struct Asked {
+  std::string file;
+  std::vector<std::string> overrides;
+};
+
+void PrintTo(const Asked &asked, std::ostream *out) {
+  *out << asked.file;
+}
+
+class Iterative : public ::testing::TestWithParam<Asked> {};
+
+TEST_P(Iterative, SolutionIsThatOfTheFactorisation) {
+  auto direct = GetParam().overrides, iterative = direct;
+  direct.push_back("solver.body=\"direct\"");
+  iterative.push_back("solver.body=\"iterative\"");
+  const RunCase expected(GetParam().file, direct), found(GetParam().file, iterative);
+  expect_equal(expected.nodes(), found.nodes(), {"u_x", "u_y", "u_z", "potential", "temperature"},
+               1e-9);
+  expect_equal(expected.contact(), found.contact(),
+               {"normal_traction", "tangential_traction_x", "tangential_traction_y",
+                "tangential_traction_z", "slip_x", "slip_y", "slip_z"},
+               1e-6);
+  EXPECT_EQ(expected.contact().columns.at("status"), found.contact().columns.at("status"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, Iterative,
+                         ::testing::Values(Asked{"cases/ouafik-2020/conductive.toml",
+                                                 {"mesh.box.cells=[16,16]"}},
+                                           Asked{"cases/block-3d/twisted.toml",
+                                                 {"mesh.box.cells=[6,6,6]", "time.steps=4"}},
+                                           Asked{"cases/ring/sleeve.toml", {"time.steps=3"}}));
+
+TEST(Iterative, LinearIterationsHardlyGrowWithTheMesh) {
+  std::vector<double> largest;
+  for (const char *cells : {"[4,4,4]", "[8,8,8]", "[12,12,12]"}) {
+    const RunCase run("cases/block-3d/twisted.toml", {std::string("mesh.box.cells=") + cells,
+                                                      "time.steps=1", "solver.body=\"iterative\""});
+    largest.push_back(run.summary()["iterations"]["krylov_max"].get<double>());
+  }
+  EXPECT_LE(largest[2], 40);
+  EXPECT_LE(largest[2], 1.5 * largest[1]);
+}
+
+}  // namespace
+}  // namespace tourmaline::testing

@@ -1,0 +1,170 @@
+#include "tourmaline/report/figures.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../output/temporary_folder.h"
+#include "result_folder.h"
+#include "tourmaline/error.h"
+#include "tourmaline/report/number_text.h"
+#include "tourmaline/report/raster.h"
+#include "tourmaline/report/scale.h"
+#include "tourmaline/report/setting.h"
+
+namespace tourmaline::report {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+using testing::ThrowsMessage;
+
+std::vector<std::string> names_of_files(const std::vector<std::filesystem::path> &files) {
+  std::vector<std::string> names;
+  for (const auto &file : files)
+    names.push_back(file.filename().string());
+  return names;
+}
+
+class Figures : public testing::Test {
+ protected:
+  ResultFolder run{{"time.steps=3"}, "[8, 8]"};
+  output::TemporaryFolder out;
+};
+
+TEST_F(Figures, TheyAreThoseOfThePaper) {
+  EXPECT_EQ(names_of_files(write_figures(run.path(), out / "new/folder", {})),
+            (std::vector<std::string>{"setting.svg", "deformed.svg", "potential.svg",
+                                      "temperature.svg", "von_mises.svg"}));
+}
+
+TEST_F(Figures, EachFormatIsWhatItsNameSays) {
+  const auto begin_of = [&](FigureFormat format) {
+    return output::content_of(
+        write_figures(run.path(), out.path(), {format, {"potential"}, {}}).front());
+  };
+  EXPECT_THAT(begin_of(FigureFormat::svg), StartsWith("<?xml"));
+  EXPECT_THAT(begin_of(FigureFormat::png), StartsWith("\x89PNG"));
+  EXPECT_THAT(begin_of(FigureFormat::pdf), StartsWith("%PDF"));
+}
+
+TEST_F(Figures, TheSameResultsMakeTheSameFigure) {
+  // As SVG too, but there cairo numbers its definitions through the life of the program.
+  const FigureRequest request{FigureFormat::png, {"temperature"}, {}};
+  const auto file = write_figures(run.path(), out.path(), request).front();
+  const std::string first = output::content_of(file);
+  write_figures(run.path(), out.path(), request);
+  EXPECT_TRUE(first == output::content_of(file));
+}
+
+TEST_F(Figures, AFieldAComponentAndAMomentCanBeChosen) {
+  const auto png = [&](std::optional<double> time) {
+    return output::content_of(
+        write_figures(run.path(), out.path(), {FigureFormat::png, {"stress.xy"}, time}).front());
+  };
+  EXPECT_TRUE(std::filesystem::exists(
+      write_figures(run.path(), out.path(), {FigureFormat::png, {"stress.xy"}, {}}).front()));
+  EXPECT_FALSE(png(0.07) == png(0.2));
+}
+
+TEST_F(Figures, AnUnknownFieldIsAnsweredWithTheKnownOnes) {
+  EXPECT_THAT(
+      [&] {
+        write_figures(run.path(), out.path(), {FigureFormat::svg, {"stres"}, {}});
+      },
+      ThrowsMessage<CaseError>(HasSubstr("stress.xx, stress.yy")));
+  EXPECT_THROW(figure_format("gif"), CaseError);
+}
+
+TEST(FiguresOfARunWithoutFields, AreRefusedWithTheReason) {
+  const ResultFolder run({"time.steps=1", "output.fields=false"});
+  EXPECT_THAT([&] { write_figures(run.path(), run.path() / "figures", {}); },
+              ThrowsMessage<CaseError>(HasSubstr("output.fields = true")));
+}
+
+TEST(NumberText, PowersOfTenAreRaised) {
+  EXPECT_EQ(number_text(-3.96e-11, 3), "−3.96·10⁻¹¹");
+  EXPECT_EQ(number_text(0.03120, 4), "0.0312");
+  EXPECT_EQ(number_text(6e7, 1), "6·10⁷");
+  EXPECT_EQ(number_text(0, 3), "0");
+  EXPECT_EQ(number_text(0.0999999, 3), "0.1");
+}
+
+TEST(NumberText, UnitsTakeThePowerOfTheirValues) {
+  EXPECT_EQ(unit_text(shown_power(1.24e-3), "K"), "10⁻³ K");
+  EXPECT_EQ(unit_text(shown_power(942), "Pa"), "Pa");
+  EXPECT_EQ(unit_text(shown_power(2e9), ""), "10⁹");
+}
+
+/// A square of side 2 whose top moves up by `top`, with the strain `strain` in all of its cells.
+Result square(float top, float strain) {
+  Result result;
+  result.points = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0}};
+  result.skin.nodes = {0, 1, 2, 3};
+  result.skin.cells = {0, 1};
+  result.skin.triangles = {{0, 1, 2}, {1, 3, 2}};
+  result.skin.triangle_cells = {0, 1};
+  result.times = {1};
+  result.fields = {{"displacement", "m", true, {"x", "y"}, {{0, 0, 0, 0}, {0, 0, top, top}}},
+                   {"strain", "", false, {"yy"}, {{strain, strain}}}};
+  return result;
+}
+
+TEST(Scale, TheGreatestDisplacementIsShownAsAtMostATenthOfTheBody) {
+  // 0.2 / 4e-11 = 5e9
+  EXPECT_DOUBLE_EQ(suitable_scale(square(4e-11F, 1e-12F)), 5e9);
+  EXPECT_DOUBLE_EQ(suitable_scale(square(0, 0)), 1);
+}
+
+TEST(Scale, StrainsStayBelowOneSoThatNoCellTurnsInsideOut) {
+  EXPECT_DOUBLE_EQ(suitable_scale(square(4e-11F, -3e-8F)), 3e7);
+}
+
+TEST(Setting, BoundariesWithTheSameConditionsShareAColourAndContactComesFirst) {
+  Result result;
+  result.boundaries = {{"a", {"free", {}}, {}},
+                       {"b", {"displacement", {"u = 0"}}, {}},
+                       {"c", {"contact", {"bilateral contact"}}, {}},
+                       {"d", {"free", {}}, {}},
+                       {"e", {"displacement", {"u = 1"}}, {}}};
+  const std::vector<SettingGroup> groups = groups_of(result);
+  ASSERT_EQ(groups.size(), 4U);
+  EXPECT_EQ(groups[0].boundaries[0]->name, "c");
+  EXPECT_EQ(groups[3].boundaries.size(), 2U);
+  for (std::size_t i = 0; i < groups.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_NE(groups[i].colour, groups[j].colour);
+}
+
+TEST(Raster, WhatIsNearerHidesWhatIsBehindInEitherOrder) {
+  const View view = view_of(square(0, 0), 0);
+  const Colour near{255, 0, 0}, far{0, 0, 255};
+  for (const bool near_first : {true, false}) {
+    Raster raster(view, 10);
+    for (const bool draw_near : {near_first, !near_first})
+      raster.triangle({0, 0, draw_near ? 1. : 2.}, {2, 0, draw_near ? 1. : 2.},
+                      {0, 2, draw_near ? 1. : 2.},
+                      [&](double, double, double) { return draw_near ? near : far; });
+    EXPECT_EQ(raster.pixels()[15 * 20 + 2], 0xffff0000U);
+    EXPECT_EQ(raster.pixels()[2 * 20 + 17], 0U);  // above the hypotenuse
+  }
+}
+
+TEST(Raster, ThePaintGetsTheWeightsOfTheCorners) {
+  Raster raster(view_of(square(0, 0), 0), 10);
+  double worst = 0;
+  int pixels = 0;
+  // The weight of the corner at x = 2 is x / 2.
+  raster.triangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0}, [&](double a, double b, double c) {
+    worst = std::max(worst, std::abs(a + b + c - 1));
+    ++pixels;
+    return Colour{static_cast<std::uint8_t>(std::lround(200 * b)), 0, 0};
+  });
+  EXPECT_LT(worst, 1e-14);
+  EXPECT_NEAR(pixels, 200, 12);  // half of 20 x 20, and the diagonal's pixels
+  EXPECT_EQ(raster.pixels()[19 * 20 + 10] >> 16 & 0xff, 105U);  // x = 1.05
+}
+
+}  // namespace
+}  // namespace tourmaline::report

@@ -1,0 +1,112 @@
+// The contact boundary of a solid body, seen from the side that it faces: state, tractions, slip and
+// temperature of its nodes at the moment that is shown.
+import { colourRange, mapBytes, Range } from './colours';
+import { ColourBar } from './colour_bar';
+import { contactNodes } from './contact_line';
+import { element } from './dom';
+import { Result } from './results';
+import { fitted } from './stage';
+import { statusColours, statusNames } from './status_map';
+import { colour, onTheme } from './theme';
+import { Timeline } from './timeline';
+
+interface Plan { x: Float32Array; y: Float32Array; labels: [string, string]; width: number; height: number; spacing: number }
+
+/** Contact nodes in the plane of the two axes along which they spread most. */
+function planOf(result: Result, nodes: number): Plan {
+  const names = ['x', 'y', 'z'];
+  const places = names.map((name) => result.contact!.column(name)!.slice(0, nodes));
+  const spread = places.map((v) => Math.max(...v) - Math.min(...v));
+  const thin = spread.indexOf(Math.min(...spread));
+  const [a, b] = [0, 1, 2].filter((axis) => axis !== thin);
+  const from = (axis: number) => { const low = Math.min(...places[axis]); return places[axis].map((v) => v - low); };
+  return { x: from(a), y: from(b), labels: [names[a], names[b]], width: spread[a], height: spread[b],
+    spacing: Math.sqrt((spread[a] * spread[b]) / Math.max(1, nodes)) * 1.15 };
+}
+
+export class ContactFace {
+  readonly charts: HTMLElement[] = [];
+  private readonly updates: (() => void)[] = [];
+  private readonly nodes: number;
+  private readonly plan: Plan;
+  private readonly ends: number[];
+
+  constructor(private readonly result: Result, private readonly timeline: Timeline) {
+    this.nodes = contactNodes(result);
+    this.plan = planOf(result, this.nodes);
+    const time = result.contact!.column('time')!;
+    this.ends = Array.from({ length: time.length / this.nodes }, (_, k) => time[k * this.nodes]);
+    this.addStatus();
+    this.add('Normal traction on the body', 'N/m²', this.column('normal_traction'));
+    this.add('Tangential traction, size', 'N/m²', this.size('tangential_traction_'));
+    this.add('Slip, size', 'm', this.size('slip_'));
+    this.add('Temperature', 'K', this.column('temperature'));
+    onTheme(() => this.update());
+  }
+
+  update() { for (const update of this.updates) update(); }
+
+  private column(name: string): Float32Array { return this.result.contact!.column(name)!; }
+
+  private size(name: string): Float32Array {
+    const parts = ['x', 'y', 'z'].map((axis) => this.column(name + axis));
+    return parts[0].map((_, i) => Math.hypot(...parts.map((p) => p[i])));
+  }
+
+  // The first row of the moment, or -1 for the initial state, which has none.
+  private first(): number {
+    if (this.timeline.time < this.ends[0] / 2) return -1;
+    let best = 0;
+    for (let k = 1; k < this.ends.length; ++k)
+      if (Math.abs(this.ends[k] - this.timeline.time) < Math.abs(this.ends[best] - this.timeline.time)) best = k;
+    return best * this.nodes;
+  }
+
+  private frame(title: string, below: HTMLElement, fill: (row: number) => string) {
+    const canvas = element('canvas', { class: 'face', role: 'img', 'aria-label': title,
+      style: `aspect-ratio: ${Math.min(3, Math.max(0.5, this.plan.width / this.plan.height))}` });
+    this.charts.push(element('figure', { class: 'chart' }, element('figcaption', {}, title), canvas,
+      element('p', { class: 'note' }, `${this.plan.labels[0]} to the right, ${this.plan.labels[1]} up`), below));
+    const paint = () => this.paint(canvas, fill);
+    this.updates.push(paint);
+    new ResizeObserver(paint).observe(canvas);
+  }
+
+  private paint(canvas: HTMLCanvasElement, fill: (row: number) => string) {
+    const size = fitted(canvas);
+    if (!size) return;
+    const { x, y, width, height, spacing } = this.plan;
+    const context = canvas.getContext('2d')!;
+    const scale = Math.min(size.width / (width + spacing), size.height / (height + spacing));
+    const dot = Math.max(2, spacing * scale);
+    const left = (size.width - width * scale) / 2, foot = (size.height + height * scale) / 2;
+    const first = this.first();
+    context.clearRect(0, 0, size.width, size.height);
+    for (let i = 0; i < this.nodes; ++i) {
+      context.fillStyle = first < 0 ? colour('--body') : fill(first + i);
+      context.fillRect(Math.floor(left + x[i] * scale - dot / 2), Math.floor(foot - y[i] * scale - dot / 2),
+        Math.ceil(dot) + 1, Math.ceil(dot) + 1);
+    }
+  }
+
+  private addStatus() {
+    const status = this.column('status');
+    const there = new Set(status);
+    this.frame('Stick and slip', element('ul', { class: 'legend inline' }, ...statusNames.map((name, i) =>
+      there.has(i) && element('li', {}, element('span', { class: 'swatch', style: `background:${statusColours[i]}` }), name))),
+    (row) => statusColours[status[row]] ?? '#888');
+  }
+
+  private add(title: string, unit: string, values: Float32Array) {
+    let least = Infinity, greatest = -Infinity;
+    for (const v of values) { least = Math.min(least, v); greatest = Math.max(greatest, v); }
+    const range: Range = colourRange(least, greatest);
+    const bar = new ColourBar(true);
+    bar.show(range, unit);
+    const bytes = mapBytes(range.signed);
+    this.frame(title, bar.box, (row) => {
+      const level = Math.round(255 * Math.min(1, Math.max(0, (values[row] - range.low) / (range.high - range.low))));
+      return `rgb(${bytes[4 * level]} ${bytes[4 * level + 1]} ${bytes[4 * level + 2]})`;
+    });
+  }
+}
