@@ -39,16 +39,26 @@ def on_one_core(command):
 
 
 def tourmaline(n, steps, folder, *overrides):
-    arguments = [PROGRAM, "run", CASE, "-o", folder, "--set", f"mesh.box.cells=[{n},{n}]",
-                 "--set", f"time.steps={steps}", "--set", "output.fields=false",
-                 "--set", "output.report=false"]
+    return run_case(CASE, folder, f"mesh.box.cells=[{n},{n}]", f"time.steps={steps}", *overrides)
+
+
+def run_case(case, folder, *overrides, ranks=1):
+    arguments = [PROGRAM, "run", case, "-o", folder, "--set", "output.fields=false", "--set", "output.report=false"]
     for override in overrides:
         arguments += ["--set", override]
-    seconds, _ = on_one_core(arguments)
+    seconds, _ = on_one_core(arguments) if ranks == 1 else on_cores(arguments, ranks)
     summary = json.loads((pathlib.Path(folder) / "summary.json").read_text())
     with open(pathlib.Path(folder) / "history.csv") as table:
         newton = [int(row["newton_iterations"]) for row in csv.DictReader(table)]
     return {"wall": seconds, "summary": summary, "newton": newton}
+
+
+def on_cores(command, ranks):
+    begin = time.perf_counter()
+    done = subprocess.run(["mpirun", "-np", str(ranks), *map(str, command)], env=ENVIRONMENT, capture_output=True, text=True)
+    if done.returncode:
+        sys.exit(f"bench: {' '.join(map(str, command))} failed on {ranks} ranks:\n{done.stderr}")
+    return time.perf_counter() - begin, done.stdout
 
 
 def median_of(count, run):
@@ -56,10 +66,10 @@ def median_of(count, run):
     return sorted((run() for _ in range(count)), key=lambda r: r["wall"])[count // 2]
 
 
-def peer(n, steps, run_steps, folder):
+def peer(n, steps, run_steps, folder, *options):
     out = pathlib.Path(folder) / "peer.json"
     seconds, _ = on_one_core(["/usr/bin/python3", PEER, "--cells", n, "--steps", steps, "--run-steps", run_steps,
-                              "--json", out, "--nodes", pathlib.Path(folder) / "peer.csv"])
+                              "--json", out, "--nodes", pathlib.Path(folder) / "peer.csv", *options])
     result = json.loads(out.read_text())
     result["wall"] = seconds
     return result
@@ -95,14 +105,18 @@ def compare(folder, quick):
         print(f"peer: n = {n}, {steps} steps", flush=True)
         ours = median_of(3, lambda: tourmaline(n, steps, folder))
         theirs = peer(n, steps, run_steps, folder)
+        if steps == 20 and n > 32:
+            rows.append((n, steps, run_steps, ours,
+                         peer(n, steps, run_steps, folder, "--prediction", "paper", "--solver", "auto"), None,
+                         ", paper's start"))
         if run_steps == steps:
             difference = largest_difference(pathlib.Path(folder) / "nodes.csv", pathlib.Path(folder) / "peer.csv")
             if difference > 1e-6:
                 sys.exit(f"bench: the answers differ by {difference:.2g} at n = {n}")
-        rows.append((n, steps, run_steps, ours, theirs, difference if run_steps == steps else None))
+        rows.append((n, steps, run_steps, ours, theirs, difference if run_steps == steps else None, ""))
     if not quick:
         ours, theirs = tourmaline(256, 20, folder), peer(256, 20, 2, folder)
-        rows.append((256, 20, 2, ours, theirs, None))
+        rows.append((256, 20, 2, ours, theirs, None, ""))
     return rows
 
 
@@ -110,7 +124,7 @@ def comparison_table(rows, startup):
     lines = ["| n | steps | Tourmaline, s | GetFEM, s | whole process | without start-up | per step | Newton, T / G |"
              " peak MiB, T / G | largest difference |",
              "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"]
-    for n, steps, run_steps, ours, theirs, difference in rows:
+    for n, steps, run_steps, ours, theirs, difference, form in rows:
         peer_step = theirs["seconds"]["steps"] / run_steps
         peer_wall = theirs["wall"] + peer_step * (steps - run_steps)
         own_step = steps_only(ours) / steps
@@ -118,7 +132,7 @@ def comparison_table(rows, startup):
         own_net = set_up(ours["summary"]["seconds"]) + steps_only(ours)
         peer_net = theirs["seconds"]["assemble"] + peer_step * steps
         lines.append(
-            f"| {n} | {steps} | {ours['wall']:.2f} | {peer_wall:.1f}{mark} | {peer_wall / ours['wall']:.0f} | "
+            f"| {n}{form} | {steps} | {ours['wall']:.2f} | {peer_wall:.1f}{mark} | {peer_wall / ours['wall']:.0f} | "
             f"{peer_net / own_net:.0f} | {peer_step / own_step:.0f} | "
             f"{sum(ours['newton'])} / {sum(theirs['newton_iterations'])} | "
             f"{mebibytes(ours['summary']['memory'])} / {mebibytes(theirs['peak_rss_bytes'])} | "
@@ -162,6 +176,39 @@ def growth(folder, machine, quick):
               f"and the whole run takes {at_256['total'] / bound:.2f} times what analysis, factorisation and the "
               f"substitutions of its 20 steps take."]
     return lines
+
+
+BLOCK = ROOT / "cases" / "block-3d" / "twisted.toml"
+
+
+def solids(folder, quick):
+    """A block of tetrahedra, two steps: the factorisation and the iterative solution."""
+    lines = ["| n | unknowns | body | set-up, s | step, s | Krylov iterations, largest | Newton, largest | peak MiB |",
+             "| --- | --- | --- | --- | --- | --- | --- | --- |"]
+    for n in (8, 16, 24) if quick else (8, 16, 24, 32, 48):
+        for body in ("direct", "iterative"):
+            if n == 48 and body == "direct":
+                continue  # about 13 GiB and minutes
+            print(f"solids: n = {n}, {body}", flush=True)
+            summary = run_case(BLOCK, folder, f"mesh.box.cells=[{n},{n},{n}]", 'mesh.box.cell="tetrahedron"',
+                               "time.end=0.02", "time.steps=2", f'solver.body="{body}"')["summary"]
+            lines.append(f"| {n} | {summary['sizes']['unknowns']} | {body} | {set_up(summary['seconds']):.2f} | "
+                         f"{summary['seconds']['step']['per_step']:.2f} | {summary['iterations'].get('krylov_max', '')} | "
+                         f"{summary['iterations']['newton_max']} | {mebibytes(summary['memory'])} |")
+    return lines
+
+
+def scaling(folder, n):
+    """One rank and two, the median of three of factorisation and steps."""
+    def measured(ranks):
+        run = run_case(CASE, folder, f"mesh.box.cells=[{n},{n}]", "time.steps=20", ranks=ranks)["summary"]["seconds"]
+        return {"wall": run["factorise"] + run["step"]["total"], "factorise": run["factorise"],
+                "step": run["step"]["per_step"]}
+    print(f"ranks: n = {n}", flush=True)
+    one, two = (median_of(3, lambda ranks=ranks: measured(ranks)) for ranks in (1, 2))
+    return [f"n = {n} in 2D, 20 steps, one rank and two: factorisation {one['factorise']:.2f} s and {two['factorise']:.2f} s, "
+            f"a step {1e3 * one['step']:.0f} ms and {1e3 * two['step']:.0f} ms; together {one['wall'] / two['wall']:.2f} times "
+            f"faster."]
 
 
 def long_run(folder):
@@ -215,6 +262,9 @@ def main():
                  "operations at the DGEMM rate.", ""] + growth(folder, machine, quick)
         if not quick:
             text += long_run(folder)
+        text += ["", "## Three dimensions", "",
+                 "`cases/block-3d/twisted.toml` on n x n x n cubes of tetrahedra, two steps of 0.01 s.", ""] + solids(folder, quick)
+        text += ["", "## Ranks", ""] + scaling(folder, 256 if quick else 512)
         text += ["", "## Parts", ""] + micro()
     (ROOT / "bench" / "results.md").write_text("\n".join(text) + "\n")
     print("\n".join(text))

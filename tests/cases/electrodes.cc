@@ -303,6 +303,43 @@ TEST(Reciprocity, TheForceByAVoltageIsMinusTheChargeByADisplacement) {
   EXPECT_NE(driven.numbers("electrode_top_charge").back(), 0);
 }
 
+// cases/devices/README.md: one point decides, as the pad shears alike everywhere.
+TEST(FrictionSensor, OnAnAmplifierItFollowsTheRecurrenceInEveryStep) {
+  const RunCase run("cases/devices/friction-sensor-loaded.toml");
+  const Table h = run.history(), contact = run.contact();
+  constexpr double c44 = 43e9, e15 = 11.6, beta11 = 11.2e-9, w = 0.01, thickness = 0.002;
+  constexpr double k = 0.1, resistance = 1e7, cable = 1e-7, bound = 5e4;
+  constexpr double own = beta11 * w / thickness, all = own + k / resistance + cable;
+  // tau = a gamma + b (charge left from before), from the circuit's V = (e15 w gamma + left) / all
+  constexpr double a = c44 + e15 * e15 * w / (thickness * all), b = e15 / (thickness * all);
+  const std::vector<double> voltage = h.numbers("electrode_sensor_voltage"),
+                            charge = h.numbers("electrode_sensor_charge"),
+                            slip = contact.numbers("slip_x");
+  const std::size_t nodes = slip.size() / voltage.size();
+  double s = 0, q = 0, v = 0;
+  int slips = 0;
+  for (std::size_t n = 0; n < voltage.size(); ++n) {
+    const double u = 4e-9 * (1 - std::abs(std::fmod(k * double(n + 1) + 3, 4) - 2));
+    const double left = q + cable * v;
+    double gamma = (u - s) / thickness;
+    if (const double tau = a * gamma + b * left; std::abs(tau) > bound) {
+      gamma = (std::copysign(bound, tau) - b * left) / a;
+      s = u - gamma * thickness;
+      ++slips;
+    }
+    v = (e15 * w * gamma + left) / all;
+    q = own * v - e15 * w * gamma;
+    EXPECT_NEAR(voltage[n], v, 1e-12) << n;
+    EXPECT_NEAR(charge[n], q, 1e-18) << n;
+    for (std::size_t i = n * nodes; i < (n + 1) * nodes; ++i)
+      EXPECT_NEAR(slip[i], s, 1e-20) << n;
+  }
+  EXPECT_GT(slips, 20);
+  EXPECT_LT(slips, 60);
+  EXPECT_NEAR(largest(voltage), 0.852, 1e-3);
+  EXPECT_LT(largest(h.numbers("energy_imbalance")), 1e-12);
+}
+
 TEST(Joined, TwoSidesOfOneElectrodeAreTwoElectrodesWithAWireBetweenThem) {
   const std::string driven = ground + R"(, { name = "top", on = "top", voltage = 5 })";
   const Table joined = history(slab(driven + R"(, { name = "sides", on = ["left", "right"] })"));
