@@ -236,18 +236,17 @@ TEST(Device, CurrentsObeyKirchhoffAndOhm) {
 // The same voltages, given: neither charges nor anything else can tell who holds them.
 std::vector<std::string> driven_as_in(const Table &h, const std::string &method) {
   std::vector<std::string> overrides{"solver.method=" + method};
-  std::string list = R"({ name = "drive", on = "right", voltage = "0.02*sin(20*t)"
-})";
+  std::string list = R"entry({ name = "drive", on = "right", voltage = "0.02*sin(20*t)" })entry";
   for (const auto &[name, on] : {std::pair{"sensor", "top"}, std::pair{"film", "bottom"}}) {
-  const std::vector<double> t = h.numbers("time"),
-                            v = h.numbers(fmt::format("electrode_{}_voltage", name));
-  std::string formula = fmt::format("{:.17g}", v.back());
-  for (std::size_t n = v.size() - 1; n-- > 0;)
-    formula = fmt::format("if(t < {:.17g}, {:.17g}, {})", (t[n] + t[n + 1]) / 2, v[n], formula);
-  list += fmt::format(R"(, {{ name = "{}", on = "{}", voltage = "{}" }})", name, on, formula);
-}
-overrides.push_back("electrode=[" + list + "]");
-return overrides;
+    const std::vector<double> t = h.numbers("time"),
+                              v = h.numbers(fmt::format("electrode_{}_voltage", name));
+    std::string formula = fmt::format("{:.17g}", v.back());
+    for (std::size_t n = v.size() - 1; n-- > 0;)
+      formula = fmt::format("if(t < {:.17g}, {:.17g}, {})", (t[n] + t[n + 1]) / 2, v[n], formula);
+    list += fmt::format(R"(, {{ name = "{}", on = "{}", voltage = "{}" }})", name, on, formula);
+  }
+  overrides.push_back("electrode=[" + list + "]");
+  return overrides;
 }
 
 TEST(Device, DrivenByTheVoltagesOfTheCircuitTheBodyDoesTheSameInBothRoutes) {
