@@ -16,8 +16,8 @@ const std::string ground = "{ name = 'ground', on = 'right', voltage = 0 }";
 
 // The example with these electrodes instead of its prescribed potential.
 std::string error_of(const std::string &electrodes, std::vector<std::string> more = {}) {
-  more.insert(more.begin(), {"boundary[0]={on='right', displacement=[0,0]}",
-                             "electrode=[" + electrodes + "]"});
+  more.insert(more.begin(),
+              {"boundary[0]={on='right', displacement=[0,0]}", "electrode=[" + electrodes + "]"});
   try {
     read_text(example, "case.toml", more);
   } catch (const CaseError &error) {
