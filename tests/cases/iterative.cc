@@ -24,15 +24,9 @@ void expect_equal(const Table &expected, const Table &found, const std::vector<s
                   double tolerance) {
   for (const std::string &name : names) {
     SCOPED_TRACE(name);
-<<<<<<< HEAD
     if (!expected.columns.contains(name))
       continue;
     EXPECT_LE(difference(expected.numbers(name), found.numbers(name)), tolerance);
-=======
-    if (expected.columns.contains(name)) {
-      EXPECT_LE(difference(expected.numbers(name), found.numbers(name)), tolerance);
-    }
->>>>>>> devices
   }
 }
 
