@@ -190,8 +190,7 @@ material = { library = "BaTiO3-Liu2014", pyroelectric = [0, 1e-4] }
 time = { end = 0.2, steps = 8 }
 boundary = [ { on = "right", displacement = [0, 0], temperature = 0 },
              { on = "top", traction = ["30*t", "-2000*t"] } ]
-electrode = [ { name = "drive", on = "right", voltage = "0.02*sin(20*t)"
-},
+electrode = [ { name = "drive", on = "right", voltage = "0.02*sin(20*t)" },
               { name = "sensor", on = "top", resistor = 1e7, capacitor = 2e-8 },
               { name = "film", on = "bottom", resistor = 3e7, to = "sensor" } ]
 contact = { on = "left", friction = { law = "tresca", bound = 200 }, heat = { law = "exchange", coefficient = 1, foundation_temperature = -10 } }
