@@ -17,6 +17,7 @@
 #include "tourmaline/parallel/ranks.h"
 #include "tourmaline/report/figures.h"
 #include "tourmaline/report/page.h"
+#include "tourmaline/solve/process.h"
 #include "tourmaline/solve/simulation.h"
 #include "tourmaline/solve/survey.h"
 
@@ -217,7 +218,12 @@ int report(ExitStatus status, const std::string &text) {
 }  // namespace
 
 int main(int argc, char **argv) {
+  // On several ranks MPI runs until an error has been told: a rank that ended before the first one
+  // has spoken would take it along.
+  std::optional<tourmaline::solve::Process> process;
   try {
+    if (tourmaline::parallel::is_launched())
+      process.emplace(1);
     return obey(argc, argv);
   } catch (const tourmaline::CaseError &error) {
     return report(wrong_case, error.what());

@@ -92,11 +92,18 @@ int rank() {
   return rank;
 }
 
+namespace {
+
+const char *const launched_as = std::getenv("OMPI_COMM_WORLD_RANK");
+
+}  // namespace
+
+bool is_launched() {
+  return launched_as != nullptr;
+}
+
 bool speaks() {
-  if (mpi_runs())
-    return is_first();
-  const char *launched_as = std::getenv("OMPI_COMM_WORLD_RANK");
-  return !launched_as || std::string(launched_as) == "0";
+  return mpi_runs() ? is_first() : !launched_as || std::string(launched_as) == "0";
 }
 
 int n_ranks() {

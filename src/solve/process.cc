@@ -63,9 +63,10 @@ double process_age() {
 }
 
 Process::~Process() {
+  if (!owns_mpi_)
+    return;
   krylov::finish();
-  if (owns_mpi_)
-    MPI_Finalize();
+  MPI_Finalize();
 }
 
 }  // namespace tourmaline::solve

@@ -17,6 +17,9 @@ inline bool is_first() {
   return rank() == 0;
 }
 
+/// Whether a launcher (mpirun) started this process.
+bool is_launched();
+
 /// Whether this process is the one that speaks to the user: the first rank, also while MPI does not
 /// run, as far as the launcher tells.
 bool speaks();
