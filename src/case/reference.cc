@@ -17,7 +17,7 @@ constexpr std::string_view introduction = R"(# The case file
 
 A case file says what is simulated. It is [TOML](https://toml.io); `cases/` holds examples. This page is
 printed by `tourmaline reference` from the declarations that the program reads with
-(`src/case/schema.cc`).
+(`src/case/schema*.cc`).
 
 All values are SI. Temperatures are differences to the reference temperature. Unknown keys, wrong types
 and impossible values are errors that say the place and what is allowed. `tourmaline check CASE.toml`

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <map>
 
+#include "schema_parts.h"
 #include "tourmaline/case/given.h"
-#include "tourmaline/case/schema.h"
 #include "tourmaline/case/symmetry.h"
 
 namespace tourmaline::casefile {

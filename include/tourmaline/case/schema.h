@@ -1,114 +1,14 @@
 #pragma once
 
-#include <functional>
-#include <limits>
-#include <optional>
-#include <string>
-#include <variant>
-#include <vector>
-
-#include "tourmaline/case/case.h"
+#include "tourmaline/case/visitor.h"
 
 /// Every key of the case file is declared once, by `declare`. The reader, its error texts,
 /// resolved.toml and the reference page are visitors of that one declaration.
 namespace tourmaline::casefile {
 
-/// The values that a number may have.
-struct Range {
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();
-  bool low_allowed = true, high_allowed = true;
-
-  bool contains(double number) const;
-  /// "> 0", "from 1 to 2"; empty when every finite number is allowed.
-  std::string words() const;
-};
-
-Range positive();
-Range not_negative();
-Range at_least(double low);
-Range from_to(double low, double high);
-
-/// The numbers of entries that a list may have.
-struct Length {
-  std::vector<int> counts;  ///< empty: any
-  std::string words;        ///< what the entries stand for
-  std::string reason = {};  ///< why it is that many
-};
-
-Length one_each_axis(int dimension);
-
-struct Key {
-  std::string name;
-  std::string description;  ///< a phrase without capital and full stop; of a table a sentence
-  std::string unit = {};
-  bool required = false;
-  Range range = {};                        ///< of a number, and of a formula that is one
-  std::vector<std::string> choices = {};   ///< the texts that are allowed; empty: any
-  std::string choices_words = {};          ///< all of them, where they depend on the dimension
-  std::vector<std::string> foreseen = {};  ///< texts that a later version may allow
-  Length length = {};                      ///< of a list, and of each row of a matrix
-  int rows = 0;                            ///< of a matrix
-  bool constant_in_time = false;           ///< of a formula
-  std::string default_words = {};          ///< the default where the value does not say it
-  bool used = true;            ///< whether the rest of the table gives the key a meaning
-  std::string used_with = {};  ///< what the rest must say for that
-  bool optional = false;       ///< not giving it differs from giving any value
-};
-
-/// One entry for each component; empty where the component is free.
-using Displacement = std::vector<std::optional<Formula>>;
-using Matrix = std::vector<std::vector<double>>;
-/// What a key's value is read into. A list of texts may also be given as one text.
-using Value = std::variant<bool *, int *, double *, std::string *, std::vector<std::string> *,
-                           std::vector<int> *, std::vector<double> *, Matrix *, Formula *,
-                           FormulaVector *, Displacement *>;
-
-class Visitor {
- public:
-  using Body = std::function<void(Visitor &)>;
-  using Complaint = std::function<std::string()>;
-
-  virtual ~Visitor() = default;
-
-  virtual void key(const Key &key, Value value) = 0;
-  /// Whether an optional key or table is to be visited; `present` says whether the case holds it.
-  virtual bool given(const Key &key, bool present) = 0;
-  /// A table inside this one; `body` declares its keys, and may be called more than once.
-  virtual void table(const Key &key, const Body &body) = 0;
-  /// An array of tables: how many entries there are to visit, where the case holds `present`.
-  virtual int count(const Key &key, int present) = 0;
-  virtual void entry(const Key &key, int index, const Body &body) = 0;
-
-  /// A name that one may expect here, and why there is no such key.
-  virtual void refuse(const std::string & /*name*/, const std::string & /*reason*/) {}
-  /// A condition on several keys: `complaint` returns what is wrong with `name` (empty: the table),
-  /// or nothing. Only called once all keys declared before have been read.
-  virtual void check(const std::string & /*name*/, const Complaint & /*complaint*/) {}
-  /// The mesh that a file holds, so that what follows can be checked against its names.
-  virtual void load(MeshCase & /*mesh*/) {}
-  /// A file's name, to be found from the folder of the case.
-  virtual void locate(const std::string & /*name*/, std::string & /*file*/) {}
-  /// Where this table stands, for later error texts.
-  virtual void place(std::string & /*where*/) {}
-
-  template <class T>
-  void optional(Key key_, std::optional<T> &value) {
-    key_.optional = true;
-    if (!given(key_, value.has_value()))
-      return;
-    if (!value)
-      value.emplace();
-    key(key_, &*value);
-  }
-};
-
 /// Declares all tables of the case file. Sets `asked.dimension` as soon as the mesh has been
 /// visited.
 void declare(Visitor &visitor, Case &asked);
-
-/// [material] and [region.material], declared in a file of their own.
-void declare(Visitor &visitor, MaterialCase &material, int dimension);
 
 /// An entry of a file of materials: the same keys but those that depend on the body, and `source`.
 void declare_entry(Visitor &visitor, MaterialCase &entry);

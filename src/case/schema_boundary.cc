@@ -1,0 +1,136 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "schema_parts.h"
+#include "tourmaline/case/sides.h"
+
+namespace tourmaline::casefile {
+
+Key on_sides(const std::string &description, const MeshCase &mesh) {
+  std::vector<std::string> names = side_names(mesh);
+  if (mesh.content)  // a complaint of their own awaits those that lie inside
+    for (const std::string &name : mesh.content->inner_names())
+      names.push_back(name);
+  return {.name = "on",
+          .description = description,
+          .required = true,
+          .choices = names,
+          .choices_words =
+              "left, right, bottom, top, in 3D also front, back, of a box; inner, "
+              "outer, in 3D also bottom, top, of an annulus; the names of a mesh file"};
+}
+
+std::string inside_complaint(const std::vector<std::string> &on, const MeshCase &mesh) {
+  if (!mesh.content)
+    return "";
+  const std::vector<std::string> inner = mesh.content->inner_names();
+  for (const std::string &name : on)
+    if (std::find(inner.begin(), inner.end(), name) != inner.end())
+      return fmt::format(
+          "\"{}\" lies inside the body, at least in part; conditions are possible on its boundary",
+          name);
+  return "";
+}
+
+namespace {
+
+void declare_mechanics(Visitor &v, BoundaryCase &boundary, int dimension) {
+  v.optional({.name = "displacement",
+              .description = "prescribed displacement u; a component may be \"free\"",
+              .unit = "m",
+              .length = one_each_axis(dimension)},
+             boundary.displacement);
+  v.optional({.name = "traction",
+              .description =
+                  "force on the body, sigma nu = f_N (8), nu the outward normal; must be 0 where "
+                  "the displacement is prescribed",
+              .unit = "N/m^2",
+              .length = one_each_axis(dimension)},
+             boundary.traction);
+}
+
+void declare(Visitor &v, BoundaryCase &boundary, const MeshCase &mesh, int dimension) {
+  v.place(boundary.where);
+  v.key(on_sides("boundary, or list of boundaries, that the conditions hold on", mesh),
+        &boundary.on);
+  v.check("on", [&] { return inside_complaint(boundary.on, mesh); });
+  declare_mechanics(v, boundary, dimension);
+  v.optional({.name = "potential", .description = "prescribed electric potential", .unit = "V"},
+             boundary.potential);
+  v.optional(
+      {.name = "surface_charge", .description = "free charge, D.nu = phi_b (11)", .unit = "C/m^2"},
+      boundary.surface_charge);
+  v.optional({.name = "temperature",
+              .description = "prescribed difference to the reference temperature",
+              .unit = "K"},
+             boundary.temperature);
+  v.optional({.name = "heat_flux",
+              .description = "heat flow q.nu; positive leaves the body",
+              .unit = "W/m^2"},
+             boundary.heat_flux);
+}
+
+void declare(Visitor &v, ElectrodeCase &electrode, const MeshCase &mesh) {
+  v.place(electrode.where);
+  v.key({.name = "name",
+         .description = "what its columns in history.csv are called; letters, digits, _ and -",
+         .required = true},
+        &electrode.name);
+  v.key(on_sides("boundary that the electrode covers, or list of boundaries that it joins", mesh),
+        &electrode.on);
+  v.optional({.name = "voltage",
+              .description = "potential of the electrode over time; beside a resistor or capacitor "
+                             "that of their other end, 0 when not given",
+              .unit = "V"},
+             electrode.voltage);
+  v.optional({.name = "charge",
+              .description = "total charge on the electrode over time, -integral of D.nu; its "
+                             "potential follows",
+              .unit = "C (2D: C/m)"},
+             electrode.charge);
+  v.optional({.name = "resistor",
+              .description = "resistance between the electrode and ground, or `voltage`, or `to`",
+              .unit = "ohm (2D: ohm m)",
+              .range = positive()},
+             electrode.resistor);
+  v.optional({.name = "capacitor",
+              .description = "capacitance between the same two, parallel to the resistor",
+              .unit = "F (2D: F/m)",
+              .range = positive()},
+             electrode.capacitor);
+  v.optional({.name = "to",
+              .description = "name of the electrode that resistor and capacitor lead to, instead "
+                             "of ground"},
+             electrode.to);
+}
+
+}  // namespace
+
+void declare_boundaries(Visitor &v, std::vector<BoundaryCase> &boundaries, const MeshCase &mesh,
+                        int dimension) {
+  const Key key = {.name = "boundary",
+                   .description =
+                       "Conditions on a part of the boundary. Several entries may name one "
+                       "boundary as long as no field gets two conditions there. Where "
+                       "nothing is said, there is no traction, charge or heat flow"};
+  v.entries(key, boundaries, [&](Visitor &inner, BoundaryCase &boundary) {
+    declare(inner, boundary, mesh, dimension);
+  });
+}
+
+void declare_electrodes(Visitor &v, std::vector<ElectrodeCase> &electrodes, const MeshCase &mesh) {
+  const Key key = {
+      .name = "electrode",
+      .description =
+          "A conducting film on parts of the boundary: one potential all over. With "
+          "`voltage` it is driven (0: grounded); with `charge` it floats with that "
+          "charge; with a resistor or capacitor these lead to ground, to a given "
+          "voltage or to another electrode; with nothing it is open and keeps its "
+          "charge at the time 0. In 2D charges, resistances and capacitances are those "
+          "of one metre of thickness"};
+  v.entries(key, electrodes,
+            [&](Visitor &inner, ElectrodeCase &electrode) { declare(inner, electrode, mesh); });
+}
+
+}  // namespace tourmaline::casefile

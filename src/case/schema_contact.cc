@@ -1,0 +1,79 @@
+#include "schema_parts.h"
+
+namespace tourmaline::casefile {
+
+namespace {
+
+void declare(Visitor &v, FrictionCase &friction) {
+  v.key({.name = "law",
+         .description = "none: the foundation is slippery; tresca: the tangential traction stays "
+                        "below a given bound, and slip is opposed by it (9)",
+         .choices = {"none", "tresca"},
+         .foreseen = {"coulomb", "slip_rate"}},
+        &friction.law);
+  v.key({.name = "bound",
+         .description = "friction bound S of Tresca's law (9)",
+         .unit = "N/m^2",
+         .required = true,
+         .range = not_negative(),
+         .used = friction.law == "tresca",
+         .used_with = "law = \"tresca\""},
+        &friction.bound);
+}
+
+void declare(Visitor &v, HeatExchangeCase &heat) {
+  v.key({.name = "law",
+         .description = "insulated: no heat crosses; exchange: q.nu = k_c (theta - theta_f) (13)",
+         .choices = {"insulated", "exchange"},
+         .foreseen = {"pressure_dependent", "frictional_heating"}},
+        &heat.law);
+  const bool exchange = heat.law == "exchange";
+  const std::string used_with = "law = \"exchange\"";
+  v.key({.name = "coefficient",
+         .description = "coefficient of heat exchange k_c (13)",
+         .unit = "W/(K m^2)",
+         .required = true,
+         .range = not_negative(),
+         .constant_in_time = true,
+         .used = exchange,
+         .used_with = used_with},
+        &heat.coefficient);
+  v.key({.name = "foundation_temperature",
+         .description = "temperature theta_f of the foundation (13), difference to the reference "
+                        "temperature",
+         .unit = "K",
+         .required = true,
+         .used = exchange,
+         .used_with = used_with},
+        &heat.foundation_temperature);
+}
+
+void declare(Visitor &v, ContactCase &contact, const MeshCase &mesh) {
+  v.place(contact.where);
+  v.key(on_sides("boundary, or list of boundaries, in contact with the foundation", mesh),
+        &contact.on);
+  v.check("on", [&] { return inside_complaint(contact.on, mesh); });
+  v.key({.name = "normal",
+         .description = "bilateral: contact is never lost, u_nu = 0 (9)",
+         .choices = {"bilateral"},
+         .foreseen = {"signorini", "normal_compliance", "damped_response"}},
+        &contact.normal);
+  v.refuse("charge", "not available in this version; no charge crosses the contact boundary");
+  v.table({.name = "friction", .description = "The tangential contact law"},
+          [&](Visitor &inner) { declare(inner, contact.friction); });
+  v.table({.name = "heat", .description = "The heat flow between body and foundation"},
+          [&](Visitor &inner) { declare(inner, contact.heat); });
+}
+
+}  // namespace
+
+void declare_contact(Visitor &v, std::optional<ContactCase> &contact, const MeshCase &mesh) {
+  const Key key = {.name = "contact",
+                   .description =
+                       "Contact with a foundation that does not deform. Without this table "
+                       "there is no contact"};
+  v.optional_table(key, contact,
+                   [&](Visitor &inner, ContactCase &value) { declare(inner, value, mesh); });
+}
+
+}  // namespace tourmaline::casefile

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tourmaline/case/schema.h"
+
+/// The declarations of the case file's tables, which `declare(Visitor &, Case &)` puts together.
+namespace tourmaline::casefile {
+
+void declare(Visitor &v, MeshCase &mesh);
+
+/// [material] and [region.material].
+void declare(Visitor &v, MaterialCase &material, int dimension);
+/// Either [material] or [[region]].
+void declare_composition(Visitor &v, Case &asked);
+
+/// The key `on` of a condition, with the names that the mesh has.
+Key on_sides(const std::string &description, const MeshCase &mesh);
+/// Of names in a mesh file that lie inside, where a condition would mean something else.
+std::string inside_complaint(const std::vector<std::string> &on, const MeshCase &mesh);
+
+void declare_boundaries(Visitor &v, std::vector<BoundaryCase> &boundaries, const MeshCase &mesh,
+                        int dimension);
+void declare_electrodes(Visitor &v, std::vector<ElectrodeCase> &electrodes, const MeshCase &mesh);
+void declare_contact(Visitor &v, std::optional<ContactCase> &contact, const MeshCase &mesh);
+
+}  // namespace tourmaline::casefile
