@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tourmaline/body/backward_error.h"
 #include "tourmaline/condensation/ordering.h"
 #include "tourmaline/parallel/ranks.h"
 
@@ -19,7 +20,11 @@ CondensedBody<dim>::CondensedBody(const body::Operator<dim> &op, double step,
     : operator_(op), step_(step) {
   number(prescribed, contact_nodes);
   scale_fields();
-  factorisation_.emplace(matrix(), elimination_order(), contact_variables_, threads);
+  std::vector<double> scales;
+  for (const std::size_t i : unknown_of_)
+    scales.push_back(scale(i));
+  factorisation_.emplace(scaled_matrix(op, step, variable_of_, scales), elimination_order(),
+                         contact_variables_, threads);
   const auto n =
       static_cast<Eigen::Index>(parallel::is_first() ? contact_variables_.size() : std::size_t{0});
   stiffness_ = Eigen::Map<const Eigen::MatrixXd>(factorisation_->schur_complement().data(), n, n);
@@ -64,33 +69,6 @@ void CondensedBody<dim>::scale_fields() {
   std::fill(largest.begin(), largest.begin() + dim, mechanical);
   for (int c = 0; c < Fields<dim>::count; ++c)
     scale_[c] = 1 / std::sqrt(largest[c]);
-}
-
-template <int dim>
-SymmetricMatrix CondensedBody<dim>::matrix() const {
-  const body::NodeGraph &graph = operator_.graph();
-  SymmetricMatrix matrix;
-  matrix.size = static_cast<int>(unknown_of_.size());
-  const std::size_t entries =
-      (graph.column.size() + graph.n_nodes()) / 2 * Fields<dim>::count * Fields<dim>::count;
-  matrix.row.reserve(entries);
-  matrix.column.reserve(entries);
-  matrix.value.reserve(entries);
-  for (Node i = 0; i < graph.n_nodes(); ++i)
-    for (std::size_t e = graph.row[i]; e < graph.row[i + 1] && graph.column[e] <= i; ++e) {
-      const auto block = operator_.step_block(e, step_);
-      for (int a = 0; a < Fields<dim>::count; ++a)
-        for (int b = 0; b < Fields<dim>::count; ++b) {
-          const int row = variable_of_[unknown<dim>(i, a)];
-          const int column = variable_of_[unknown<dim>(graph.column[e], b)];
-          if (row < 0 || column < 0 || column > row)
-            continue;
-          matrix.row.push_back(row + 1);
-          matrix.column.push_back(column + 1);
-          matrix.value.push_back(block(a, b) * scale_[a] * scale_[b]);
-        }
-    }
-  return matrix;
 }
 
 // Nodes in the order of nested dissection, each with its unknowns; the contact displacements last.
@@ -152,24 +130,16 @@ template <int dim>
 double CondensedBody<dim>::backward_error(std::span<const double> right_side,
                                           std::span<const double> state,
                                           const Eigen::VectorXd &q) const {
-  std::vector<double> product(state.size());
-  operator_.multiply(step_, state, product);
   std::vector<double> force(right_side.begin(), right_side.end());
   for (Eigen::Index i = 0; i < q.size(); ++i)
     force[unknown_of_[contact_variables_[i]]] += q[i];
-  std::vector<double> scales(state.size());
-  for (std::size_t i = 0; i < scales.size(); ++i)
+  std::vector<double> residual(state.size()), scales(state.size(), 0.);
+  operator_.multiply(step_, state, residual);
+  for (std::size_t i = 0; i < residual.size(); ++i)
+    residual[i] = force[i] - residual[i];
+  for (const std::size_t i : unknown_of_)
     scales[i] = scale(i);
-  const std::vector<double> row_sums = operator_.sizes(step_, scales);
-  double residual = 0, norm = 0, largest_x = 0, largest_b = 0;
-  for (const std::size_t i : unknown_of_) {
-    norm = std::max(norm, row_sums[i] * scale(i));
-    residual = std::max(residual, std::abs(force[i] - product[i]) * scale(i));
-    largest_b = std::max(largest_b, std::abs(force[i]) * scale(i));
-    largest_x = std::max(largest_x, std::abs(state[i]) / scale(i));
-  }
-  const double size = norm * largest_x + largest_b;
-  return size > 0 ? residual / size : 0;
+  return body::backward_error(operator_, step_, scales, residual, force, state);
 }
 
 template class CondensedBody<2>;

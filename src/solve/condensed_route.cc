@@ -10,7 +10,7 @@
 #include "tourmaline/parallel/ranks.h"
 #include "tourmaline/solve/connected_body.h"
 #include "tourmaline/solve/interface_newton.h"
-#include "tourmaline/solve/stopwatch.h"
+#include "tourmaline/stopwatch.h"
 
 namespace tourmaline::solve {
 

@@ -4,7 +4,7 @@
 
 #include "tourmaline/material/orientation.h"
 #include "tourmaline/mesh/distribute.h"
-#include "tourmaline/solve/stopwatch.h"
+#include "tourmaline/stopwatch.h"
 
 namespace tourmaline::solve {
 

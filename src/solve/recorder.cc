@@ -6,7 +6,7 @@
 
 #include "tourmaline/body/derived.h"
 #include "tourmaline/parallel/ranks.h"
-#include "tourmaline/solve/stopwatch.h"
+#include "tourmaline/stopwatch.h"
 
 namespace tourmaline::solve {
 

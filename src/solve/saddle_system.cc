@@ -5,7 +5,7 @@
 
 #include "tourmaline/condensation/ordering.h"
 #include "tourmaline/parallel/ranks.h"
-#include "tourmaline/solve/stopwatch.h"
+#include "tourmaline/stopwatch.h"
 
 namespace tourmaline::solve {
 
@@ -50,7 +50,8 @@ SaddleSystem<dim>::SaddleSystem(const body::Operator<dim> &op, double step,
         stiffness += share.factor * diagonal[unknown<dim>(share.node, c)] / dim;
     stiffness_.push_back(stiffness / point.weight);
   }
-  condensation::SymmetricMatrix matrix = body_matrix();
+  condensation::SymmetricMatrix matrix =
+      condensation::scaled_matrix(operator_, step_, variable_of_, scale_);
   n_body_entries_ = matrix.value.size();
   add_contact_pattern(matrix);
   factorisation_.emplace(std::move(matrix), elimination_order(), threads);
@@ -89,28 +90,6 @@ template <int dim>
 std::size_t SaddleSystem<dim>::n_electric_and_thermal() const {
   return std::count_if(unknown_of_.begin(), unknown_of_.end(),
                        [](std::size_t i) { return field_of<dim>(i) > 0; });
-}
-
-template <int dim>
-condensation::SymmetricMatrix SaddleSystem<dim>::body_matrix() const {
-  const body::NodeGraph &graph = operator_.graph();
-  condensation::SymmetricMatrix matrix;
-  matrix.size = static_cast<int>(scale_.size());
-  for (Node i = 0; i < graph.n_nodes(); ++i)
-    for (std::size_t e = graph.row[i]; e < graph.row[i + 1] && graph.column[e] <= i; ++e) {
-      const auto block = operator_.step_block(e, step_);
-      for (int a = 0; a < Fields<dim>::count; ++a)
-        for (int b = 0; b < Fields<dim>::count; ++b) {
-          const int row = variable_of_[unknown<dim>(i, a)];
-          const int column = variable_of_[unknown<dim>(graph.column[e], b)];
-          if (row < 0 || column < 0 || column > row)
-            continue;
-          matrix.row.push_back(row + 1);
-          matrix.column.push_back(column + 1);
-          matrix.value.push_back(block(a, b) * scale_[row] * scale_[column]);
-        }
-    }
-  return matrix;
 }
 
 // Variables of a point: its nodes' displacements, share by share (-1: prescribed), its multipliers.

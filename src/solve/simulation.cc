@@ -20,8 +20,8 @@
 #include "tourmaline/solve/monolithic_route.h"
 #include "tourmaline/solve/process.h"
 #include "tourmaline/solve/recorder.h"
-#include "tourmaline/solve/stopwatch.h"
 #include "tourmaline/solve/versions.h"
+#include "tourmaline/stopwatch.h"
 
 namespace tourmaline::solve {
 
@@ -194,6 +194,7 @@ output::Summary Simulation<dim>::summary() const {
   if (report.krylov_iterations > 0) {
     summary.iterations["krylov_total"] = static_cast<std::int64_t>(report.krylov_iterations);
     summary.iterations["krylov_max"] = report.krylov_largest;
+    summary.iterations["preconditioners"] = report.preconditioners;
   }
   summary.factorisations = report.factorisations;
   if (report.negative_pivots >= 0)

@@ -53,7 +53,6 @@ class CondensedBody {
   void number(const std::vector<body::Prescribed> &prescribed,
               const std::vector<body::Node> &contact_nodes);
   void scale_fields();
-  SymmetricMatrix matrix() const;
   std::vector<int> elimination_order() const;
   double scale(std::size_t unknown) const { return scale_[unknown % body::Fields<dim>::count]; }
 

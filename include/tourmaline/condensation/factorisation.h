@@ -5,15 +5,9 @@
 #include <span>
 #include <vector>
 
-namespace tourmaline::condensation {
+#include "tourmaline/condensation/symmetric_matrix.h"
 
-/// The lower triangle of a symmetric matrix by entries, numbered from 1 as MUMPS wants it; each
-/// entry once. On several ranks it is the sum of what they hold.
-struct SymmetricMatrix {
-  int size = 0;
-  std::vector<int> row, column;
-  std::vector<double> value;
-};
+namespace tourmaline::condensation {
 
 /// What MUMPS tells about a factorisation.
 struct FactorisationStatistics {

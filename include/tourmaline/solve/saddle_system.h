@@ -78,7 +78,6 @@ class SaddleSystem {
  private:
   void number(const std::vector<body::Prescribed> &prescribed);
   void set_scales(const std::vector<double> &diagonal);
-  condensation::SymmetricMatrix body_matrix() const;
   void add_contact_pattern(condensation::SymmetricMatrix &matrix) const;
   std::vector<int> elimination_order() const;
   std::vector<int> local_variables(std::size_t point) const;

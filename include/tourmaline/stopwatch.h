@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-namespace tourmaline::solve {
+namespace tourmaline {
 
 /// Seconds of wall-clock time since it was made or last asked.
 class Stopwatch {
@@ -19,4 +19,4 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
-}  // namespace tourmaline::solve
+}  // namespace tourmaline
