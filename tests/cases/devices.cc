@@ -72,6 +72,15 @@ TEST(Washers, WithoutFrictionTheirChargeIsThatOfTheForceAndProportionalToIt) {
   EXPECT_NEAR(shim[1] / shim[0], 2, 1e-3);
 }
 
+// Nothing warms this sensor: what is left of heat in it is round-off, and must not look like a
+// fault.
+TEST(FrictionSensor, WithoutHeatItsBalancesCloseToo) {
+  const RunCase run = device("friction-sensor-loaded");
+  for (const char *balance :
+       {"energy_imbalance", "force_imbalance", "charge_imbalance", "heat_imbalance"})
+    EXPECT_LT(largest_of(run.history(), balance), 1e-9) << balance;
+}
+
 // Pure shear: gamma h = top - slip, |c44 gamma| <= S, D = e15 gamma on both faces.
 TEST(FrictionSensor, ChargeOverSlipIsTheExactLoop) {
   constexpr double c44 = 43e9, e15 = 11.6, bound = 5e4, h = 2e-3, width = 0.01;

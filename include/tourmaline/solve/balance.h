@@ -44,6 +44,7 @@ class Balance {
   void add_heat(const Step &step, Columns &columns) const;
   void add_energy(const Step &step, Columns &columns);
   std::vector<std::pair<body::Node, double>> exchange_weights(const std::string &boundary) const;
+  double smallest_heat() const;
   double exchanged(const std::string &boundary, const Step &step) const;
 
   const Model<dim> &model_;
@@ -52,6 +53,7 @@ class Balance {
   Eigen::VectorXd electrode_charges_;  // of that state [C]
   std::vector<double> charges_;        // electric right-hand side of that state, reactions included
   double stored_ = 0;                  // energy of that state [J]
+  double smallest_heat_ = 0;           // [W]
   std::vector<bool> is_prescribed_;    // by unknown
   std::vector<std::string> heat_boundaries_, charge_boundaries_;
   std::map<std::string, std::vector<std::pair<body::Node, double>>>
