@@ -4,12 +4,13 @@
 #include <petscksp.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 
+#include "tourmaline/body/backward_error.h"
 #include "tourmaline/error.h"
 #include "tourmaline/parallel/ranks.h"
+#include "tourmaline/stopwatch.h"
 
 namespace tourmaline::krylov {
 
@@ -26,8 +27,9 @@ void check(PetscErrorCode code) {
     throw SolveError(fmt::format("PETSc failed with error {}", static_cast<int>(code)));
 }
 
-double seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+void finish_assembly(Mat matrix) {
+  check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
+  check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
 }
 
 // Chosen by measurement: docs/architecture.md.
@@ -95,6 +97,9 @@ struct BodySystem<dim>::Parts {
   void attach_rigid_motions(IS displacements, const std::vector<output::Vector> &points) const;
   Block projector(Node node) const;
   void assemble();
+  Block block_of(Node node) const;
+  void put_contact();
+  void precondition();
   PetscInt own_begin() const { return begin[parallel::rank()]; }
   PetscInt own_count() const { return begin[parallel::rank() + 1] - own_begin(); }
   bool owns(Node node) const {
@@ -104,16 +109,18 @@ struct BodySystem<dim>::Parts {
   const body::Operator<dim> &op;
   double step;
   std::vector<bool> is_prescribed;
-  std::vector<NodeTangent<dim>> contact;
-  std::vector<int> contact_index;  // by node; -1: not at the contact
-  std::vector<PetscInt> row_of;    // by node; a rank's own nodes stand together
-  std::vector<Node> node_of;       // by row
-  std::vector<PetscInt> begin;     // of each rank's rows, and the end
+  std::vector<NodeTangent<dim>> contact, preconditioned;
+  std::vector<int> contact_index;     // by node; -1: not at the contact
+  std::vector<Block> contact_blocks;  // diagonal blocks of this rank's contact nodes, without C
+  std::vector<PetscInt> row_of;       // by node; a rank's own nodes stand together
+  std::vector<Node> node_of;          // by row
+  std::vector<PetscInt> begin;        // of each rank's rows, and the end
   std::array<double, n> scale{};
   Mat matrix = nullptr;
   Vec right_side = nullptr, solution = nullptr;
   KSP solver = nullptr;
   double set_up_seconds = 0;
+  int set_ups = 0;
 };
 
 template <int dim>
@@ -250,9 +257,9 @@ typename BodySystem<dim>::Parts::Block BodySystem<dim>::Parts::projector(Node no
   return q;
 }
 
+// Q K Q, and 1 on the diagonal of what is held, so that it stays zero.
 template <int dim>
 void BodySystem<dim>::Parts::assemble() {
-  const double started = seconds();
   const body::NodeGraph &graph = op.graph();
   Block sign = Block::Identity();
   sign.template bottomRightCorner<2, 2>() *= -1;
@@ -263,22 +270,52 @@ void BodySystem<dim>::Parts::assemble() {
     for (std::size_t e = graph.row[i]; e < graph.row[i + 1]; ++e) {
       const Block k = scales.asDiagonal() * op.step_block(e, step) * scales.asDiagonal();
       Block block = sign * qi * k * projector(graph.column[e]);
-      if (graph.column[e] == i && owns(i)) {
-        block += Block::Identity() - qi;  // what is held stays zero
-        if (contact_index[i] >= 0)
-          block.template topLeftCorner<dim, dim>() +=
-              scale[0] * scale[0] * contact[contact_index[i]].stiffness;
-      }
+      if (graph.column[e] == i && owns(i))
+        block += Block::Identity() - qi;
       const PetscInt row = row_of[i], column = row_of[graph.column[e]];
       check(MatSetValuesBlocked(matrix, 1, &row, 1, &column, block.data(), ADD_VALUES));
     }
   }
-  check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
-  check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
+  finish_assembly(matrix);
+  contact_blocks.clear();
+  for (const NodeTangent<dim> &at : contact)
+    if (owns(at.node))
+      contact_blocks.push_back(block_of(at.node));
+}
+
+template <int dim>
+typename BodySystem<dim>::Parts::Block BodySystem<dim>::Parts::block_of(Node node) const {
+  std::array<PetscInt, n> rows;
+  std::iota(rows.begin(), rows.end(), n * row_of[node]);
+  Block block;
+  check(MatGetValues(matrix, n, rows.data(), n, rows.data(), block.data()));
+  return block;
+}
+
+// Set, not added: what the matrix holds depends on this contact only, not on those before.
+template <int dim>
+void BodySystem<dim>::Parts::put_contact() {
+  auto without = contact_blocks.begin();
+  for (const NodeTangent<dim> &at : contact) {
+    if (!owns(at.node))
+      continue;
+    Block block = *without++;
+    block.template topLeftCorner<dim, dim>() += scale[0] * scale[0] * at.stiffness;
+    const PetscInt row = row_of[at.node];
+    check(MatSetValuesBlocked(matrix, 1, &row, 1, &row, block.data(), INSERT_VALUES));
+  }
+  finish_assembly(matrix);
+}
+
+template <int dim>
+void BodySystem<dim>::Parts::precondition() {
   check(KSPSetOperators(solver, matrix, matrix));
+  check(KSPSetReusePreconditioner(solver, PETSC_FALSE));
   check(KSPSetUp(solver));
   check(KSPSetUpOnBlocks(solver));
-  set_up_seconds += seconds() - started;
+  check(KSPSetReusePreconditioner(solver, PETSC_TRUE));
+  preconditioned = contact;
+  ++set_ups;
 }
 
 template <int dim>
@@ -287,7 +324,7 @@ BodySystem<dim>::BodySystem(const body::Operator<dim> &op, double step,
                             const std::vector<body::Prescribed> &prescribed)
     : parts_(std::make_unique<Parts>(op, step)) {
   start();
-  const double started = seconds();
+  Stopwatch watch;
   parts_->is_prescribed.assign(op.graph().n_nodes() * Parts::n, false);
   for (const body::Prescribed &p : prescribed)
     parts_->is_prescribed[p.unknown] = true;
@@ -295,7 +332,7 @@ BodySystem<dim>::BodySystem(const body::Operator<dim> &op, double step,
   parts_->scale_fields();
   parts_->preallocate();
   parts_->make_solver(points);
-  parts_->set_up_seconds = seconds() - started;
+  parts_->set_up_seconds = watch.lap();
 }
 
 template <int dim>
@@ -303,10 +340,31 @@ BodySystem<dim>::~BodySystem() = default;
 
 template <int dim>
 void BodySystem<dim>::set_contact(const std::vector<NodeTangent<dim>> &contact) {
-  parts_->contact = contact;
-  for (std::size_t i = 0; i < contact.size(); ++i)
-    parts_->contact_index[contact[i].node] = static_cast<int>(i);
-  parts_->assemble();
+  Parts &in = *parts_;
+  if (contact == in.contact)
+    return;
+  Stopwatch watch;
+  const bool as_free =
+      std::equal(contact.begin(), contact.end(), in.contact.begin(), in.contact.end(),
+                 [](const auto &now, const auto &then) { return now.projector == then.projector; });
+  in.contact = contact;
+  if (!as_free) {
+    for (std::size_t i = 0; i < contact.size(); ++i)
+      in.contact_index[contact[i].node] = static_cast<int>(i);
+    in.assemble();
+  }
+  in.put_contact();
+  if (!as_free)
+    in.precondition();
+  in.set_up_seconds += watch.lap();
+}
+
+template <int dim>
+void BodySystem<dim>::refresh() {
+  Stopwatch watch;
+  if (parts_->contact != parts_->preconditioned)
+    parts_->precondition();
+  parts_->set_up_seconds += watch.lap();
 }
 
 template <int dim>
@@ -328,14 +386,12 @@ template <int dim>
 int BodySystem<dim>::solve(std::span<const double> right_side, double reduction,
                            std::span<double> solution) {
   Parts &in = *parts_;
-  std::vector<double> r(right_side.begin(), right_side.end());
-  project(r);
   PetscScalar *values = nullptr;
   check(VecGetArray(in.right_side, &values));
   for (PetscInt i = 0; i < in.own_count() * Parts::n; ++i) {
     const int c = i % Parts::n;
     const Node node = in.node_of[in.own_begin() + i / Parts::n];
-    values[i] = (c < dim ? 1 : -1) * in.scale[c] * r[unknown<dim>(node, c)];
+    values[i] = (c < dim ? 1 : -1) * in.scale[c] * right_side[unknown<dim>(node, c)];
   }
   check(VecRestoreArray(in.right_side, &values));
   check(KSPSetTolerances(in.solver, reduction, 1e-300, PETSC_DEFAULT, PETSC_DEFAULT));
@@ -362,8 +418,23 @@ int BodySystem<dim>::solve(std::span<const double> right_side, double reduction,
 }
 
 template <int dim>
+double BodySystem<dim>::backward_error(std::span<const double> residual,
+                                       std::span<const double> right_side,
+                                       std::span<const double> state) const {
+  std::vector<double> scale(state.size());
+  for (std::size_t i = 0; i < scale.size(); ++i)
+    scale[i] = parts_->is_prescribed[i] ? 0 : parts_->scale[i % Parts::n];
+  return body::backward_error(parts_->op, parts_->step, scale, residual, right_side, state);
+}
+
+template <int dim>
 double BodySystem<dim>::set_up_seconds() const {
   return parts_->set_up_seconds;
+}
+
+template <int dim>
+int BodySystem<dim>::set_ups() const {
+  return parts_->set_ups;
 }
 
 template class BodySystem<2>;

@@ -9,7 +9,7 @@
 #include "tourmaline/contact/friction.h"
 #include "tourmaline/error.h"
 #include "tourmaline/krylov/body_system.h"
-#include "tourmaline/solve/stopwatch.h"
+#include "tourmaline/stopwatch.h"
 
 namespace tourmaline::solve {
 
@@ -78,10 +78,9 @@ class IterativeRoute : public Route {
   std::vector<double> residual_;  // b - K x, at contact nodes the force that the contact bears
   std::vector<double> two_before_;
   std::vector<double> increment_;
-  bool tangent_is_current_ = false;
   int iterations_ = 0;  // Newton iterations of this step
   std::size_t krylov_iterations_ = 0;
-  int krylov_largest_ = 0, assemblies_ = 0;
+  int krylov_largest_ = 0;
   double linear_seconds_ = 0, backward_error_ = 0;
 };
 
@@ -251,13 +250,13 @@ std::vector<double> IterativeRoute<dim>::newton_residual() const {
     for (int c = 0; c < dim; ++c)
       r[unknown<dim>(model_.interface[i].node, c)] -= friction[c];
   }
+  system_.project(r);
   return r;
 }
 
 template <int dim>
 bool IterativeRoute<dim>::body_is_solved(std::span<const double> state) const {
-  std::vector<double> r = newton_residual();
-  system_.project(r);
+  const std::vector<double> r = newton_residual();
   const std::array<double, 3> sizes = field_sizes(state);
   std::array<double, 3> squares{};
   for (std::size_t i = 0; i < r.size(); ++i)
@@ -290,13 +289,9 @@ std::vector<krylov::NodeTangent<dim>> IterativeRoute<dim>::tangents() const {
 
 template <int dim>
 void IterativeRoute<dim>::newton_step(std::span<double> state) {
-  constexpr double reduction = 1e-6;  // what is left, the next iteration takes
+  constexpr double reduction = 1e-2;  // what is left, the next iteration takes
   Stopwatch watch;
-  if (!tangent_is_current_) {
-    system_.set_contact(tangents());
-    ++assemblies_;
-    tangent_is_current_ = true;
-  }
+  system_.set_contact(tangents());
   const int iterations = system_.solve(newton_residual(), reduction, increment_);
   krylov_iterations_ += iterations;
   krylov_largest_ = std::max(krylov_largest_, iterations);
@@ -317,12 +312,8 @@ void IterativeRoute<dim>::read_slips(std::span<const double> state) {
         p.admissible.directions.transpose() * displacement(state, i) - p.slip_before;
     const bool bounded = with_law(
         p.friction, [&](const auto &law) { return !law.is_smooth_at(Tangent::Zero(slip.size())); });
-    if (bounded && slip.dot(p.slip) <= 0) {
+    if (bounded && slip.dot(p.slip) <= 0)
       p.slips = false;
-      tangent_is_current_ = false;
-    } else if (bounded && dim == 3 && slip != p.slip) {
-      tangent_is_current_ = false;  // the law's stiffness turns with the slip
-    }
     p.slip = slip;
   }
 }
@@ -331,7 +322,8 @@ template <int dim>
 StepOutcome IterativeRoute<dim>::advance(double time, std::span<const double> right_side,
                                          std::span<const double> before, std::span<double> state) {
   begin_step(time, before, state);
-  tangent_is_current_ = false;
+  system_.set_contact(tangents());
+  system_.refresh();
   const double tolerance =
       std::max(model_.asked.solver.tolerance, model_.asked.solver.linear_tolerance);
   while (true) {
@@ -345,7 +337,6 @@ StepOutcome IterativeRoute<dim>::advance(double time, std::span<const double> ri
       if (iterations_ >= model_.asked.solver.max_iterations)
         give_up(time);
       if (change_active_set()) {
-        tangent_is_current_ = false;
         impose(state);
         update_residual(right_side, state);
       }
@@ -354,6 +345,8 @@ StepOutcome IterativeRoute<dim>::advance(double time, std::span<const double> ri
     read_slips(state);
     impose(state);
   }
+  backward_error_ =
+      std::max(backward_error_, system_.backward_error(newton_residual(), right_side, state));
   return outcome();
 }
 
@@ -400,6 +393,7 @@ RouteReport IterativeRoute<dim>::report() const {
   report.unknowns = std::count(is_prescribed_.begin(), is_prescribed_.end(), false);
   report.krylov_iterations = krylov_iterations_;
   report.krylov_largest = krylov_largest_;
+  report.preconditioners = system_.set_ups();
   report.backward_error = backward_error_;
   return report;
 }

@@ -149,7 +149,7 @@ struct ContactCase {
 struct SolverCase {
   std::string method = "condensed";  ///< condensed | monolithic
   std::string body = "automatic";    ///< automatic | direct | iterative; of the condensed method
-  double linear_tolerance = 1e-10;   ///< of the iterative solution of the body's equations
+  double linear_tolerance = 1e-11;   ///< of the iterative solution of the body's equations
   double tolerance =
       1e-12;  ///< of the contact iteration: natural residual over the largest nodal force
   int max_iterations = 100;          ///< Newton iterations in one step

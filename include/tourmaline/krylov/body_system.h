@@ -18,6 +18,8 @@ struct NodeTangent {
 
   body::Node node;
   Matrix projector, stiffness;
+
+  bool operator==(const NodeTangent &) const = default;
 };
 
 /// The operator K of a step without a factorisation, for bodies too large for one: solves
@@ -27,7 +29,7 @@ struct NodeTangent {
 /// with Q the projector onto what is free (prescribed unknowns and the contact hold the rest) and C
 /// the contact's stiffness, by flexible GMRES (PETSc). The electric and heat rows change their sign
 /// back, so that the diagonal blocks are positive definite; the preconditioner solves by blocks, u,
-/// then phi, then theta: smoothed aggregation with the rigid motions for u (GAMG), BoomerAMG
+/// then phi, then theta: aggregation multigrid with the rigid motions for u (GAMG), BoomerAMG
 /// (hypre) for phi and theta. All vectors are SI and whole on every rank.
 template <int dim>
 class BodySystem {
@@ -38,17 +40,25 @@ class BodySystem {
   BodySystem(const BodySystem &) = delete;
   BodySystem &operator=(const BodySystem &) = delete;
 
-  /// Assembles the matrix for another contact; one entry for each contact node, always the same.
+  /// Sets the matrix of another contact; one entry for each contact node, always the same nodes.
+  /// The preconditioner stays where only stiffnesses differ.
   void set_contact(const std::vector<NodeTangent<dim>> &contact);
+  /// Makes the preconditioner that of the matrix as it is now, unless it is.
+  void refresh();
 
-  /// Solves until the residual is `reduction` times r, in scaled unknowns. Returns the iterations.
-  /// Throws SolveError when they do not converge.
+  /// Solves for a projected right-hand side r until the residual is `reduction` times r, in scaled
+  /// unknowns. Returns the iterations. Throws SolveError when they do not converge.
   int solve(std::span<const double> right_side, double reduction, std::span<double> solution);
 
   /// Q r.
   void project(std::span<double> vector) const;
 
-  double set_up_seconds() const;  ///< assembly and preconditioner
+  /// body::backward_error of a projected residual.
+  double backward_error(std::span<const double> residual, std::span<const double> right_side,
+                        std::span<const double> state) const;
+
+  double set_up_seconds() const;  ///< assembly and preconditioners
+  int set_ups() const;            ///< preconditioners made so far
 
  private:
   struct Parts;

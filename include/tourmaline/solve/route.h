@@ -28,6 +28,7 @@ struct RouteReport {
   int negative_pivots = -1;           ///< -1: not known to this route
   std::size_t krylov_iterations = 0;  ///< over all linear systems; 0: solved by substitution
   int krylov_largest = 0;             ///< of one linear system
+  int preconditioners = 0;            ///< made in the run
   double backward_error = 0;          ///< largest over the steps in which it was measured
 };
 
