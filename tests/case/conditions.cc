@@ -1,9 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "error_in.h"
 #include "example.h"
-#include "tourmaline/case/reader.h"
-#include "tourmaline/error.h"
 
 namespace tourmaline::casefile {
 namespace {
@@ -12,12 +11,7 @@ using testing::HasSubstr;
 
 // What is wrong with the example after the overrides.
 std::string error_of(const std::vector<std::string> &overrides) {
-  try {
-    read_text(example, "case.toml", overrides);
-  } catch (const CaseError &error) {
-    return error.what();
-  }
-  return "no error";
+  return error_in(example, overrides);
 }
 
 TEST(Conditions, OneFieldMayHaveOneConditionOnABoundary) {

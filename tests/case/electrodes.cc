@@ -3,9 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "error_in.h"
 #include "example.h"
-#include "tourmaline/case/reader.h"
-#include "tourmaline/error.h"
 
 namespace tourmaline::casefile {
 namespace {
@@ -18,12 +17,7 @@ const std::string ground = "{ name = 'ground', on = 'right', voltage = 0 }";
 std::string error_of(const std::string &electrodes, std::vector<std::string> more = {}) {
   more.insert(more.begin(),
               {"boundary[0]={on='right', displacement=[0,0]}", "electrode=[" + electrodes + "]"});
-  try {
-    read_text(example, "case.toml", more);
-  } catch (const CaseError &error) {
-    return error.what();
-  }
-  return "no error";
+  return error_in(example, more);
 }
 
 TEST(Electrodes, EveryKindThatThereIsCanBeAsked) {

@@ -1,10 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "error_in.h"
 #include "example.h"
 #include "tourmaline/case/reader.h"
 #include "tourmaline/case/resolved.h"
-#include "tourmaline/error.h"
 
 namespace tourmaline::casefile {
 namespace {
@@ -12,12 +12,7 @@ namespace {
 using testing::HasSubstr;
 
 std::string error_of(const std::string &text, const std::string &grading) {
-  try {
-    read_text(text, "case.toml", {"mesh.box.grading=" + grading});
-  } catch (const CaseError &error) {
-    return error.what();
-  }
-  return "no error";
+  return error_in(text, {"mesh.box.grading=" + grading});
 }
 
 TEST(Grading, IsReadBySides) {

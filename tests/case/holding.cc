@@ -5,9 +5,8 @@
 
 #include <cmath>
 
+#include "error_in.h"
 #include "example.h"
-#include "tourmaline/case/reader.h"
-#include "tourmaline/error.h"
 
 namespace tourmaline::casefile {
 namespace {
@@ -72,44 +71,35 @@ TEST(FreeMotions, DoNotDependOnTheSizeOfTheBody) {
   }
 }
 
-std::string error_of(const std::string &text, const std::vector<std::string> &overrides) {
-  try {
-    read_text(text, "case.toml", overrides);
-  } catch (const CaseError &error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 TEST(Holding, AClampedSideIsEnough) {
-  EXPECT_EQ(error_of(cube, {}), "no error");
-  EXPECT_EQ(error_of(example, {}), "no error");
+  EXPECT_EQ(error_in(cube, {}), "no error");
+  EXPECT_EQ(error_in(example, {}), "no error");
 }
 
 TEST(Holding, BilateralContactHoldsTheNormalDirectionOnly) {
-  const std::string error = error_of(example, {"boundary[0].displacement=['free','free']"});
+  const std::string error = error_in(example, {"boundary[0].displacement=['free','free']"});
   EXPECT_THAT(error, HasSubstr("case.toml [[boundary]]"));
   EXPECT_THAT(error, HasSubstr("against a translation along y;"));
   EXPECT_THAT(error, HasSubstr("bilateral contact holds only the normal one"));
-  EXPECT_EQ(error_of(example, {"boundary[0].displacement=['free',0]"}), "no error");
+  EXPECT_EQ(error_in(example, {"boundary[0].displacement=['free',0]"}), "no error");
 }
 
 TEST(Holding, ABoxOnRollersSlidesAndTurnsOnThem) {
-  const std::string error = error_of(cube, {"boundary[0].displacement=['free','free',0]"});
+  const std::string error = error_in(cube, {"boundary[0].displacement=['free','free',0]"});
   EXPECT_THAT(error, HasSubstr("a translation along x, a translation along y and a rotation about "
                                "an axis parallel to z"));
 }
 
 TEST(Holding, RollersOnThreeSidesHoldACube) {
-  EXPECT_EQ(error_of(cube, {"boundary[0].displacement=['free','free',0]", "boundary[1].on=left",
+  EXPECT_EQ(error_in(cube, {"boundary[0].displacement=['free','free',0]", "boundary[1].on=left",
                             "boundary[1].displacement=[0,'free','free']", "boundary[2].on=front",
                             "boundary[2].displacement=['free',0,'free']"}),
             "no error");
 }
 
 TEST(Holding, AShaftHoldsARingButForTheTurning) {
-  EXPECT_EQ(error_of(ring, {}), "no error");
-  const std::string error = error_of(ring, {"boundary[0].displacement=['free','free']"});
+  EXPECT_EQ(error_in(ring, {}), "no error");
+  const std::string error = error_in(ring, {"boundary[0].displacement=['free','free']"});
   EXPECT_THAT(error, HasSubstr("nothing holds the body against a rotation in the plane;"));
 }
 
@@ -118,18 +108,18 @@ TEST(Holding, AShaftHoldsATubeButForTurningAndPushing) {
       "mesh.annulus={inner=0.1, outer=0.2, height=0.1, cells=[2,16,2], cell='hexahedron'}",
       "boundary[0].displacement=['free','free','free']"};
   EXPECT_THAT(
-      error_of(ring, tube),
+      error_in(ring, tube),
       HasSubstr("against a translation along z and a rotation about an axis parallel to z;"));
 }
 
 TEST(Holding, NoDisplacementAtAllNamesEveryMotion) {
-  const std::string error = error_of(cube, {"boundary[0]={on='top', potential=0}"});
+  const std::string error = error_in(cube, {"boundary[0]={on='top', potential=0}"});
   EXPECT_THAT(error, HasSubstr("a translation along z"));
   EXPECT_THAT(error, HasSubstr("a rotation about an axis parallel to x"));
 }
 
 TEST(Holding, APotentialWithoutGroundFloats) {
-  EXPECT_THAT(error_of(cube, {"boundary[0]={on='bottom', displacement=[0,0,0]}"}),
+  EXPECT_THAT(error_in(cube, {"boundary[0]={on='bottom', displacement=[0,0,0]}"}),
               HasSubstr("the electric potential floats"));
 }
 

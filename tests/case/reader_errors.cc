@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "error_in.h"
 #include "example.h"
 #include "tourmaline/case/reader.h"
 #include "tourmaline/error.h"
@@ -13,15 +14,6 @@ namespace {
 
 using testing::HasSubstr;
 using testing::Not;
-
-std::string error_of(const std::string &text, const std::vector<std::string> &overrides = {}) {
-  try {
-    read_text(text, "case.toml", overrides);
-  } catch (const CaseError &error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 // The example with one piece of its text replaced.
 std::string changed(const std::string &from, const std::string &to) {
@@ -43,7 +35,7 @@ void PrintTo(const Mistake &mistake, std::ostream *out) {
 class MistakeInAFile : public testing::TestWithParam<Mistake> {};
 
 TEST_P(MistakeInAFile, IsNamedWithItsPlaceAndWhatIsAllowed) {
-  const std::string error = error_of(changed(GetParam().from, GetParam().to));
+  const std::string error = error_in(changed(GetParam().from, GetParam().to));
   for (const std::string &piece : GetParam().pieces)
     EXPECT_THAT(error, HasSubstr(piece));
   EXPECT_THAT(error, testing::StartsWith("case.toml"));
@@ -208,17 +200,17 @@ INSTANTIATE_TEST_SUITE_P(Formulas, MistakeInAFile, testing::ValuesIn(formulas));
 
 TEST(Errors, ASingleTableForAnArrayOfTablesSaysHowToWriteIt) {
   const std::string text = cube.substr(0, cube.find("[[")) + "[boundary]\non = \"top\"\n";
-  EXPECT_THAT(error_of(text), HasSubstr("write [[boundary]]"));
+  EXPECT_THAT(error_in(text), HasSubstr("write [[boundary]]"));
 }
 
 TEST(Errors, AnEmptyFileSaysSo) {
-  EXPECT_THAT(error_of(""), HasSubstr("case.toml: is empty"));
-  EXPECT_THAT(error_of(" \n\t\n"), HasSubstr("is empty"));
-  EXPECT_THAT(error_of("# nothing\n"), HasSubstr("mesh: missing"));
+  EXPECT_THAT(error_in(""), HasSubstr("case.toml: is empty"));
+  EXPECT_THAT(error_in(" \n\t\n"), HasSubstr("is empty"));
+  EXPECT_THAT(error_in("# nothing\n"), HasSubstr("mesh: missing"));
 }
 
 TEST(Errors, ABinaryFileIsNoText) {
-  EXPECT_THAT(error_of(std::string("\x7F"
+  EXPECT_THAT(error_in(std::string("\x7F"
                                    "ELF\0\0",
                                    6)),
               HasSubstr("not a text file"));
@@ -226,7 +218,7 @@ TEST(Errors, ABinaryFileIsNoText) {
 
 TEST(Errors, ThirtyKilobytesOfAValueAreNotQuoted) {
   const std::string error =
-      error_of(changed("\"condensed\"", "\"" + std::string(30000, 'm') + "\""));
+      error_in(changed("\"condensed\"", "\"" + std::string(30000, 'm') + "\""));
   EXPECT_THAT(error, HasSubstr("mmm..."));
   EXPECT_LT(error.size(), 400u);
 }
@@ -258,7 +250,7 @@ void PrintTo(const BadOverride &bad, std::ostream *out) {
 class BadOverrides : public testing::TestWithParam<BadOverride> {};
 
 TEST_P(BadOverrides, AreNamedAsTheirPlace) {
-  const std::string error = error_of(example, {GetParam().text});
+  const std::string error = error_in(example, {GetParam().text});
   EXPECT_THAT(error, testing::StartsWith("--set " + GetParam().text));
   EXPECT_THAT(error, HasSubstr(GetParam().piece));
 }
@@ -288,21 +280,21 @@ const BadOverride bad_overrides[] = {
 INSTANTIATE_TEST_SUITE_P(All, BadOverrides, testing::ValuesIn(bad_overrides));
 
 TEST(Errors, AVeryLongOverrideIsNotRepeatedInFull) {
-  EXPECT_LT(error_of(example, {"title=[" + std::string(50000, '1') + "]"}).size(), 500u);
+  EXPECT_LT(error_in(example, {"title=[" + std::string(50000, '1') + "]"}).size(), 500u);
 }
 
 TEST(Annulus, MistakesAreNamed) {
   const auto error = [](const std::string &annulus) {
-    return error_of(ring, {"mesh.annulus." + annulus});
+    return error_in(ring, {"mesh.annulus." + annulus});
   };
   EXPECT_THAT(error("outer=0.05"), HasSubstr("must be greater than inner, which is 0.1"));
   EXPECT_THAT(error("outer=0.1000000001"), HasSubstr("the wall is too thin"));
   EXPECT_THAT(error("cells=[2,7]"), HasSubstr("the intervals around, must be at least 8"));
   EXPECT_THAT(error("cells=[2,16,2]"), HasSubstr("mesh.annulus.cell makes the case 2-dimensional"));
   EXPECT_THAT(error("height=1"), HasSubstr("only used with cell = \"tetrahedron\""));
-  EXPECT_THAT(error_of(ring, {"contact.on=innner"}), HasSubstr("did you mean \"inner\"?"));
-  EXPECT_THAT(error_of(ring, {"boundary[0].on=top"}), HasSubstr("outer"));
-  EXPECT_THAT(error_of(ring, {"mesh.box={min=[0,0],max=[1,1],cells=[2,2]}"}),
+  EXPECT_THAT(error_in(ring, {"contact.on=innner"}), HasSubstr("did you mean \"inner\"?"));
+  EXPECT_THAT(error_in(ring, {"boundary[0].on=top"}), HasSubstr("outer"));
+  EXPECT_THAT(error_in(ring, {"mesh.box={min=[0,0],max=[1,1],cells=[2,2]}"}),
               HasSubstr("both mesh.box and mesh.annulus are given"));
 }
 

@@ -3,22 +3,10 @@
 
 #include <gmock/gmock.h>
 
-#include <cmath>
-
 #include "run_case.h"
 
 namespace tourmaline::testing {
 namespace {
-
-// Largest difference over the largest size of a column.
-double difference(const std::vector<double> &expected, const std::vector<double> &found) {
-  double worst = 0, size = 0;
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    worst = std::max(worst, std::abs(expected[i] - found.at(i)));
-    size = std::max(size, std::abs(expected[i]));
-  }
-  return size > 0 ? worst / size : worst;
-}
 
 void expect_equal(const Table &expected, const Table &found, const std::vector<std::string> &names,
                   double tolerance) {
@@ -26,7 +14,7 @@ void expect_equal(const Table &expected, const Table &found, const std::vector<s
     SCOPED_TRACE(name);
     if (!expected.columns.contains(name))
       continue;
-    EXPECT_LE(difference(expected.numbers(name), found.numbers(name)), tolerance);
+    EXPECT_LE(difference(found, expected, name), tolerance);
   }
 }
 

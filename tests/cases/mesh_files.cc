@@ -13,12 +13,6 @@ using ::testing::HasSubstr;
 
 class MeshFileCase : public ::testing::Test {
  protected:
-  MeshFileCase() {
-    std::string name = ::testing::TempDir() + "/tourmaline-geo-XXXXXX";
-    folder_ = mkdtemp(name.data());
-  }
-  ~MeshFileCase() override { std::filesystem::remove_all(folder_); }
-
   void put(const std::string &name, const std::string &text) const {
     std::ofstream(folder_ / name) << text;
   }
@@ -36,7 +30,7 @@ class MeshFileCase : public ::testing::Test {
     return "";
   }
 
-  std::filesystem::path folder_;
+  output::TemporaryFolder folder_;
 };
 
 const std::string square = R"(

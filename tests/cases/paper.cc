@@ -152,16 +152,12 @@ TEST(Run, OneFactorisationServesAllStepsAndTheSummarySaysWhereTheTimeWent) {
   EXPECT_TRUE(summary["seconds"]["step"]["per_step"].is_number());
 }
 
-std::string bytes(const std::filesystem::path &file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 TEST(Run, TheResolvedCaseReproducesTheRunToTheByte) {
   const RunCase first(conductive, {"mesh.box.cells=[12,12]"});
   const RunCase again(casefile::read_file(first.folder() / "resolved.toml"));
   for (const char *file : {"nodes.csv", "contact.csv", "history.csv", "resolved.toml"})
-    EXPECT_EQ(bytes(first.folder() / file), bytes(again.folder() / file)) << file;
+    EXPECT_EQ(output::content_of(first.folder() / file), output::content_of(again.folder() / file))
+        << file;
 }
 
 TEST(Run, AFailedSolveSaysWhereAndWhyAndKeepsTheStepsBefore) {

@@ -56,14 +56,20 @@ inline double largest(const std::vector<double> &values) {
   return size;
 }
 
+inline double largest(const Table &table, const std::string &column) {
+  return largest(table.numbers(column));
+}
+
 /// Largest difference of a column over `size`, or over the second table's largest value.
 inline double difference(const Table &ours, const Table &theirs, const std::string &column,
                          double size = 0) {
   const std::vector<double> a = ours.numbers(column), b = theirs.numbers(column);
   EXPECT_EQ(a.size(), b.size()) << column;
   double worst = 0;
-  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+    EXPECT_FALSE(std::isnan(a[i] - b[i])) << column;  // which std::max would pass over
     worst = std::max(worst, std::abs(a[i] - b[i]));
+  }
   const double scale = size > 0 ? size : largest(b);
   return scale > 0 ? worst / scale : worst;
 }

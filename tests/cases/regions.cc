@@ -9,12 +9,8 @@
 namespace tourmaline::testing {
 namespace {
 
+using output::content_of;
 using ::testing::HasSubstr;
-
-std::string contents(const std::filesystem::path &file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 casefile::Case read(const std::string &text, std::vector<std::string> overrides = {}) {
   overrides.push_back("output.fields=false");
@@ -56,8 +52,8 @@ where = "x >= 0.05"
 material.library = "BaTiO3-Liu2014"
 )"));
   for (const char *file : {"nodes.csv", "contact.csv", "history.csv"}) {
-    EXPECT_EQ(contents(whole.folder() / file), contents(region.folder() / file)) << file;
-    EXPECT_EQ(contents(whole.folder() / file), contents(halves.folder() / file)) << file;
+    EXPECT_EQ(content_of(whole.folder() / file), content_of(region.folder() / file)) << file;
+    EXPECT_EQ(content_of(whole.folder() / file), content_of(halves.folder() / file)) << file;
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "../output/temporary_folder.h"
 #include "read_table.h"
 #include "tourmaline/case/reader.h"
 #include "tourmaline/mesh/gmsh.h"
@@ -18,9 +19,6 @@ class RunCase {
                             mesh::read_mesh_file));
   }
   RunCase(const casefile::Case &asked) { run(asked); }
-  ~RunCase() { std::filesystem::remove_all(folder_); }
-  RunCase(const RunCase &) = delete;
-  RunCase &operator=(const RunCase &) = delete;
 
   Table nodes() const { return read_table(folder_ / "nodes.csv"); }
   Table contact() const { return read_table(folder_ / "contact.csv"); }
@@ -29,16 +27,12 @@ class RunCase {
     std::ifstream in(folder_ / "summary.json");
     return nlohmann::json::parse(in);
   }
-  const std::filesystem::path &folder() const { return folder_; }
+  const std::filesystem::path &folder() const { return folder_.path(); }
 
  private:
-  void run(const casefile::Case &asked) {
-    std::string pattern = std::filesystem::temp_directory_path() / "tourmaline-case-XXXXXX";
-    folder_ = mkdtemp(pattern.data());
-    solve::simulate(asked, folder_, true);
-  }
+  void run(const casefile::Case &asked) { solve::simulate(asked, folder_.path(), true); }
 
-  std::filesystem::path folder_;
+  output::TemporaryFolder folder_;
 };
 
 }  // namespace tourmaline::testing

@@ -7,13 +7,15 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <set>
 #include <string>
+
+#include "../output/temporary_folder.h"
 
 namespace {
 
 using testing::HasSubstr;
+using tourmaline::output::content_of;
 
 const std::string good_case = R"(title = "a square in contact"
 
@@ -61,11 +63,6 @@ void PrintTo(const BadInput &bad, std::ostream *out) {
   *out << bad.claim;
 }
 
-std::string contents(const std::filesystem::path &file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 std::set<std::string> files_below(const std::filesystem::path &folder) {
   std::set<std::string> files;
   for (const auto &entry : std::filesystem::recursive_directory_iterator(folder))
@@ -85,13 +82,7 @@ std::string binary() {
 /// An empty folder to run the program in, and what it said there.
 class Program : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = testing::TempDir() + "/tourmaline-XXXXXX";
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-    std::filesystem::create_directory(folder_ / "here");
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
+  Program() { std::filesystem::create_directory(here()); }
 
   std::filesystem::path here() const { return folder_ / "here"; }
 
@@ -99,12 +90,12 @@ class Program : public testing::Test {
     const std::string command = "cd '" + here().string() + "' && { '" + binary() + "' " +
                                 arguments + "; } > ../stdout 2> ../stderr < /dev/null";
     const int status = std::system(command.c_str());
-    said_ = contents(folder_ / "stdout");
-    complained_ = contents(folder_ / "stderr");
+    said_ = content_of(folder_ / "stdout");
+    complained_ = content_of(folder_ / "stderr");
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
 
-  std::filesystem::path folder_;
+  tourmaline::output::TemporaryFolder folder_;
   std::string said_, complained_;
 };
 

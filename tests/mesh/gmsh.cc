@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "../output/temporary_folder.h"
 #include "tourmaline/body/discretisation.h"
 #include "tourmaline/error.h"
 #include "tourmaline/mesh/shapes.h"
@@ -22,12 +23,6 @@ using testing::UnorderedElementsAre;
 /// A folder for mesh files that goes away with the test.
 class MeshFiles : public testing::Test {
  protected:
-  MeshFiles() {
-    std::string name = testing::TempDir() + "/tourmaline-mesh-XXXXXX";
-    folder_ = mkdtemp(name.data());
-  }
-  ~MeshFiles() override { std::filesystem::remove_all(folder_); }
-
   casefile::MeshCase text(const std::string &name, const std::string &contents) const {
     std::ofstream(folder_ / name) << contents;
     return file(name);
@@ -66,7 +61,7 @@ class MeshFiles : public testing::Test {
     return "";
   }
 
-  std::filesystem::path folder_;
+  output::TemporaryFolder folder_;
 };
 
 // A rectangle of 2 by 3; the fifth point belongs to nothing, as stray points of sketches do.

@@ -28,7 +28,7 @@ class TemporaryFolder {
 
  private:
   static std::filesystem::path make() {
-    std::string name = testing::TempDir() + "/tourmaline-XXXXXX";
+    std::string name = ::testing::TempDir() + "/tourmaline-XXXXXX";
     if (::mkdtemp(name.data()) == nullptr)
       throw std::runtime_error("no temporary folder");
     return name;

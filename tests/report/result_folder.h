@@ -1,10 +1,9 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 
+#include "../output/temporary_folder.h"
 #include "tourmaline/case/reader.h"
 #include "tourmaline/solve/simulation.h"
 
@@ -14,25 +13,17 @@ namespace tourmaline::report {
 class ResultFolder {
  public:
   explicit ResultFolder(std::vector<std::string> overrides, const std::string &cells = "[4, 3]") {
-    std::string pattern = std::filesystem::temp_directory_path() / "tourmaline-report-XXXXXX";
-    path_ = mkdtemp(pattern.data());
     overrides.push_back("mesh.box.cells=" + cells);
     const auto file =
         std::filesystem::path(TOURMALINE_SOURCE_DIR) / "cases/ouafik-2020/conductive.toml";
-    solve::simulate(casefile::read_file(file, overrides), path_, true);
+    solve::simulate(casefile::read_file(file, overrides), path(), true);
   }
-  ~ResultFolder() { std::filesystem::remove_all(path_); }
-  ResultFolder(const ResultFolder &) = delete;
-  ResultFolder &operator=(const ResultFolder &) = delete;
 
-  const std::filesystem::path &path() const { return path_; }
-  std::string content(const std::string &file) const {
-    std::ifstream in(path_ / file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+  const std::filesystem::path &path() const { return folder_.path(); }
+  std::string content(const std::string &file) const { return output::content_of(folder_ / file); }
 
  private:
-  std::filesystem::path path_;
+  output::TemporaryFolder folder_;
 };
 
 }  // namespace tourmaline::report
