@@ -71,7 +71,7 @@ TEST(FrictionSensor, WithoutHeatItsBalancesCloseToo) {
   const RunCase run = device("friction-sensor-loaded");
   for (const char *balance :
        {"energy_imbalance", "force_imbalance", "charge_imbalance", "heat_imbalance"})
-    EXPECT_LT(largest_of(run.history(), balance), 1e-9) << balance;
+    EXPECT_LT(largest(run.history(), balance), 1e-9) << balance;
 }
 
 // Pure shear: gamma h = top - slip, |c44 gamma| <= S, D = e15 gamma on both faces.
