@@ -17,6 +17,7 @@
 #include "tourmaline/parallel/ranks.h"
 #include "tourmaline/report/figures.h"
 #include "tourmaline/report/page.h"
+#include "tourmaline/solve/available_memory.h"
 #include "tourmaline/solve/process.h"
 #include "tourmaline/solve/simulation.h"
 #include "tourmaline/solve/survey.h"
@@ -222,6 +223,7 @@ int main(int argc, char **argv) {
   // has spoken would take it along.
   std::optional<tourmaline::solve::Process> process;
   try {
+    tourmaline::solve::require_room_to_start();
     if (tourmaline::parallel::is_launched())
       process.emplace(1);
     return obey(argc, argv);

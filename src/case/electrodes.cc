@@ -80,6 +80,11 @@ void check_electrodes(const Case &asked) {
     require_given_voltages(asked, "solver.body = \"iterative\"");
 }
 
+bool all_voltages_given(const Case &asked) {
+  return std::all_of(asked.electrodes.begin(), asked.electrodes.end(),
+                     [](const ElectrodeCase &electrode) { return electrode.is_driven(); });
+}
+
 void require_given_voltages(const Case &asked, const std::string &solver) {
   for (const ElectrodeCase &electrode : asked.electrodes)
     if (!electrode.is_driven())

@@ -1,30 +1,20 @@
 #include "tourmaline/solve/memory.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <cmath>
-#include <fstream>
-#include <limits>
 #include <string>
 
+#include "tourmaline/case/electrodes.h"
 #include "tourmaline/error.h"
 #include "tourmaline/parallel/ranks.h"
+#include "tourmaline/solve/available_memory.h"
 
 namespace tourmaline::solve {
 
 namespace {
 
 constexpr double program = 190e6;  // the libraries, before any case
-
-double available_on_system() {
-  std::ifstream file("/proc/meminfo");
-  std::string key, unit;
-  for (double kilobytes; file >> key >> kilobytes; std::getline(file, unit))
-    if (key == "MemAvailable:")
-      return 1024 * kilobytes;
-  return std::numeric_limits<double>::infinity();
-}
 
 double nodes_of(const casefile::MeshCase &mesh) {
   // Degree 2 puts nodes where a mesh refined once has its vertices: 2^dim times as many.
@@ -52,27 +42,25 @@ double iterative_memory(const casefile::Case &asked) {
 bool solves_iteratively(const casefile::Case &asked) {
   if (asked.solver.method != "condensed" || asked.solver.body == "direct")
     return false;
-  const bool too_large = asked.dimension == 3 && factorised_memory(asked) > available_memory() / 2;
+  const bool too_large = asked.dimension == 3 && casefile::all_voltages_given(asked) &&
+                         factorised_memory(asked) > available_memory().bytes / 2;
   return asked.solver.body == "iterative" || parallel::from_first(too_large) != 0;
-}
-
-double available_memory() {
-  rlimit limit{};
-  double allowed = std::numeric_limits<double>::infinity();
-  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
-    allowed = static_cast<double>(limit.rlim_cur);
-  return std::min(allowed, available_on_system());
 }
 
 void require_memory(const casefile::Case &asked) {
   const double needed =
       solves_iteratively(asked) ? iterative_memory(asked) : factorised_memory(asked);
-  const double available = available_memory();
-  if (needed > available)
-    throw CaseError(
-        fmt::format("{}: [mesh] this mesh needs about {:.3g} GiB of memory, {:.3g} GiB are "
-                    "available; take fewer cells",
-                    asked.source, needed / (1 << 30), available / (1 << 30)));
+  const AvailableMemory available = available_memory();
+  // Of a limited process the program's own part is in use already.
+  const double more = available.is_limited ? needed - program : needed;
+  if (more <= available.bytes)
+    return;
+  const std::string text =
+      fmt::format("{}: [mesh] this mesh needs about {:.3g} GiB of memory, {} {:.3g} GiB",
+                  asked.source, more / (1 << 30), available.words, available.bytes / (1 << 30));
+  if (available.is_limited)
+    throw MachineError(text + "; raise the limit or take fewer cells");
+  throw CaseError(text + "; take fewer cells");
 }
 
 }  // namespace tourmaline::solve

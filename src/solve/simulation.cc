@@ -227,7 +227,7 @@ void check(const casefile::Case &asked) {
     material::Composition<2>{asked};
   else
     material::Composition<3>{asked};
-  require_memory(asked);
+  parallel::together([&] { require_memory(asked); });
 }
 
 void simulate(const casefile::Case &asked, const std::filesystem::path &directory, bool quiet) {

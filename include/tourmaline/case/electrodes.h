@@ -9,6 +9,9 @@ namespace tourmaline::casefile {
 /// potential in the monolithic route.
 void check_electrodes(const Case &asked);
 
+/// Whether no electrode's voltage is to be found.
+bool all_voltages_given(const Case &asked);
+
 /// Throws CaseError, naming `solver`, where an electrode's voltage is not given: only the condensed
 /// method with a direct solver finds it.
 void require_given_voltages(const Case &asked, const std::string &solver);

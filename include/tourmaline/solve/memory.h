@@ -13,14 +13,11 @@ double iterative_memory(const casefile::Case &asked);
 
 /// Whether the body's equations are solved iteratively: because the case says so, or, where it says
 /// automatic, because in three dimensions a factorisation needs more than half of what is
-/// available. The same on all ranks, which ask together.
+/// available (and the voltages of all electrodes are given). The same on all ranks, which ask together.
 bool solves_iteratively(const casefile::Case &asked);
 
-/// Bytes that this process may still take: what the system has available, or its own limit if that
-/// is less.
-double available_memory();
-
-/// Throws CaseError when the estimate exceeds what is available, before anything is allocated.
+/// Throws CaseError when the estimate exceeds what the machine has, MachineError when it exceeds
+/// what this process may take of that; before anything is allocated.
 void require_memory(const casefile::Case &asked);
 
 }  // namespace tourmaline::solve
