@@ -13,7 +13,8 @@ double iterative_memory(const casefile::Case &asked);
 
 /// Whether the body's equations are solved iteratively: because the case says so, or, where it says
 /// automatic, because in three dimensions a factorisation needs more than half of what is
-/// available (and the voltages of all electrodes are given). The same on all ranks, which ask together.
+/// available (and the voltages of all electrodes are given). The same on all ranks, which ask
+/// together.
 bool solves_iteratively(const casefile::Case &asked);
 
 /// Throws CaseError when the estimate exceeds what the machine has, MachineError when it exceeds
