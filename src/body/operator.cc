@@ -99,10 +99,6 @@ Weights weights(const Quadrature<dim> &cell, std::size_t a, std::size_t b) {
   return sum;
 }
 
-constexpr int field_of(int component, int dim) {
-  return std::max(0, component - dim + 1);
-}
-
 }  // namespace
 
 template <int dim>

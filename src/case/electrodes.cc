@@ -44,9 +44,9 @@ void check_alone(const ElectrodeCase &electrode) {
 void check_to(const ElectrodeCase &electrode, const std::vector<ElectrodeCase> &all) {
   if (!electrode.to)
     return;
-  std::vector<std::string> names;
-  for (const ElectrodeCase &other : all)
-    names.push_back(other.name);
+  std::vector<std::string> names(all.size());
+  std::transform(all.begin(), all.end(), names.begin(),
+                 [](const ElectrodeCase &other) { return other.name; });
   const auto found = std::find(names.begin(), names.end(), *electrode.to);
   if (found == names.end())
     fail(electrode, fmt::format("`to` names no electrode: {}{}", toml_text(*electrode.to),

@@ -8,8 +8,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <map>
+#include <unordered_map>
 
+#include "child_process.h"
+#include "mesh_bytes.h"
 #include "tourmaline/error.h"
 #include "tourmaline/mesh/completed.h"
 
@@ -269,7 +273,7 @@ const Kind &kind_of(const Elements &cells) {
 /// Places of the nodes, and where to find a node by its tag.
 struct Nodes {
   std::vector<std::array<double, 3>> points;
-  std::vector<std::uint32_t> index;  // by tag
+  std::unordered_map<std::size_t, std::uint32_t> index;  // by tag
 
   explicit Nodes(double scale) {
     std::vector<std::size_t> tags;
@@ -278,8 +282,6 @@ struct Nodes {
     for (std::size_t i = 0; i < tags.size(); ++i) {
       points.push_back(
           {scale * places[3 * i], scale * places[3 * i + 1], scale * places[3 * i + 2]});
-      if (tags[i] >= index.size())
-        index.resize(tags[i] + 1, missing);
       index[tags[i]] = static_cast<std::uint32_t>(i);
     }
   }
@@ -287,16 +289,14 @@ struct Nodes {
   std::vector<std::uint32_t> indices(const std::vector<std::size_t> &tags) const {
     std::vector<std::uint32_t> all;
     for (const std::size_t tag : tags) {
-      if (tag >= index.size() || index[tag] == missing)
+      const auto found = index.find(tag);
+      if (found == index.end())
         throw CaseError(
             fmt::format("has an element with the node {}, which it does not list", tag));
-      all.push_back(index[tag]);
+      all.push_back(found->second);
     }
     return all;
   }
-
- private:
-  static constexpr std::uint32_t missing = ~std::uint32_t{0};
 };
 
 MeshFile listed(Format format, const casefile::MeshCase &asked) {
@@ -325,10 +325,7 @@ MeshFile listed(Format format, const casefile::MeshCase &asked) {
   return mesh;
 }
 
-MeshFile read(const casefile::MeshCase &asked) {
-  const Format format = format_of(*asked.file);
-  check_size(format, asked);
-  check_last_line(format, *asked.file);
+MeshFile read_with_libgmsh(Format format, const casefile::MeshCase &asked) {
   const Session session;
   try {
     open(format, asked);
@@ -337,6 +334,23 @@ MeshFile read(const casefile::MeshCase &asked) {
     Session::check();
     throw CaseError("Gmsh says: " + error);
   }
+}
+
+// A mesh is read in a time that grows with its size; meshing a geometry may take any.
+double most_seconds(Format format, const std::string &file) {
+  if (format != Format::msh2 && format != Format::msh4)
+    return std::numeric_limits<double>::infinity();
+  constexpr double least = 30, bytes_per_second = 1e5;
+  return least + static_cast<double>(std::filesystem::file_size(file)) / bytes_per_second;
+}
+
+MeshFile read(const casefile::MeshCase &asked) {
+  const Format format = format_of(*asked.file);
+  check_size(format, asked);
+  check_last_line(format, *asked.file);
+  // libgmsh crashes on many a damaged file.
+  return mesh_of(in_child_process([&] { return bytes_of(read_with_libgmsh(format, asked)); },
+                                  most_seconds(format, *asked.file)));
 }
 
 }  // namespace
