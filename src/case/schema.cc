@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tourmaline/case/interval.h"
 #include "tourmaline/case/sides.h"
 #include "tourmaline/error.h"
 
@@ -626,6 +627,13 @@ void declare(Visitor &v, OutputCase &output) {
         &output.every);
   v.key({.name = "report", .description = "whether the report, a web page, is written"},
         &output.report);
+  v.key({.name = "checkpoint",
+         .description =
+             "how often a run saves what `--resume` needs to go on from there: every so many "
+             "steps, \"10 steps\", or after some time, \"30 s\", \"5 min\", \"2 h\"; \"never\" "
+             "leaves it to the signals that stop a run"},
+        &output.checkpoint);
+  v.check("checkpoint", [&] { return interval_complaint(output.checkpoint); });
 }
 
 void declare(Visitor &v, LoadCase &load, int dimension) {
