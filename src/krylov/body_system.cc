@@ -41,6 +41,8 @@ constexpr const char *options[][2] = {
     {"-fieldsplit_u_pc_type", "gamg"},
     {"-fieldsplit_u_pc_gamg_threshold", "0"},
     {"-fieldsplit_u_pc_gamg_agg_nsmooths", "0"},
+    // Coarse spaces of an earlier matrix would also make a step depend on all steps before it.
+    {"-fieldsplit_u_pc_gamg_reuse_interpolation", "0"},
     {"-fieldsplit_u_mg_levels_ksp_type", "chebyshev"},
     {"-fieldsplit_u_mg_levels_ksp_max_it", "4"},
     {"-fieldsplit_u_mg_levels_pc_type", "jacobi"},

@@ -20,8 +20,11 @@ namespace {
 constexpr std::string_view magic = "Tourmaline checkpoint\n";
 constexpr std::uint64_t format_version = 1;
 
+// Of nothing zlib says 0, whatever stood before.
 std::uint64_t checksum(std::uint64_t before, std::string_view bytes) {
-  return crc32_z(before, reinterpret_cast<const unsigned char *>(bytes.data()), bytes.size());
+  return bytes.empty()
+             ? before
+             : crc32_z(before, reinterpret_cast<const unsigned char *>(bytes.data()), bytes.size());
 }
 
 /// Writes one member behind the other.
