@@ -184,10 +184,13 @@ class Interrupted : public Program {
 TEST_F(Interrupted, KilledAtRandomMomentsItGoesOnToTheSameBytes) {
   const std::string all =
       "run " + paper + " --set time.steps=40 --set output.checkpoint=1steps -q -o ";
-  const auto started = std::chrono::steady_clock::now();
-  ASSERT_EQ(run(all + "one/results"), 0) << complained_;
+  Seconds whole(1e9);  // the least of some, as other processes are at work too
+  for (int repeat = 0; repeat < 3; ++repeat) {
+    const auto started = std::chrono::steady_clock::now();
+    ASSERT_EQ(run(all + "one/results"), 0) << complained_;
+    whole = std::min<Seconds>(whole, std::chrono::steady_clock::now() - started);
+  }
   EXPECT_THAT(contents(here() / "one/results/contact.csv"), HasSubstr(",slip,"));
-  const Seconds whole = std::chrono::steady_clock::now() - started;
   std::mt19937 random(1);
   std::uniform_real_distribution<double> share(0.3, 1.05);  // before it the libraries load
   int behind_checkpoint = 0;
