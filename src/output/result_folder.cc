@@ -163,6 +163,7 @@ void ResultFolder::list_fields(int step, double time) {
   std::string name = piece_name(step, 0, 1);
   if (piece_.count > 1) {
     std::vector<std::string> pieces;
+    pieces.reserve(piece_.count);
     for (int i = 0; i < piece_.count; ++i)
       pieces.push_back(piece_name(step, i, piece_.count));
     unsynced_.insert(unsynced_.end(), pieces.begin(), pieces.end());

@@ -139,7 +139,7 @@ InterfaceSolution CondensedRoute<dim>::solve_contact(double time, const VectorXd
   const VectorXd resisted = condensed_.stiffness() * stuck;
   const VectorXd force = directions_.transpose() * (s - resisted);
   const double scale = std::max(s.cwiseAbs().maxCoeff(), resisted.cwiseAbs().maxCoeff());
-  const InterfaceSolution solution =
+  InterfaceSolution solution =
       minimise({slip_stiffness_, force, points_, scale}, last_increment_,
                {model_.asked.solver.tolerance, model_.asked.solver.max_iterations});
   if (!solution.converged)

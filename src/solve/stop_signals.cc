@@ -34,7 +34,7 @@ StopSignals::StopSignals() {
     sigaddset(&action.sa_mask, signal);
   for (std::size_t i = 0; i < std::size(stopping); ++i) {
     sigaction(stopping[i], nullptr, &previous[i]);
-    // `nohup` and background jobs of a shell ignore signals; so they stay ignored.
+    // Shells have the background jobs of a script ignore SIGINT; so it stays ignored.
     if (previous[i].sa_handler != SIG_IGN)
       sigaction(stopping[i], &action, nullptr);
   }

@@ -64,6 +64,7 @@ class Process {
     argv.push_back(nullptr);
     id_ = fork();
     if (id_ == 0) {
+      signal(SIGINT, SIG_DFL);  // which the background jobs of a script ignore
       const int out = open(said.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
       dup2(out, STDOUT_FILENO);
       dup2(out, STDERR_FILENO);
