@@ -116,6 +116,10 @@ nlohmann::json without_times(const fs::path &file) {
   return summary;
 }
 
+bool slips(const fs::path &contact_table) {
+  return contents(contact_table).find(",slip,") != std::string::npos;
+}
+
 class Interrupted : public Program {
  protected:
   void SetUp() override {
@@ -161,11 +165,11 @@ class Interrupted : public Program {
   }
 
   /// A run that is killed behind a checkpoint and goes on leaves what one does that is not.
-  void expect_to_go_on(const std::string &arguments) {
-    const std::string all = "run " + arguments + " --set output.checkpoint=2steps -q -o ";
+  void expect_to_go_on(const std::string &arguments, const std::string &often = "2steps") {
+    const std::string all = "run " + arguments + " --set output.checkpoint=" + often + " -q -o ";
     ASSERT_EQ(run(all + "one/results"), 0) << complained_;
-    EXPECT_THAT(contents(here() / "one/results/contact.csv"), HasSubstr(",slip,"));
     ASSERT_TRUE(kill_behind_a_checkpoint(all, "other/results"));
+    EXPECT_TRUE(slips(here() / "other/results/contact.csv.part"));
     ASSERT_EQ(run(all + "other/results --resume"), 0) << complained_;
     EXPECT_EQ(complained_, "");
     expect_same_results(here() / "one/results", here() / "other/results");
@@ -191,7 +195,7 @@ TEST_F(Interrupted, KilledAtRandomMomentsItGoesOnToTheSameBytes) {
     ASSERT_EQ(run(all + "one/results"), 0) << complained_;
     whole = std::min<Seconds>(whole, std::chrono::steady_clock::now() - started);
   }
-  EXPECT_THAT(contents(here() / "one/results/contact.csv"), HasSubstr(",slip,"));
+  EXPECT_TRUE(slips(here() / "one/results/contact.csv"));
   std::mt19937 random(1);
   std::uniform_real_distribution<double> share(0.3, 1.05);  // before it the libraries load
   int behind_checkpoint = 0;
@@ -211,7 +215,7 @@ TEST_F(Interrupted, KilledAtRandomMomentsItGoesOnToTheSameBytes) {
 }
 
 TEST_F(Interrupted, ThePapersCaseGoesOn) {
-  expect_to_go_on(paper + " --set time.steps=50 --set output.every=7");
+  expect_to_go_on(paper + " --set time.steps=400 --set output.every=70", "150steps");
 }
 
 TEST_F(Interrupted, TheMonolithicRouteGoesOn) {
@@ -233,8 +237,9 @@ TEST_F(Interrupted, TheIterativeRouteGoesOn) {
 
 TEST_F(Interrupted, ElectrodesInACircuitGoOn) {
   expect_to_go_on(std::string(TOURMALINE_SOURCE_DIR) +
-                  "/cases/devices/friction-sensor-loaded.toml --set time.steps=40"
-                  " --set electrode[0].capacitor=1e-9");
+                      "/cases/devices/friction-sensor-loaded.toml --set time.steps=400"
+                      " --set output.every=100 --set electrode[0].capacitor=1e-9",
+                  "150steps");
 }
 
 TEST_F(Interrupted, ARunWithCheckpointsLeavesTheBytesOfOneWithout) {
