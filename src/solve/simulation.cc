@@ -41,10 +41,11 @@ class Simulation {
  private:
   void open_folder(const std::filesystem::path &directory);
   int begin();
-  void march();
+  void march(int first);
   void prescribe(double time, std::vector<double> &state) const;
   void sum_loads(double time);
   void step(int n);
+  void pause(int n, const Schedule::Pause &pause);
   void save(int n);
   void restore();
   void put_report();
@@ -162,30 +163,32 @@ void Simulation<dim>::step(int n) {
 }
 
 template <int dim>
-void Simulation<dim>::march() {
-  int n = begin();
+void Simulation<dim>::march(int first) {
   Schedule schedule(casefile::interval(model_.asked.output.checkpoint));
-  for (; n <= model_.asked.time.steps; ++n) {
+  for (int n = first; n <= model_.asked.time.steps; ++n) {
     step(n);
-    if (n == model_.asked.time.steps)
-      return;
-    const Schedule::Pause pause = schedule.after(n);
-    if (pause.saves)
-      save(n);
-    if (pause.stopped_by != 0)
-      throw Stopped(
-          fmt::format("stopped by {} after step {} of {}; the results of these steps and a "
-                      "checkpoint are in {}",
-                      signal_name(pause.stopped_by), n, model_.asked.time.steps,
-                      folder_->directory().string()),
-          pause.stopped_by);
+    if (n < model_.asked.time.steps)
+      pause(n, schedule.after(n));
   }
 }
 
 template <int dim>
+void Simulation<dim>::pause(int n, const Schedule::Pause &pause) {
+  if (pause.saves)
+    save(n);
+  if (pause.stopped_by != 0)
+    throw Stopped(fmt::format("stopped by {} after step {} of {}; the results of these steps and a "
+                              "checkpoint are in {}",
+                              signal_name(pause.stopped_by), n, model_.asked.time.steps,
+                              folder_->directory().string()),
+                  pause.stopped_by);
+}
+
+template <int dim>
 void Simulation<dim>::run() {
+  const int first = begin();
   try {
-    march();
+    march(first);
   } catch (...) {
     keep_what_there_is();
     throw;
