@@ -339,8 +339,10 @@ TEST_F(Interrupted, AChangedCaseIsRefusedWithTheKeysThatDiffer) {
 TEST_F(Interrupted, AnotherIntervalOfCheckpointsIsNoOtherCase) {
   interrupt_a_run();
   const auto process = start(slow + " --set output.checkpoint=7steps -q -o results --resume");
-  ASSERT_TRUE(process->leaves(here() / "results/history.csv.part"));
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  const fs::path checkpoint = here() / "results/checkpoint.bin";
+  const auto before = fs::last_write_time(checkpoint);
+  while (process->is_at_work() && fs::last_write_time(checkpoint) == before)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   process->send(SIGTERM);
   EXPECT_EQ(process->wait(), 128 + SIGTERM) << contents(folder_ / "stderr");
 }
