@@ -32,7 +32,7 @@ struct Asked {
   std::vector<std::filesystem::path> folders;
   std::vector<std::string> overrides;
   std::string material, materials_file;
-  bool quiet = false;
+  bool quiet = false, resume = false;
   std::string format = "svg";
   std::vector<std::string> fields;
   std::optional<double> time;
@@ -44,7 +44,9 @@ void run(const Asked &asked) {
   const auto directory = asked.directory.empty()
                              ? std::filesystem::path("results") / asked.file.stem()
                              : asked.directory;
-  tourmaline::solve::simulate(read, directory, asked.quiet);
+  using tourmaline::solve::Start;
+  tourmaline::solve::simulate(read, directory, asked.quiet,
+                              asked.resume ? Start::checkpoint : Start::beginning);
 }
 
 void check(const Asked &asked) {
@@ -102,6 +104,9 @@ void add_run(CLI::App &app, Asked &asked) {
       "-o,--output", asked.directory,
       "folder of the results, made when missing; results/<name of the case> if not given");
   command->add_flag("-q,--quiet", asked.quiet, "print nothing but errors");
+  command->add_flag("--resume", asked.resume,
+                    "go on with the interrupted run of this case in that folder; without a "
+                    "checkpoint there, from the beginning");
   command->callback([&asked] { run(asked); });
 }
 
@@ -209,8 +214,31 @@ std::string one_paragraph(const std::string &text) {
   return joined;
 }
 
+std::string in_shell(const std::string &argument) {
+  constexpr const char *plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./=,:+@%";
+  if (!argument.empty() && argument.find_first_not_of(plain) == std::string::npos)
+    return argument;
+  std::string quoted = "'";
+  for (const char c : argument)
+    quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+/// The command with which a run that was stopped goes on.
+std::string resuming_command(int argc, char **argv) {
+  const int ranks = tourmaline::parallel::n_ranks();
+  std::string command = ranks > 1 ? "mpirun -np " + std::to_string(ranks) + " " : "";
+  bool resumes = false;
+  for (int i = 0; i < argc; ++i) {
+    command += (i > 0 ? " " : "") + in_shell(argv[i]);
+    resumes |= std::string(argv[i]) == "--resume";
+  }
+  return command + (resumes ? "" : " --resume");
+}
+
 // All ranks end with the same error; one tells it.
-int report(ExitStatus status, const std::string &text) {
+int report(int status, const std::string &text) {
   if (tourmaline::parallel::speaks())
     std::cerr << "tourmaline: " << one_paragraph(text) << '\n';
   return status;
@@ -233,6 +261,9 @@ int main(int argc, char **argv) {
     return report(solve_failed, error.what());
   } catch (const tourmaline::MachineError &error) {
     return report(machine_failed, error.what());
+  } catch (const tourmaline::Stopped &stop) {
+    return report(128 + stop.signal,
+                  std::string(stop.what()) + "; to go on: " + resuming_command(argc, argv));
   } catch (const std::bad_alloc &) {
     return report(machine_failed, "not enough memory");
   } catch (const std::exception &error) {

@@ -5,20 +5,31 @@
 
 namespace tourmaline {
 
+/// What ends a run and is told to the user as one paragraph. All ranks throw the same.
+struct Error : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// What the user asked for is wrong: exit status 2. The text is one paragraph: where, what was
 /// given, what is allowed.
-struct CaseError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+struct CaseError : Error {
+  using Error::Error;
 };
 
 /// The solve failed: exit status 3. The text says at which time, why, and what to try.
-struct SolveError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+struct SolveError : Error {
+  using Error::Error;
 };
 
 /// The machine failed (disk full, no permission, no memory): exit status 4.
-struct MachineError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+struct MachineError : Error {
+  using Error::Error;
+};
+
+/// SIGINT or SIGTERM ended a run between two steps: exit status 128 + the signal's number.
+struct Stopped : Error {
+  Stopped(const std::string &text, int by) : Error(text), signal(by) {}
+  int signal;
 };
 
 }  // namespace tourmaline

@@ -1,6 +1,7 @@
 #include "tourmaline/case/schema.h"
 
 #include "schema_parts.h"
+#include "tourmaline/case/interval.h"
 
 namespace tourmaline::casefile {
 
@@ -138,6 +139,13 @@ void declare(Visitor &v, OutputCase &output) {
         &output.every);
   v.key({.name = "report", .description = "whether the report, a web page, is written"},
         &output.report);
+  v.key({.name = "checkpoint",
+         .description =
+             "how often a run saves what `--resume` needs to go on from there: every so many "
+             "steps, \"10 steps\", or after some time, \"30 s\", \"5 min\", \"2 h\"; \"never\" "
+             "leaves it to the signals that stop a run"},
+        &output.checkpoint);
+  v.check("checkpoint", [&] { return interval_complaint(output.checkpoint); });
 }
 
 }  // namespace

@@ -43,6 +43,8 @@ constexpr const char *options[][2] = {
     {"-fieldsplit_u_pc_type", "gamg"},
     {"-fieldsplit_u_pc_gamg_threshold", "0"},
     {"-fieldsplit_u_pc_gamg_agg_nsmooths", "0"},
+    // Coarse spaces of an earlier matrix would also make a step depend on all steps before it.
+    {"-fieldsplit_u_pc_gamg_reuse_interpolation", "0"},
     {"-fieldsplit_u_mg_levels_ksp_type", "chebyshev"},
     {"-fieldsplit_u_mg_levels_ksp_max_it", "4"},
     {"-fieldsplit_u_mg_levels_pc_type", "jacobi"},
@@ -341,10 +343,12 @@ BodySystem<dim>::~BodySystem() = default;
 template <int dim>
 void BodySystem<dim>::set_contact(const std::vector<NodeTangent<dim>> &contact) {
   Parts &in = *parts_;
-  if (contact == in.contact)
+  const bool is_first = in.set_ups == 0;
+  if (!is_first && contact == in.contact)
     return;
   Stopwatch watch;
   const bool as_free =
+      !is_first &&
       std::equal(contact.begin(), contact.end(), in.contact.begin(), in.contact.end(),
                  [](const auto &now, const auto &then) { return now.projector == then.projector; });
   in.contact = contact;
@@ -425,6 +429,54 @@ double BodySystem<dim>::backward_error(std::span<const double> residual,
   for (std::size_t i = 0; i < scale.size(); ++i)
     scale[i] = parts_->is_prescribed[i] ? 0 : parts_->scale[i % Parts::n];
   return body::backward_error(parts_->op, parts_->step, scale, residual, right_side, state);
+}
+
+namespace {
+
+template <int dim>
+constexpr std::size_t tangent_size = 1 + 2 * dim *dim;  // node, projector, stiffness
+
+template <int dim>
+std::vector<double> numbers_of(const std::vector<NodeTangent<dim>> &contact) {
+  std::vector<double> numbers;
+  numbers.reserve(contact.size() * tangent_size<dim>);
+  for (const NodeTangent<dim> &at : contact) {
+    numbers.push_back(at.node);
+    numbers.insert(numbers.end(), at.projector.data(), at.projector.data() + dim * dim);
+    numbers.insert(numbers.end(), at.stiffness.data(), at.stiffness.data() + dim * dim);
+  }
+  return numbers;
+}
+
+template <int dim>
+std::vector<NodeTangent<dim>> contact_of(std::span<const double> numbers) {
+  std::vector<NodeTangent<dim>> contact(numbers.size() / tangent_size<dim>);
+  const double *next = numbers.data();
+  for (NodeTangent<dim> &at : contact) {
+    at.node = static_cast<Node>(next[0]);
+    std::copy_n(next + 1, dim * dim, at.projector.data());
+    std::copy_n(next + 1 + dim * dim, dim * dim, at.stiffness.data());
+    next += tangent_size<dim>;
+  }
+  return contact;
+}
+
+}  // namespace
+
+template <int dim>
+void BodySystem<dim>::save(output::SavedNumbers &numbers) const {
+  numbers.put("preconditioned contact", numbers_of(parts_->preconditioned));
+  numbers.put("matrix' contact", numbers_of(parts_->contact));
+  numbers.put("preconditioners", {static_cast<double>(parts_->set_ups)});
+}
+
+// The second contact leaves the preconditioner of the first, as it did before.
+template <int dim>
+void BodySystem<dim>::restore(const output::SavedNumbers &numbers, std::size_t contact_nodes) {
+  const std::size_t size = contact_nodes * tangent_size<dim>;
+  set_contact(contact_of<dim>(numbers.get("preconditioned contact", size)));
+  set_contact(contact_of<dim>(numbers.get("matrix' contact", size)));
+  parts_->set_ups = static_cast<int>(numbers.get("preconditioners", 1)[0]);
 }
 
 template <int dim>

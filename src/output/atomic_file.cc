@@ -42,11 +42,34 @@ AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)), par
     fail(errno);
 }
 
-AtomicFile::~AtomicFile() {
+AtomicFile::AtomicFile(std::filesystem::path path, std::size_t size)
+    : path_(std::move(path)), part_(path_), size_(size), stays_(true) {
+  part_ += ".part";
+  // What an ordered end has moved into place grows beside it again.
+  if (::access(part_.c_str(), F_OK) != 0 && std::rename(path_.c_str(), part_.c_str()) != 0)
+    fail(errno);
+  if (std::filesystem::file_size(part_) < size)
+    throw MachineError(fmt::format("{} is shorter than the {} bytes that the checkpoint counts on",
+                                   part_.string(), size));
+  descriptor_ = ::open(part_.c_str(), O_WRONLY | O_CLOEXEC);
   if (descriptor_ < 0)
-    return;
-  ::close(descriptor_);
-  ::unlink(part_.c_str());
+    fail(errno);
+  if (!cut(descriptor_, size)) {
+    const int error_number = errno;
+    give_up();
+    fail(error_number);
+  }
+}
+
+AtomicFile::~AtomicFile() {
+  if (descriptor_ >= 0)
+    give_up();
+}
+
+void AtomicFile::give_up() {
+  ::close(std::exchange(descriptor_, -1));
+  if (!stays_)
+    ::unlink(part_.c_str());
 }
 
 void AtomicFile::fail(int error_number) const {
@@ -59,13 +82,17 @@ void AtomicFile::append(std::string_view text) {
     throw std::logic_error(path_.string() + ": append after finish");
   if (const int error_number = write_all(descriptor_, text); error_number != 0) {
     // Where the torn end cannot be taken back the file must not be finished.
-    if (!cut(descriptor_, size_)) {
-      ::close(std::exchange(descriptor_, -1));
-      ::unlink(part_.c_str());
-    }
+    if (!cut(descriptor_, size_))
+      give_up();
     fail(error_number);
   }
   size_ += text.size();
+}
+
+void AtomicFile::sync() {
+  if (::fsync(descriptor_) != 0)
+    fail(errno);
+  stays_ = true;
 }
 
 void AtomicFile::finish() {
@@ -75,7 +102,8 @@ void AtomicFile::finish() {
   if (::close(std::exchange(descriptor_, -1)) != 0 ||
       std::rename(part_.c_str(), path_.c_str()) != 0) {
     const int error_number = errno;
-    ::unlink(part_.c_str());
+    if (!stays_)
+      ::unlink(part_.c_str());
     fail(error_number);
   }
 }
@@ -84,6 +112,18 @@ void write_file(const std::filesystem::path &path, std::string_view content) {
   AtomicFile file(path);
   file.append(content);
   file.finish();
+}
+
+void sync_path(const std::filesystem::path &path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  // Some file systems have nothing to do for a folder and say EINVAL.
+  const bool done = descriptor >= 0 && (::fsync(descriptor) == 0 || errno == EINVAL);
+  const int error_number = errno;
+  if (descriptor >= 0)
+    ::close(descriptor);
+  if (!done)
+    throw MachineError(
+        fmt::format("cannot write {}: {}", path.string(), std::strerror(error_number)));
 }
 
 }  // namespace tourmaline::output

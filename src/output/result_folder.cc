@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <regex>
 #include <stdexcept>
 #include <string_view>
@@ -38,21 +39,26 @@ std::string piece_name(int step, int piece, int pieces) {
                      : fmt::format("result_{:04}_{}.vtu", step, piece);
 }
 
-/// result_NNNN.vtu, result_NNNN.pvtu or result_NNNN_PIECE.vtu, with at least four digits.
-bool is_field_file(const std::string &name) {
-  static const std::regex pattern("result_[0-9]{4,}(\\.p?vtu|_[0-9]+\\.vtu)");
-  return std::regex_match(name, pattern);
+/// The step of result_NNNN.vtu, result_NNNN.pvtu or result_NNNN_PIECE.vtu, with at least four
+/// digits.
+std::optional<unsigned long long> step_of_field_file(const std::string &name) {
+  static const std::regex pattern("result_([0-9]{4,})(\\.p?vtu|_[0-9]+\\.vtu)");
+  std::smatch parts;
+  if (!std::regex_match(name, parts, pattern))
+    return std::nullopt;
+  return std::strtoull(parts[1].str().c_str(), nullptr, 10);
 }
+
+constexpr std::string_view part = ".part";
 
 /// Whether a run gives a file this name, in its place or while it is being written.
 bool is_ours(std::string_view name) {
-  constexpr std::string_view part = ".part";
-  constexpr std::array<std::string_view, 8> others{
-      "result.pvd",   "nodes.csv",     "contact.csv",     "history.csv",
-      "summary.json", "resolved.toml", "boundaries.json", "report.html"};
+  constexpr std::array<std::string_view, 9> others{
+      "result.pvd",    "nodes.csv",       "contact.csv", "history.csv",  "summary.json",
+      "resolved.toml", "boundaries.json", "report.html", checkpoint_name};
   if (name.ends_with(part))
     name.remove_suffix(part.size());
-  return is_field_file(std::string(name)) ||
+  return step_of_field_file(std::string(name)) ||
          std::find(others.begin(), others.end(), name) != others.end();
 }
 
@@ -64,18 +70,34 @@ void remove_file(const fs::path &file) {
                                    error.message()));
 }
 
-/// The files of an earlier run: mixed with those of this one they would be read as one series.
-void remove_old_results(const fs::path &directory) {
+template <class Which>
+void remove_files(const fs::path &directory, const Which &which) {
   std::error_code error;
   std::vector<fs::path> old;
   for (fs::directory_iterator entry(directory, error), end; !error && entry != end;
        entry.increment(error))
-    if (is_ours(entry->path().filename().string()) && !entry->is_directory(error))
+    if (which(entry->path().filename().string()) && !entry->is_directory(error))
       old.push_back(entry->path());
   if (error)
     throw MachineError(
         fmt::format("cannot read the result folder {}: {}", directory.string(), error.message()));
   std::for_each(old.begin(), old.end(), remove_file);
+}
+
+/// What an interrupted run wrote after its checkpoint, and what its end left besides the tables.
+bool is_later(const std::string &name, std::uint64_t step) {
+  const bool unfinished = name.ends_with(part) && name != "contact.csv.part" &&
+                          name != "history.csv.part" && is_ours(name);
+  const auto of_step = step_of_field_file(name);
+  return unfinished || (of_step && *of_step > step) || name == "nodes.csv" ||
+         name == "report.html" || name == "summary.json";
+}
+
+void require(const fs::path &file) {
+  if (std::error_code error; !fs::exists(file, error))
+    throw MachineError(
+        fmt::format("{}, on which the checkpoint counts, is missing; start again without --resume",
+                    file.string()));
 }
 
 /// A table that has at least its header, also when the disk is full.
@@ -93,7 +115,30 @@ ResultFolder::ResultFolder(fs::path directory, int dimension, Piece piece)
     return;
   make(directory_);
   check_writable(directory_);
-  remove_old_results(directory_);
+  lock_.emplace(directory_);
+  remove_checkpoint();  // first: it counts on the others
+  // Files of an earlier run, mixed with those of this one, would be read as one series.
+  remove_files(directory_, is_ours);
+}
+
+ResultFolder::ResultFolder(fs::path directory, int dimension, Piece piece,
+                           const Checkpoint &checkpoint)
+    : directory_(std::move(directory)), dimension_(dimension), piece_(piece) {
+  if (piece.number > 0)
+    return;
+  const FolderPosition &position = checkpoint.position;
+  lock_.emplace(directory_);
+  for (const PvdEntry &entry : position.series)
+    require(directory_ / entry.file);
+  if (position.contact_bytes > 0)
+    contact_ = std::make_unique<AtomicFile>(directory_ / "contact.csv", position.contact_bytes);
+  if (position.history_bytes > 0)
+    history_ = std::make_unique<AtomicFile>(directory_ / "history.csv", position.history_bytes);
+  remove_files(directory_,
+               [&](const std::string &name) { return is_later(name, checkpoint.step); });
+  series_ = position.series;
+  if (!series_.empty())
+    write_file(directory_ / "result.pvd", pvd_text(series_));
 }
 
 void ResultFolder::put_case(const std::string &resolved_toml) {
@@ -118,12 +163,15 @@ void ResultFolder::list_fields(int step, double time) {
   std::string name = piece_name(step, 0, 1);
   if (piece_.count > 1) {
     std::vector<std::string> pieces;
+    pieces.reserve(piece_.count);
     for (int i = 0; i < piece_.count; ++i)
       pieces.push_back(piece_name(step, i, piece_.count));
+    unsynced_.insert(unsynced_.end(), pieces.begin(), pieces.end());
     name = fmt::format("result_{:04}.pvtu", step);
     write_file(directory_ / name, pvtu_text(time, pieces, regions_));
   }
   series_.push_back({time, name});
+  unsynced_.push_back(name);
   write_file(directory_ / "result.pvd", pvd_text(series_));
 }
 
@@ -135,10 +183,10 @@ void ResultFolder::put_contact(int step, double time, std::span<const ContactRow
 
 void ResultFolder::put_history(const HistoryRow &row) {
   const std::string header = history_header(row);
-  if (!history_) {
+  if (!history_)
     history_ = begin_table(directory_ / "history.csv", header);
+  if (history_header_.empty())
     history_header_ = header;
-  }
   if (header != history_header_)
     throw std::invalid_argument("put_history: not the quantities of the first row");
   history_->append(history_line(row));
@@ -150,6 +198,27 @@ void ResultFolder::put_nodes(const std::vector<Vector> &points, const PointField
 
 void ResultFolder::put_summary(const Summary &summary) {
   write_file(directory_ / "summary.json", summary_text(dimension_, summary));
+}
+
+void ResultFolder::sync_fields() {
+  for (const std::string &name : unsynced_)
+    sync_path(directory_ / name);
+  unsynced_.clear();
+}
+
+void ResultFolder::put_checkpoint(Checkpoint checkpoint) {
+  sync_fields();
+  for (AtomicFile *table : {contact_.get(), history_.get()})
+    if (table)
+      table->sync();
+  checkpoint.position = {contact_ ? contact_->size() : 0, history_ ? history_->size() : 0, series_};
+  write_checkpoint(directory_ / checkpoint_name, checkpoint);
+}
+
+void ResultFolder::remove_checkpoint() {
+  const fs::path file = directory_ / checkpoint_name;
+  if (std::error_code error; fs::exists(file, error))
+    remove_file(file);
 }
 
 void ResultFolder::finish() {

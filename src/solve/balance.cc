@@ -361,6 +361,20 @@ void Balance<dim>::add_heat(const Step &step, Columns &columns) const {
   columns.emplace_back("heat_imbalance", imbalance.relative());
 }
 
+template <int dim>
+void Balance<dim>::save(output::SavedNumbers &numbers) const {
+  numbers.put("balance charges", charges_);
+  numbers.put("balance electrodes", electrode_charges_);
+  numbers.put("balance stored energy", {stored_});
+}
+
+template <int dim>
+void Balance<dim>::restore(const output::SavedNumbers &numbers) {
+  numbers.fill("balance charges", charges_);
+  numbers.fill("balance electrodes", electrode_charges_);
+  stored_ = numbers.get("balance stored energy", 1)[0];
+}
+
 template class Balance<2>;
 template class Balance<3>;
 

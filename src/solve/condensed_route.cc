@@ -43,6 +43,8 @@ class CondensedRoute : public Route {
   StepOutcome advance(double time, std::span<const double> right_side,
                       std::span<const double> before, std::span<double> state) override;
   RouteReport report() const override;
+  void save(output::SavedNumbers &numbers) const override;
+  void restore(const output::SavedNumbers &numbers) override;
 
  private:
   void condense_onto_slips();
@@ -137,7 +139,7 @@ InterfaceSolution CondensedRoute<dim>::solve_contact(double time, const VectorXd
   const VectorXd resisted = condensed_.stiffness() * stuck;
   const VectorXd force = directions_.transpose() * (s - resisted);
   const double scale = std::max(s.cwiseAbs().maxCoeff(), resisted.cwiseAbs().maxCoeff());
-  const InterfaceSolution solution =
+  InterfaceSolution solution =
       minimise({slip_stiffness_, force, points_, scale}, last_increment_,
                {model_.asked.solver.tolerance, model_.asked.solver.max_iterations});
   if (!solution.converged)
@@ -227,6 +229,26 @@ RouteReport CondensedRoute<dim>::report() const {
   report.negative_pivots = statistics.negative_pivots;
   report.backward_error = backward_error_;
   return report;
+}
+
+template <int dim>
+void CondensedRoute<dim>::save(output::SavedNumbers &numbers) const {
+  condensed_.save(numbers);
+  numbers.put("last increment", last_increment_);
+  numbers.put("route",
+              {backward_error_, double(measured_), substitution_seconds_, contact_seconds_});
+}
+
+template <int dim>
+void CondensedRoute<dim>::restore(const output::SavedNumbers &numbers) {
+  condensed_.restore(numbers);
+  if (parallel::is_first())
+    numbers.fill("last increment", last_increment_);
+  const auto route = numbers.get("route", 4);
+  backward_error_ = route[0];
+  measured_ = route[1] != 0;
+  substitution_seconds_ = route[2];
+  contact_seconds_ = route[3];
 }
 
 }  // namespace

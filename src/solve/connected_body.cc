@@ -132,6 +132,18 @@ void ConnectedBody<dim>::expand(const VectorXd &c, std::span<double> state) {
   voltages_ = electrode_voltages(model_, state);
 }
 
+template <int dim>
+void ConnectedBody<dim>::save(output::SavedNumbers &numbers) const {
+  numbers.put("free electrodes' charges", charges_);
+  numbers.put("electrodes' voltages", voltages_);
+}
+
+template <int dim>
+void ConnectedBody<dim>::restore(const output::SavedNumbers &numbers) {
+  numbers.fill("free electrodes' charges", charges_);
+  numbers.fill("electrodes' voltages", voltages_);
+}
+
 template class ConnectedBody<2>;
 template class ConnectedBody<3>;
 

@@ -46,6 +46,8 @@ class IterativeRoute : public Route {
   StepOutcome advance(double time, std::span<const double> right_side,
                       std::span<const double> before, std::span<double> state) override;
   RouteReport report() const override;
+  void save(output::SavedNumbers &numbers) const override;
+  void restore(const output::SavedNumbers &numbers) override;
 
  private:
   using Vector = Eigen::Matrix<double, dim, 1>;
@@ -396,6 +398,33 @@ RouteReport IterativeRoute<dim>::report() const {
   report.preconditioners = system_.set_ups();
   report.backward_error = backward_error_;
   return report;
+}
+
+template <int dim>
+void IterativeRoute<dim>::save(output::SavedNumbers &numbers) const {
+  std::vector<double> slips;
+  for (const Point<dim> &p : points_)
+    slips.push_back(p.slips);
+  system_.save(numbers);
+  numbers.put("active set", slips);
+  numbers.put("state before", two_before_);
+  numbers.put("route", {double(krylov_iterations_), double(krylov_largest_), backward_error_,
+                        linear_seconds_});
+}
+
+template <int dim>
+void IterativeRoute<dim>::restore(const output::SavedNumbers &numbers) {
+  system_.restore(numbers, points_.size());
+  const auto slips = numbers.get("active set", points_.size());
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    points_[i].slips = slips[i] != 0;
+  two_before_.resize(model_.n_unknowns());
+  numbers.fill("state before", two_before_);
+  const auto route = numbers.get("route", 4);
+  krylov_iterations_ = static_cast<std::size_t>(route[0]);
+  krylov_largest_ = static_cast<int>(route[1]);
+  backward_error_ = route[2];
+  linear_seconds_ = route[3];
 }
 
 }  // namespace

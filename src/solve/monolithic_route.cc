@@ -43,6 +43,8 @@ class MonolithicRoute : public Route {
   StepOutcome advance(double time, std::span<const double> right_side,
                       std::span<const double> before, std::span<double> state) override;
   RouteReport report() const override;
+  void save(output::SavedNumbers &numbers) const override;
+  void restore(const output::SavedNumbers &numbers) override;
 
  private:
   using Point = contact::MultiplierPoint<dim>;
@@ -60,6 +62,9 @@ class MonolithicRoute : public Route {
   double area_ = 0;  // of the contact boundary [m^(dim-1)]
   SaddlePoint x_;
   double backward_error_ = 0;
+  // of the steps before this process, if it goes on with a run
+  int factorisations_ = 0;
+  double factorise_seconds_ = 0, substitution_seconds_ = 0;
 };
 
 template <int dim>
@@ -213,16 +218,35 @@ template <int dim>
 RouteReport MonolithicRoute<dim>::report() const {
   const condensation::FactorisationStatistics &statistics = system_.factorisation().statistics();
   RouteReport report;
-  report.factorisations = system_.factorisation().count();
+  report.factorisations = factorisations_ + system_.factorisation().count();
   report.analyse_seconds = statistics.analyse_seconds;
-  report.factorise_seconds = statistics.factorise_seconds;
-  report.substitution_seconds = system_.substitution_seconds();
+  report.factorise_seconds = factorise_seconds_ + statistics.factorise_seconds;
+  report.substitution_seconds = substitution_seconds_ + system_.substitution_seconds();
   report.unknowns = system_.n_variables();
   report.electric_and_thermal_unknowns = system_.n_electric_and_thermal();
   report.factor_entries = statistics.factor_entries;
   report.factor_flops = statistics.flops;
   report.backward_error = backward_error_;
   return report;
+}
+
+// The rest of x is the state.
+template <int dim>
+void MonolithicRoute<dim>::save(output::SavedNumbers &numbers) const {
+  const RouteReport so_far = report();
+  numbers.put("multipliers", x_.multipliers);
+  numbers.put("route", {backward_error_, double(so_far.factorisations), so_far.factorise_seconds,
+                        so_far.substitution_seconds});
+}
+
+template <int dim>
+void MonolithicRoute<dim>::restore(const output::SavedNumbers &numbers) {
+  numbers.fill("multipliers", x_.multipliers);
+  const auto route = numbers.get("route", 4);
+  backward_error_ = route[0];
+  factorisations_ = static_cast<int>(route[1]);
+  factorise_seconds_ = route[2];
+  substitution_seconds_ = route[3];
 }
 
 }  // namespace

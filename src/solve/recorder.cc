@@ -52,6 +52,19 @@ void Recorder<dim>::initial(std::span<const double> state) {
 }
 
 template <int dim>
+void Recorder<dim>::restore(std::span<const double> state, const output::SavedNumbers &numbers) {
+  balance_.emplace(model_, state);
+  balance_->restore(numbers);
+  seconds_ = numbers.get("output seconds", 1)[0];
+}
+
+template <int dim>
+void Recorder<dim>::save(output::SavedNumbers &numbers) const {
+  balance_->save(numbers);
+  numbers.put("output seconds", {seconds_});
+}
+
+template <int dim>
 output::HistoryRow Recorder<dim>::step(int n, const StepOutcome &outcome,
                                        std::span<const double> loads,
                                        std::span<const double> before,
@@ -87,10 +100,10 @@ template <int dim>
 void Recorder<dim>::finish(std::span<const double> state) {
   Stopwatch watch;
   parallel::on_first([&] {
+    folder_.finish();  // first, so that a full disk costs no row of the tables
     std::vector<body::Node> all(model_.body.n_nodes());
     std::iota(all.begin(), all.end(), body::Node{0});
     folder_.put_nodes(model_.body.points(), point_fields(state, all));
-    folder_.finish();
   });
   seconds_ += watch.lap();
 }

@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "tourmaline/case/electrodes.h"
+#include "tourmaline/case/interval.h"
 #include "tourmaline/case/resolved.h"
 #include "tourmaline/contact/friction.h"
 #include "tourmaline/error.h"
@@ -20,6 +21,8 @@
 #include "tourmaline/solve/monolithic_route.h"
 #include "tourmaline/solve/process.h"
 #include "tourmaline/solve/recorder.h"
+#include "tourmaline/solve/resumption.h"
+#include "tourmaline/solve/schedule.h"
 #include "tourmaline/solve/versions.h"
 #include "tourmaline/stopwatch.h"
 
@@ -30,28 +33,38 @@ namespace {
 template <int dim>
 class Simulation {
  public:
-  Simulation(const casefile::Case &asked, const std::filesystem::path &directory, bool quiet);
+  /// Starts behind the checkpoint, if there is one.
+  Simulation(const casefile::Case &asked, const std::filesystem::path &directory, bool quiet,
+             std::optional<output::Checkpoint> checkpoint);
   void run();
 
  private:
   void open_folder(const std::filesystem::path &directory);
+  int begin();
+  void march(int first);
   void prescribe(double time, std::vector<double> &state) const;
   void sum_loads(double time);
   void step(int n);
+  void pause(int n, const Schedule::Pause &pause);
+  void save(int n);
+  void restore();
   void put_report();
   void keep_what_there_is();
   output::Summary summary() const;
 
   double start_seconds_ = process_age();
+  std::optional<output::Checkpoint> checkpoint_;  // to start from
+  std::string inputs_;                            // of the run, for later checkpoints
   output::Progress progress_;
   bool iterative_;  // decided once: what is available changes with what is taken
   Model<dim> model_;
-  std::vector<double> state_, before_, loads_, right_side_;
+  std::vector<double> state_;  // of the last step that is done
+  std::vector<double> next_, loads_, right_side_;
   std::optional<output::ResultFolder> folder_;
   std::optional<Recorder<dim>> recorder_;
   std::unique_ptr<Route> route_;
   int newton_total_ = 0, newton_max_ = 0, newton_first_ = 0;
-  double step_seconds_ = 0;
+  double step_seconds_ = 0, seconds_before_ = 0;  // before: of the processes that it goes on from
 };
 
 template <int dim>
@@ -70,9 +83,12 @@ std::unique_ptr<Route> make_route(const Model<dim> &model, bool iterative) {
 // factorisation.
 template <int dim>
 Simulation<dim>::Simulation(const casefile::Case &asked, const std::filesystem::path &directory,
-                            bool quiet)
-    : progress_(asked.time.steps, quiet || !parallel::is_first()),
-      iterative_(solves_iteratively(asked)),
+                            bool quiet, std::optional<output::Checkpoint> checkpoint)
+    : checkpoint_(std::move(checkpoint)),
+      inputs_(parallel::is_first() ? inputs_of(asked) : ""),
+      progress_(asked.time.steps, quiet || !parallel::is_first()),
+      iterative_(checkpoint_ ? checkpoint_->numbers.get("iterative", 1)[0] != 0
+                             : solves_iteratively(asked)),
       model_((progress_.stage("mesh and operator"), asked)) {
   state_ = body::initial_state(model_.body, asked.initial);
   std::vector<double> trial = state_;
@@ -89,12 +105,31 @@ Simulation<dim>::Simulation(const casefile::Case &asked, const std::filesystem::
 template <int dim>
 void Simulation<dim>::open_folder(const std::filesystem::path &directory) {
   const output::Piece piece{parallel::rank(), parallel::n_ranks()};
+  const auto open = [&] {
+    if (checkpoint_)
+      folder_.emplace(directory, dim, piece, *checkpoint_);
+    else
+      folder_.emplace(directory, dim, piece);
+  };
   parallel::on_first([&] {
-    folder_.emplace(directory, dim, piece);
+    open();
     folder_->put_case(casefile::resolved(model_.asked));
   });
   if (!folder_)
-    folder_.emplace(directory, dim, piece);
+    open();
+}
+
+// Returns the first step to take.
+template <int dim>
+int Simulation<dim>::begin() {
+  if (!checkpoint_) {
+    recorder_->initial(state_);
+    return 1;
+  }
+  restore();
+  const int done = static_cast<int>(checkpoint_->step);
+  checkpoint_.reset();
+  return done + 1;
 }
 
 template <int dim>
@@ -112,36 +147,93 @@ void Simulation<dim>::sum_loads(double time) {
 template <int dim>
 void Simulation<dim>::step(int n) {
   Stopwatch watch;
-  before_ = state_;  // first, so that a step that fails anywhere leaves the last good state there
   sum_loads(model_.time(n));
   right_side_ = loads_;
   model_.op.add_history(state_, right_side_);
-  prescribe(model_.time(n), state_);
-  const StepOutcome outcome = route_->advance(model_.time(n), right_side_, before_, state_);
+  next_ = state_;
+  prescribe(model_.time(n), next_);
+  const StepOutcome outcome = route_->advance(model_.time(n), right_side_, state_, next_);
   newton_total_ += outcome.newton_iterations;
   newton_max_ = std::max(newton_max_, outcome.newton_iterations);
   if (n == 1)
     newton_first_ = outcome.newton_iterations;
   step_seconds_ += watch.lap();
-  progress_.step(recorder_->step(n, outcome, loads_, before_, state_));
+  progress_.step(recorder_->step(n, outcome, loads_, state_, next_));
+  std::swap(state_, next_);
+}
+
+template <int dim>
+void Simulation<dim>::march(int first) {
+  Schedule schedule(casefile::interval(model_.asked.output.checkpoint));
+  for (int n = first; n <= model_.asked.time.steps; ++n) {
+    step(n);
+    if (n < model_.asked.time.steps)
+      pause(n, schedule.after(n));
+  }
+}
+
+template <int dim>
+void Simulation<dim>::pause(int n, const Schedule::Pause &pause) {
+  if (pause.saves)
+    save(n);
+  if (pause.stopped_by != 0)
+    throw Stopped(fmt::format("stopped by {} after step {} of {}; the results of these steps and a "
+                              "checkpoint are in {}",
+                              signal_name(pause.stopped_by), n, model_.asked.time.steps,
+                              folder_->directory().string()),
+                  pause.stopped_by);
 }
 
 template <int dim>
 void Simulation<dim>::run() {
-  recorder_->initial(state_);
-  for (int n = 1; n <= model_.asked.time.steps; ++n)
-    try {
-      step(n);
-    } catch (...) {
-      state_ = before_;
-      keep_what_there_is();
-      throw;
-    }
+  const int first = begin();
+  try {
+    march(first);
+  } catch (...) {
+    keep_what_there_is();
+    throw;
+  }
   recorder_->finish(state_);
   const output::Summary done = summary();
   parallel::on_first([&] { folder_->put_summary(done); });
   put_report();
+  parallel::on_first([&] { folder_->remove_checkpoint(); });
   progress_.done();
+}
+
+// Everything that later steps, or what is told of the run at its end, depend on.
+template <int dim>
+void Simulation<dim>::save(int n) {
+  parallel::on_first([&] {
+    output::Checkpoint checkpoint;
+    checkpoint.program = program_version();
+    checkpoint.inputs = inputs_;
+    checkpoint.ranks = parallel::n_ranks();
+    checkpoint.step = n;
+    output::SavedNumbers &numbers = checkpoint.numbers;
+    numbers.put("state", state_);
+    numbers.put("iterative", {double(iterative_)});
+    numbers.put("newton", {double(newton_total_), double(newton_max_), double(newton_first_)});
+    numbers.put("seconds", {step_seconds_, seconds_before_ + process_age()});
+    route_->save(numbers);
+    recorder_->save(numbers);
+    folder_->put_checkpoint(std::move(checkpoint));
+  });
+}
+
+template <int dim>
+void Simulation<dim>::restore() {
+  const output::SavedNumbers &numbers = checkpoint_->numbers;
+  numbers.fill("state", state_);
+  const auto newton = numbers.get("newton", 3);
+  newton_total_ = static_cast<int>(newton[0]);
+  newton_max_ = static_cast<int>(newton[1]);
+  newton_first_ = static_cast<int>(newton[2]);
+  const auto seconds = numbers.get("seconds", 2);
+  step_seconds_ = seconds[0];
+  seconds_before_ = seconds[1];
+  route_->restore(numbers);
+  recorder_->restore(state_, numbers);
 }
 
 template <int dim>
@@ -157,8 +249,8 @@ void Simulation<dim>::put_report() {
 template <int dim>
 void Simulation<dim>::keep_what_there_is() {
   progress_.done();
-  recorder_->finish(state_);
   try {
+    recorder_->finish(state_);
     put_report();
   } catch (const std::runtime_error &) {
   }
@@ -209,7 +301,7 @@ output::Summary Simulation<dim>::summary() const {
   summary.seconds.step = {step_seconds_, step_seconds_ / model_.asked.time.steps,
                           report.substitution_seconds, report.contact_seconds};
   summary.seconds.start = start_seconds_;
-  summary.seconds.total = process_age();
+  summary.seconds.total = seconds_before_ + process_age();
   summary.seconds.output = recorder_->seconds();
   if (model_.asked.solver.body == "automatic" && iterative_)
     summary.warnings.push_back(fmt::format(
@@ -230,20 +322,49 @@ void check(const casefile::Case &asked) {
   parallel::together([&] { require_memory(asked); });
 }
 
-void simulate(const casefile::Case &asked, const std::filesystem::path &directory, bool quiet) {
+namespace {
+
+void say(const std::string &text, bool quiet) {
+  if (!quiet && parallel::is_first())
+    std::cerr << "tourmaline: " << text << '\n';
+}
+
+// All ranks see the same folder.
+Resumption start_in(const std::filesystem::path &directory, const casefile::Case &asked,
+                    Start start, bool quiet) {
+  parallel::on_first([&] { output::require_unused(directory); });
+  Resumption found;
+  if (start == Start::beginning)
+    return found;
+  parallel::together([&] { found = resumption(asked, directory); });
+  const std::string name = directory.string();
+  if (found.is_complete)
+    say("the run in " + name + " is complete; there is nothing to go on with", quiet);
+  else if (found.checkpoint)
+    say(fmt::format("going on in {} after step {} of {}", name, found.checkpoint->step,
+                    asked.time.steps),
+        quiet);
+  else
+    say("there is no checkpoint in " + name + "; starting from the beginning", quiet);
+  return found;
+}
+
+}  // namespace
+
+void simulate(const casefile::Case &asked, const std::filesystem::path &directory, bool quiet,
+              Start start) {
   const Process process(asked.solver.threads);
   check(asked);
+  Resumption from = start_in(directory, asked, start, quiet);
+  if (from.is_complete)
+    return;
   try {
     if (asked.dimension == 2)
-      Simulation<2>(asked, directory, quiet).run();
+      Simulation<2>(asked, directory, quiet, std::move(from.checkpoint)).run();
     else
-      Simulation<3>(asked, directory, quiet).run();
-  } catch (const CaseError &) {
-    throw;  // the three kinds of errors are those of all ranks
-  } catch (const SolveError &) {
-    throw;
-  } catch (const MachineError &) {
-    throw;
+      Simulation<3>(asked, directory, quiet, std::move(from.checkpoint)).run();
+  } catch (const Error &) {
+    throw;  // is that of all ranks
   } catch (const std::exception &error) {
     if (parallel::n_ranks() == 1)
       throw;

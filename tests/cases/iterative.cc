@@ -67,6 +67,18 @@ TEST(Iterative, OnePreconditionerServesAsLongAsNothingSlips) {
   EXPECT_EQ(run.summary()["iterations"]["preconditioners"], 1);
 }
 
+TEST(Iterative, ABodyWithoutContactIsSolvedToo) {
+  casefile::Case asked = casefile::read_file(
+      std::filesystem::path(TOURMALINE_SOURCE_DIR) / "cases/block-3d/twisted.toml",
+      {"mesh.box.cells=[5,5,5]", "time.steps=2"}, mesh::read_mesh_file);
+  asked.contact.reset();
+  asked.solver.body = "direct";
+  const RunCase expected(asked);
+  asked.solver.body = "iterative";
+  expect_equal(expected.nodes(), RunCase(asked).nodes(),
+               {"u_x", "u_y", "u_z", "potential", "temperature"}, 1e-9);
+}
+
 TEST(Iterative, TheBackwardErrorIsMeasured) {
   const RunCase run("cases/block-3d/twisted.toml",
                     {"mesh.box.cells=[6,6,6]", "time.steps=2", "solver.body=\"iterative\""});

@@ -47,9 +47,11 @@ class Results : public testing::Test {
 };
 
 TEST_F(Results, ARunLeavesTheFilesOfTheContract) {
-  ResultFolder results(directory, 2);
-  run_two_steps(results);
-  results.finish();
+  {
+    ResultFolder results(directory, 2);
+    run_two_steps(results);
+    results.finish();
+  }
   EXPECT_EQ(names_in(directory),
             (Names{"resolved.toml", "result_0001.vtu", "result_0002.vtu", "result.pvd", "nodes.csv",
                    "contact.csv", "history.csv", "summary.json"}));
@@ -57,9 +59,11 @@ TEST_F(Results, ARunLeavesTheFilesOfTheContract) {
 }
 
 TEST_F(Results, WithoutAContactBoundaryThereIsNoContactTable) {
-  ResultFolder results(directory, 2);
-  results.put_history(history_row(1));
-  results.finish();
+  {
+    ResultFolder results(directory, 2);
+    results.put_history(history_row(1));
+    results.finish();
+  }
   EXPECT_EQ(names_in(directory), Names{"history.csv"});
 }
 
@@ -79,7 +83,7 @@ TEST_F(Results, AFailedSolveKeepsTheStepsThatWereComputed) {
   ResultFolder results(directory, 2);
   results.put_history(history_row(1));
   results.put_history(history_row(2));
-  EXPECT_EQ(names_in(directory), Names{"history.csv.part"});
+  EXPECT_EQ(names_in(directory), (Names{"history.csv.part", "run.lock"}));
   results.finish();
   results.finish();
   EXPECT_EQ(content_of(directory / "history.csv"),
@@ -100,19 +104,55 @@ TEST_F(Results, TheSameRunLeavesTheSameBytes) {
 }
 
 TEST_F(Results, AnEarlierRunsFilesAreRemovedAndNoOthers) {
-  const Names ours{"result_0001.vtu", "result_12345.vtu", "result.pvd",          "nodes.csv",
-                   "contact.csv",     "history.csv",      "summary.json",        "resolved.toml",
-                   "report.html",     "history.csv.part", "result_0007.vtu.part"};
+  const Names ours{"result_0001.vtu", "result_12345.vtu", "result.pvd",           "nodes.csv",
+                   "contact.csv",     "history.csv",      "summary.json",         "resolved.toml",
+                   "report.html",     "history.csv.part", "result_0007.vtu.part", "checkpoint.bin"};
   const Names others{"result_mine.vtu", "result_01.vtu",  "notes.csv", "old_nodes.csv",
                      "thesis.tex.part", "result.pvd.bak", "Nodes.csv"};
   std::filesystem::create_directories(directory / "history.csv.d");
   for (const Names &names : {ours, others})
     for (const std::string &name : names)
       std::ofstream(directory / name) << "x";
-  ResultFolder results(directory, 2);
+  const ResultFolder results(directory, 2);
   Names left = others;
+  left.insert("run.lock");
   left.insert("history.csv.d");
   EXPECT_EQ(names_in(directory), left);
+}
+
+TEST_F(Results, BehindACheckpointTheFilesAreThoseOfItsMoment) {
+  Checkpoint checkpoint;
+  checkpoint.step = 2;
+  {
+    ResultFolder results(directory, 2);
+    run_two_steps(results);
+    results.put_checkpoint(checkpoint);
+    for (const char *name : {"result_0003.vtu", "result_0004.vtu.part", "report.html"})
+      std::ofstream(directory / name) << "later";
+    results.put_contact(3, 0.3, one_row);
+    results.put_history(history_row(3));
+    results.finish();  // as after an ordered end
+  }
+  ResultFolder results(directory, 2, {}, read_checkpoint(directory / "checkpoint.bin"));
+  EXPECT_EQ(names_in(directory),
+            (Names{"resolved.toml", "result_0001.vtu", "result_0002.vtu", "result.pvd",
+                   "contact.csv.part", "history.csv.part", "checkpoint.bin", "run.lock"}));
+  results.put_history(history_row(3));
+  results.finish();
+  EXPECT_EQ(content_of(directory / "history.csv"),
+            "step,time,newton_iterations,residual,stick,slip,open,energy\n"
+            "1,0.10000000000000001,1,0,1,0,0,2\n"
+            "2,0.20000000000000001,1,0,1,0,0,2\n"
+            "3,0.30000000000000004,1,0,1,0,0,2\n");
+}
+
+TEST_F(Results, ATableThatACheckpointCountsOnOutlivesAnError) {
+  {
+    ResultFolder results(directory, 2);
+    results.put_history(history_row(1));
+    results.put_checkpoint({});
+  }
+  EXPECT_EQ(names_in(directory), (Names{"history.csv.part", "checkpoint.bin"}));
 }
 
 TEST_F(Results, AFolderThatCannotBeMadeIsNamedWithTheReason) {

@@ -5,10 +5,18 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <future>
+#include <iterator>
+#include <map>
+#include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "../cases/read_table.h"
@@ -247,6 +255,86 @@ TEST_P(Ranks, AFailedSolveIsToldOnce) {
   expect_told_once(paper_ + "--set solver.tolerance=1e-30 --set solver.max_iterations=3", 3,
                    "solver.max_iterations");
 }
+
+// The first rank's number stands in the lock of the folder.
+bool send_behind_a_checkpoint(int signal, const fs::path &folder) {
+  for (int tries = 0; tries < 20000; ++tries) {
+    if (fs::exists(folder / "checkpoint.bin"))
+      return kill(std::stoi(content_of(folder / "run.lock")), signal) == 0;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return false;
+}
+
+class Interrupted : public Ranks {
+ protected:
+  // Ends with the signal behind its first checkpoint, and goes on.
+  void interrupt(const std::string &arguments, int signal) {
+    auto interrupted = std::async(std::launch::async,
+                                  [&] { return run(GetParam(), arguments, folder_ / "other"); });
+    ASSERT_TRUE(send_behind_a_checkpoint(signal, folder_ / "other"));
+    before_ = interrupted.get();
+    ASSERT_NE(before_.status, 0) << "too fast to be interrupted";
+    const Outcome resumed = run(GetParam(), arguments + " --resume", folder_ / "other");
+    ASSERT_EQ(resumed.status, 0) << resumed.said;
+    const Outcome whole = run(GetParam(), arguments, folder_ / "one");
+    ASSERT_EQ(whole.status, 0) << whole.said;
+  }
+  // But for the page and the summary, which hold times.
+  void expect_same_bytes() const {
+    for (const auto &entry : fs::directory_iterator(folder_ / "one")) {
+      const std::string name = entry.path().filename().string();
+      if (name != "summary.json" && name != "report.html") {
+        EXPECT_TRUE(content_of(entry.path()) == content_of(folder_ / "other" / name)) << name;
+      }
+    }
+  }
+  void expect_same_numbers() const {
+    for (const char *name : {"nodes.csv", "contact.csv"})
+      expect_equal_tables(read_table(folder_ / "one" / name), read_table(folder_ / "other" / name));
+  }
+
+  Outcome before_{};
+};
+
+TEST_P(Interrupted, KilledItGoesOnToTheSameBytesWhereTheSolutionIsIterative) {
+  interrupt(file_of(block) +
+                " --set time.steps=12 --set output.every=5 --set solver.body=iterative "
+                "--set output.checkpoint=2steps",
+            SIGKILL);
+  expect_same_bytes();
+}
+
+// MUMPS on several ranks adds in the order in which messages arrive: no two runs have the same last
+// bits.
+TEST_P(Interrupted, KilledItGoesOnToTheSameNumbersWithAFactorisation) {
+  interrupt(paper_ + "--set time.steps=40 --set output.every=10 --set output.checkpoint=2steps",
+            SIGKILL);
+  expect_same_numbers();
+}
+
+TEST_P(Interrupted, StoppedItSaysSoOnceAndGoesOn) {
+  interrupt(paper_ + "--set solver.method=monolithic --set output.checkpoint=2steps", SIGTERM);
+  EXPECT_EQ(before_.status, 128 + SIGTERM) << before_.said;
+  EXPECT_EQ(count(before_.said, "tourmaline: stopped by SIGTERM after step "), 1) << before_.said;
+  EXPECT_EQ(count(before_.said, "mpirun -np " + std::to_string(GetParam())), 1) << before_.said;
+  expect_same_numbers();
+}
+
+TEST_P(Interrupted, AnotherNumberOfRanksIsRefused) {
+  const std::string arguments =
+      paper_ + "--set time.steps=1000 --set output.fields=false --set output.checkpoint=2steps";
+  auto stopped =
+      std::async(std::launch::async, [&] { return run(GetParam(), arguments, folder_ / "other"); });
+  ASSERT_TRUE(send_behind_a_checkpoint(SIGTERM, folder_ / "other"));
+  ASSERT_EQ(stopped.get().status, 128 + SIGTERM);
+  const Outcome alone = run(1, arguments + " --resume", folder_ / "other");
+  EXPECT_EQ(alone.status, 2);
+  EXPECT_THAT(alone.said, HasSubstr("mpirun -np " + std::to_string(GetParam())));
+  EXPECT_TRUE(fs::exists(folder_ / "other" / "checkpoint.bin"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Two, Interrupted, ::testing::Values(2));
 
 INSTANTIATE_TEST_SUITE_P(Two, Ranks, ::testing::Values(2));
 INSTANTIATE_TEST_SUITE_P(Four, Ranks, ::testing::Values(4));

@@ -164,6 +164,7 @@ struct OutputCase {
   int every =
       0;  ///< steps between two field files; 0 while reading: so many that at most 50 are left
   bool report = true;
+  std::string checkpoint = "5 min";  ///< between two checkpoints: steps, a time, or never
 };
 
 struct LoadCase {

@@ -7,6 +7,7 @@
 
 #include "tourmaline/body/conditions.h"
 #include "tourmaline/body/operator.h"
+#include "tourmaline/output/checkpoint.h"
 
 namespace tourmaline::krylov {
 
@@ -56,6 +57,11 @@ class BodySystem {
   /// body::backward_error of a projected residual.
   double backward_error(std::span<const double> residual, std::span<const double> right_side,
                         std::span<const double> state) const;
+
+  /// Matrix and preconditioner of the steps before, for a new system to go on with; of
+  /// `contact_nodes` nodes.
+  void save(output::SavedNumbers &numbers) const;
+  void restore(const output::SavedNumbers &numbers, std::size_t contact_nodes);
 
   double set_up_seconds() const;  ///< assembly and preconditioners
   int set_ups() const;            ///< preconditioners made so far

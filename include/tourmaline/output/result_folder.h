@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "tourmaline/output/atomic_file.h"
+#include "tourmaline/output/checkpoint.h"
+#include "tourmaline/output/folder_lock.h"
 #include "tourmaline/output/pvd.h"
 #include "tourmaline/output/records.h"
 #include "tourmaline/output/summary.h"
@@ -20,16 +22,21 @@ struct Piece {
   int number = 0, count = 1;
 };
 
-/// The folder that a run leaves behind. Every file in it is whole at every moment: one that is
-/// being written is called NAME.part. Whatever fails to be written is a MachineError with the
-/// file's name and the reason. In a parallel run every rank has one, in turn: the first makes the
-/// folder, and alone writes everything but the fields of the others' cells.
+/// The folder that a run leaves behind, and has for itself meanwhile. Every file in it is whole at
+/// every moment: one that is being written is called NAME.part. Whatever fails to be written is a
+/// MachineError with the file's name and the reason. In a parallel run every rank has one, in turn:
+/// the first makes the folder, and alone writes everything but the fields of the others' cells.
 class ResultFolder {
  public:
   /// Makes the folder, with its parents, checks that it can be written to, and removes the files
   /// that an earlier run left there (by the names that this program gives them, and no others).
   /// Of several pieces only number 0 does so; the folder of the others must be there.
   ResultFolder(std::filesystem::path directory, int dimension, Piece piece = {});
+
+  /// Goes on in the folder of an interrupted run as it was at the checkpoint: what was written
+  /// after it is taken away.
+  ResultFolder(std::filesystem::path directory, int dimension, Piece piece,
+               const Checkpoint &checkpoint);
 
   /// resolved.toml: the case with every default filled in.
   void put_case(const std::string &resolved_toml);
@@ -61,6 +68,13 @@ class ResultFolder {
   /// summary.json
   void put_summary(const Summary &summary);
 
+  /// checkpoint.bin, to which it adds how far the files have come; they are on the disk itself
+  /// then.
+  void put_checkpoint(Checkpoint checkpoint);
+
+  /// When the run is complete.
+  void remove_checkpoint();
+
   /// Moves contact.csv and history.csv into place; after a failed solve too, so that the steps that
   /// were computed are kept. Without it they are discarded. Idempotent; no rows can follow.
   void finish();
@@ -68,12 +82,16 @@ class ResultFolder {
   const std::filesystem::path &directory() const { return directory_; }
 
  private:
+  void sync_fields();
+
   std::filesystem::path directory_;
+  std::optional<FolderLock> lock_;
   int dimension_;
   Piece piece_;
   std::optional<VtuWriter> vtu_;
   bool regions_ = false;  // whether the field files tell regions and poling
   std::vector<PvdEntry> series_;
+  std::vector<std::string> unsynced_;  // field files since the last checkpoint
   std::unique_ptr<AtomicFile> contact_, history_;
   std::string history_header_;
 };

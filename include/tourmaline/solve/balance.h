@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "tourmaline/output/checkpoint.h"
 #include "tourmaline/solve/model.h"
 
 namespace tourmaline::solve {
@@ -33,6 +34,11 @@ class Balance {
   /// right-hand side without history, `contact_forces` [N] has dim entries for each interface node.
   Columns step(double time, std::span<const double> loads, const Eigen::VectorXd &contact_forces,
                std::span<const double> state);
+
+  /// What the next step compares with, besides the state: that of the checkpoint is what the
+  /// balance to be restored was made with.
+  void save(output::SavedNumbers &numbers) const;
+  void restore(const output::SavedNumbers &numbers);
 
  private:
   /// One step's numbers, shared by the four balances.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tourmaline/condensation/condensed_body.h"
+#include "tourmaline/output/checkpoint.h"
 #include "tourmaline/solve/circuit.h"
 #include "tourmaline/solve/model.h"
 
@@ -35,6 +36,10 @@ class ConnectedBody {
   void expand(const Eigen::VectorXd &c, std::span<double> state);
 
   const condensation::CondensedBody<dim> &body() const { return body_; }
+
+  /// As of `Route`.
+  void save(output::SavedNumbers &numbers) const;
+  void restore(const output::SavedNumbers &numbers);
 
  private:
   void add_responses();

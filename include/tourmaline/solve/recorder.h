@@ -18,6 +18,9 @@ class Recorder {
   Recorder(const Model<dim> &model, output::ResultFolder &folder);
 
   void initial(std::span<const double> state);
+  /// Goes on behind the step that had this state; what is there of it is in the folder.
+  void restore(std::span<const double> state, const output::SavedNumbers &numbers);
+  void save(output::SavedNumbers &numbers) const;
   /// Writes step n; returns its line of history. `loads` is the step's right-hand side without
   /// history.
   output::HistoryRow step(int n, const StepOutcome &outcome, std::span<const double> loads,

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "tourmaline/output/checkpoint.h"
 #include "tourmaline/output/records.h"
 
 namespace tourmaline::solve {
@@ -44,6 +45,11 @@ class Route {
                               std::span<const double> before, std::span<double> state) = 0;
 
   virtual RouteReport report() const = 0;
+
+  /// What the route knows from the steps before: with it a new route goes on to the same bits.
+  /// Saved on the first rank alone, restored on all.
+  virtual void save(output::SavedNumbers &numbers) const = 0;
+  virtual void restore(const output::SavedNumbers &numbers) = 0;
 };
 
 }  // namespace tourmaline::solve

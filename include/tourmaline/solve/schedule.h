@@ -1,0 +1,33 @@
+#pragma once
+
+#include <chrono>
+
+#include "tourmaline/case/interval.h"
+#include "tourmaline/solve/stop_signals.h"
+
+namespace tourmaline::solve {
+
+/// What a run does between two steps besides going on. All ranks ask together and get the same
+/// answer.
+class Schedule {
+ public:
+  struct Pause {
+    bool saves = false;  ///< a checkpoint
+    int stopped_by = 0;  ///< the signal that ends the run here, 0: none; it saves one too
+  };
+
+  explicit Schedule(const casefile::Interval &interval) : interval_(interval) {}
+
+  Pause after(int step);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  bool is_due(int step) const;
+
+  StopSignals signals_;
+  casefile::Interval interval_;
+  Clock::time_point last_ = Clock::now();  // when the last checkpoint was saved
+};
+
+}  // namespace tourmaline::solve

@@ -1,0 +1,21 @@
+#pragma once
+
+namespace tourmaline::solve {
+
+/// While it lives, the first SIGINT or SIGTERM only leaves a note, so that a run can end between
+/// two steps; the second one ends the process at once. One at a time.
+class StopSignals {
+ public:
+  StopSignals();
+  StopSignals(const StopSignals &) = delete;
+  StopSignals &operator=(const StopSignals &) = delete;
+  ~StopSignals();
+
+  /// The signal that came; 0: none.
+  int received() const;
+};
+
+/// "SIGINT" or "SIGTERM".
+const char *signal_name(int signal);
+
+}  // namespace tourmaline::solve

@@ -1,0 +1,184 @@
+#include "tourmaline/output/checkpoint.h"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+#include <type_traits>
+
+#include "tourmaline/error.h"
+#include "tourmaline/output/atomic_file.h"
+
+namespace tourmaline::output {
+namespace {
+
+constexpr std::string_view magic = "Tourmaline checkpoint\n";
+constexpr std::uint64_t format_version = 1;
+
+// Of nothing zlib says 0, whatever stood before.
+std::uint64_t checksum(std::uint64_t before, std::string_view bytes) {
+  return bytes.empty()
+             ? before
+             : crc32_z(before, reinterpret_cast<const unsigned char *>(bytes.data()), bytes.size());
+}
+
+/// Writes one member behind the other.
+class Writer {
+ public:
+  explicit Writer(const std::filesystem::path &path) : file_(path) { bytes(magic); }
+
+  void number(std::uint64_t value) {
+    bytes({reinterpret_cast<const char *>(&value), sizeof value});
+  }
+  void number(double value) { number(std::bit_cast<std::uint64_t>(value)); }
+  void text(std::string_view value) {
+    number(std::uint64_t{value.size()});
+    bytes(value);
+  }
+  void numbers(std::span<const double> values) {
+    number(std::uint64_t{values.size()});
+    bytes({reinterpret_cast<const char *>(values.data()), values.size_bytes()});
+  }
+  void finish() {
+    number(sum_);
+    file_.sync();
+    file_.finish();
+  }
+
+ private:
+  void bytes(std::string_view part) {
+    sum_ = checksum(sum_, part);
+    file_.append(part);
+  }
+
+  AtomicFile file_;
+  std::uint64_t sum_ = 0;
+};
+
+/// Reads what `Writer` wrote; the bytes have proved to be whole.
+class Reader {
+ public:
+  explicit Reader(std::string_view rest) : rest_(rest) {}
+
+  std::uint64_t number() {
+    std::uint64_t value = 0;
+    std::memcpy(&value, bytes(sizeof value).data(), sizeof value);
+    return value;
+  }
+  std::string text() { return std::string(bytes(number())); }
+  std::vector<double> numbers() {
+    std::vector<double> values(number());
+    const std::string_view part = bytes(values.size() * sizeof(double));
+    std::copy(part.begin(), part.end(), reinterpret_cast<char *>(values.data()));
+    return values;
+  }
+
+ private:
+  std::string_view bytes(std::size_t size) {
+    const std::string_view part = rest_.substr(0, size);
+    rest_.remove_prefix(part.size());
+    return part;
+  }
+
+  std::string_view rest_;
+};
+
+std::string contents(const std::filesystem::path &path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (!in)
+    throw MachineError(fmt::format("cannot read {}", path.string()));
+  return text;
+}
+
+[[noreturn]] void refuse(const std::filesystem::path &path, const std::string &reason) {
+  throw MachineError(fmt::format(
+      "{} {}, so that the run cannot go on from it; the files beside it are those of the steps so "
+      "far. Start again from the beginning without --resume, which removes them, or with -o in "
+      "another folder",
+      path.string(), reason));
+}
+
+/// What stands between the version and the checksum.
+std::string_view body(const std::filesystem::path &path, std::string_view file) {
+  constexpr std::size_t word = sizeof(std::uint64_t);
+  if (file.substr(0, magic.size()) != magic)
+    refuse(path, "is no checkpoint");
+  if (file.size() < magic.size() + 2 * word)
+    refuse(path, "is damaged: its end is missing");
+  if (const std::uint64_t version = Reader(file.substr(magic.size())).number();
+      version != format_version)
+    refuse(path, fmt::format("has version {} of the format, this program reads version {}", version,
+                             format_version));
+  const std::string_view summed = file.substr(0, file.size() - word);
+  if (Reader(file.substr(summed.size())).number() != checksum(0, summed))
+    refuse(path, "is damaged: its checksum is wrong");
+  return summed.substr(magic.size() + word);
+}
+
+}  // namespace
+
+void SavedNumbers::put(const std::string &name, std::initializer_list<double> values) {
+  values_[name] = values;
+}
+
+std::span<const double> SavedNumbers::get(const std::string &name, std::size_t size) const {
+  const auto found = values_.find(name);
+  if (found == values_.end() || found->second.size() != size)
+    throw MachineError(
+        fmt::format("the checkpoint does not have {} numbers \"{}\", as this run needs; start "
+                    "again without --resume",
+                    size, name));
+  return found->second;
+}
+
+void write_checkpoint(const std::filesystem::path &path, const Checkpoint &checkpoint) {
+  Writer file(path);
+  file.number(format_version);
+  file.text(checkpoint.program);
+  file.text(checkpoint.inputs);
+  file.number(checkpoint.ranks);
+  file.number(checkpoint.step);
+  file.number(checkpoint.position.contact_bytes);
+  file.number(checkpoint.position.history_bytes);
+  file.number(std::uint64_t{checkpoint.position.series.size()});
+  for (const PvdEntry &entry : checkpoint.position.series) {
+    file.number(entry.time);
+    file.text(entry.file);
+  }
+  file.number(std::uint64_t{checkpoint.numbers.all().size()});
+  for (const auto &[name, values] : checkpoint.numbers.all()) {
+    file.text(name);
+    file.numbers(values);
+  }
+  file.finish();
+  sync_path(path.parent_path());
+}
+
+Checkpoint read_checkpoint(const std::filesystem::path &path) {
+  const std::string whole = contents(path);
+  Reader file(body(path, whole));
+  Checkpoint checkpoint;
+  checkpoint.program = file.text();
+  checkpoint.inputs = file.text();
+  checkpoint.ranks = file.number();
+  checkpoint.step = file.number();
+  checkpoint.position.contact_bytes = file.number();
+  checkpoint.position.history_bytes = file.number();
+  for (std::uint64_t left = file.number(); left > 0; --left) {
+    const double time = std::bit_cast<double>(file.number());
+    checkpoint.position.series.push_back({time, file.text()});
+  }
+  for (std::uint64_t left = file.number(); left > 0; --left) {
+    const std::string name = file.text();
+    checkpoint.numbers.put(name, file.numbers());
+  }
+  return checkpoint;
+}
+
+}  // namespace tourmaline::output

@@ -1,0 +1,132 @@
+#include "tourmaline/solve/resumption.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <span>
+
+#include "tourmaline/case/changes.h"
+#include "tourmaline/case/resolved.h"
+#include "tourmaline/error.h"
+#include "tourmaline/parallel/ranks.h"
+#include "tourmaline/solve/versions.h"
+
+namespace tourmaline::solve {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// FNV-1a, 64 bits: tells a changed file from the one before, not from a forged one.
+class Digest {
+ public:
+  template <class Number>
+  void add(std::span<const Number> values) {
+    for (const std::byte byte : std::as_bytes(values))
+      value_ = (value_ ^ std::to_integer<std::uint64_t>(byte)) * 1099511628211U;
+  }
+  std::string text() const { return fmt::format("{:016x}", value_); }
+
+ private:
+  std::uint64_t value_ = 14695981039346656037U;
+};
+
+// Of what was read, not of the file: a geometry may include others.
+std::string digest(const casefile::MeshFile &mesh) {
+  Digest digest;
+  for (const auto &point : mesh.points)
+    digest.add(std::span<const double>(point));
+  digest.add(std::span<const std::uint32_t>(mesh.cells));
+  digest.add(std::span<const std::uint32_t>(mesh.facets));
+  for (const casefile::Groups *groups : {&mesh.regions, &mesh.boundaries}) {
+    digest.add(std::span<const int>(groups->set_of));
+    for (const std::string &name : groups->names)
+      digest.add(std::span<const char>(name));
+    for (const std::vector<int> &set : groups->sets)
+      digest.add(std::span<const int>(set));
+  }
+  return digest.text();
+}
+
+std::string text_in(const fs::path &file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string digest_of_file(const fs::path &file) {
+  Digest digest;
+  digest.add(std::span<const char>(text_in(file)));
+  return digest.text();
+}
+
+constexpr std::string_view contents = "contents.";  // of keys that are files
+
+std::string words(const casefile::Change &change) {
+  if (change.key.starts_with(contents))
+    return fmt::format("the content of {} has changed", change.key.substr(contents.size()));
+  const auto value = [](const std::string &text) { return text.empty() ? "not given" : text; };
+  return fmt::format("{} was {}, is {}", change.key, value(change.then), value(change.now));
+}
+
+// How often checkpoints are saved changes no result.
+void require_same(const std::string &then, const std::string &now, const fs::path &directory) {
+  std::string list;
+  for (const casefile::Change &change : casefile::changes(then, now))
+    if (change.key != "output.checkpoint")
+      list += (list.empty() ? "" : "; ") + words(change);
+  if (!list.empty())
+    throw CaseError(fmt::format(
+        "{} holds a run of another case, which --resume cannot go on with: {}. Give the same case, "
+        "choose another folder with -o, or start again without --resume, which removes that run",
+        directory.string(), list));
+}
+
+void require_same_ranks(const output::Checkpoint &checkpoint, const fs::path &directory) {
+  if (checkpoint.ranks == static_cast<std::uint64_t>(parallel::n_ranks()))
+    return;
+  throw CaseError(fmt::format(
+      "the run in {} has {} MPI ranks, this process has {}; go on with mpirun -np {}, or start "
+      "again without --resume",
+      directory.string(), checkpoint.ranks, parallel::n_ranks(), checkpoint.ranks));
+}
+
+void require_same_program(const output::Checkpoint &checkpoint, const fs::path &directory) {
+  if (checkpoint.program != program_version())
+    throw MachineError(fmt::format(
+        "the run in {} is one of Tourmaline {}, this is {}; go on with that version, or start "
+        "again without --resume",
+        directory.string(), checkpoint.program, program_version()));
+}
+
+}  // namespace
+
+std::string inputs_of(const casefile::Case &asked) {
+  std::string text = casefile::resolved(asked) + "\n[contents]\n";
+  if (asked.mesh.content)
+    text += fmt::format("{} = {}\n", *asked.mesh.file, digest(*asked.mesh.content));
+  const auto add = [&](const casefile::MaterialCase &material) {
+    if (material.file)
+      text += fmt::format("{} = {}\n", *material.file, digest_of_file(*material.file));
+  };
+  add(asked.material);
+  for (const casefile::RegionCase &region : asked.regions)
+    add(region.material);
+  return text;
+}
+
+Resumption resumption(const casefile::Case &asked, const fs::path &directory) {
+  Resumption found;
+  if (const fs::path file = directory / output::checkpoint_name; fs::exists(file)) {
+    found.checkpoint = output::read_checkpoint(file);
+    require_same_program(*found.checkpoint, directory);
+    require_same(found.checkpoint->inputs, inputs_of(asked), directory);
+    require_same_ranks(*found.checkpoint, directory);
+  } else if (fs::exists(directory / "summary.json")) {
+    require_same(text_in(directory / "resolved.toml"), casefile::resolved(asked), directory);
+    found.is_complete = true;
+  }
+  return found;
+}
+
+}  // namespace tourmaline::solve

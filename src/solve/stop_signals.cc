@@ -1,0 +1,55 @@
+#include "tourmaline/solve/stop_signals.h"
+
+#include <csignal>
+#include <iterator>
+
+namespace tourmaline::solve {
+
+namespace {
+
+constexpr int stopping[] = {SIGINT, SIGTERM};
+volatile std::sig_atomic_t noted = 0;
+struct sigaction previous[std::size(stopping)];
+
+void restore() {
+  for (std::size_t i = 0; i < std::size(stopping); ++i)
+    sigaction(stopping[i], &previous[i], nullptr);
+}
+
+// The second signal, of either kind, meets what stood there before: the end.
+void note(int signal) {
+  noted = signal;
+  restore();
+}
+
+}  // namespace
+
+StopSignals::StopSignals() {
+  noted = 0;
+  struct sigaction action {};
+  action.sa_handler = note;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  for (const int signal : stopping)
+    sigaddset(&action.sa_mask, signal);
+  for (std::size_t i = 0; i < std::size(stopping); ++i) {
+    sigaction(stopping[i], nullptr, &previous[i]);
+    // Shells have the background jobs of a script ignore SIGINT; so it stays ignored.
+    if (previous[i].sa_handler != SIG_IGN)
+      sigaction(stopping[i], &action, nullptr);
+  }
+}
+
+StopSignals::~StopSignals() {
+  restore();
+}
+
+int StopSignals::received() const {
+  return noted;
+}
+
+const char *signal_name(int signal) {
+  return signal == SIGINT ? "SIGINT" : "SIGTERM";
+}
+
+}  // namespace tourmaline::solve
