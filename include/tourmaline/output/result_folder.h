@@ -72,7 +72,7 @@ class ResultFolder {
   int dimension_;
   Piece piece_;
   std::optional<VtuWriter> vtu_;
-  bool regions_ = false;  // whether the field files tell regions and poling
+  ConstantArrays constant_;
   std::vector<PvdEntry> series_;
   std::unique_ptr<AtomicFile> contact_, history_;
   std::string history_header_;
