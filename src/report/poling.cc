@@ -114,8 +114,8 @@ class Picture {
   double room_at(const Pixel &at, double most) const {
     const Triple along = seen(result_.dimension, poling_at(at));
     const int region = region_at(at.x, at.y);
-    for (double half = 0; half < most / 2; ++half)
-      for (const double side : {-half, half})
+    for (int half = 0; half < most / 2; ++half)
+      for (const int side : {-half, half})
         if (region_at(static_cast<int>(std::floor(at.x + 0.5 + side * along[0])),
                       static_cast<int>(std::floor(at.y + 0.5 - side * along[1]))) != region)
           return 2 * half;
@@ -226,6 +226,7 @@ void add_arrows(const Picture &picture, const Area &part, double number, bool od
   const Boxes boxes = boxes_of(part, number, odd);
   const std::vector<Pixel> middles = boxes.middles();
   std::vector<double> rooms;
+  rooms.reserve(middles.size());
   for (const Pixel &p : middles)
     rooms.push_back(picture.room_at(p, boxes.side() * of_box / of_part));
   std::nth_element(rooms.begin(), rooms.begin() + rooms.size() / 4, rooms.end());
