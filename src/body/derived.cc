@@ -87,13 +87,14 @@ output::CellFields derived_fields(const Discretisation<dim> &body,
                                   const material::Composition<dim> &composition,
                                   std::span<const double> state) {
   output::CellFields fields;
+  const bool varies = composition.varies(), polar = composition.is_polar();
   body.for_each_cell([&](const Quadrature<dim> &cell) {
     const std::array<double, 3> centre = cell.centre();
     add_fields(means(cell, state), composition.in_space(cell.region, centre), fields);
-    if (!composition.varies())
-      return;
-    fields.region.push_back(static_cast<double>(cell.region));
-    fields.poling.push_back(plain(composition.poling(cell.region, centre)));
+    if (varies)
+      fields.region.push_back(static_cast<double>(cell.region));
+    if (varies || polar)
+      fields.poling.push_back(plain(composition.poling(cell.region, centre)));
   });
   return fields;
 }

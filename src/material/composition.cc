@@ -32,14 +32,16 @@ Composition<dim>::Composition(const casefile::Case &asked) {
   check_reference_temperatures();
   for (Part &part : parts_)
     if (!material::varies(part.asked.poling)) {
-      part.everywhere = rotated(part.crystal, crystal_axes(part.asked, dim));
+      const Tensor axes = crystal_axes(part.asked, dim);
+      part.everywhere = rotated(part.crystal, axes);
       part.restricted_everywhere = restricted<dim>(*part.everywhere);
+      part.poling_everywhere = axes.col(2);
     }
 }
 
 template <int dim>
 void Composition<dim>::add(const casefile::MaterialCase &asked) {
-  parts_.push_back({asked, constants_of(asked), {}, {}});
+  parts_.push_back({asked, constants_of(asked), {}, {}, {}});
 }
 
 template <int dim>
@@ -83,13 +85,21 @@ Constants Composition<dim>::in_space(std::size_t region, const Place &centre) co
 template <int dim>
 Vector Composition<dim>::poling(std::size_t region, const Place &centre) const {
   const Part &part = parts_.at(region);
-  return is_polar(part.crystal) ? Vector(crystal_axes(part.asked, dim, centre).col(2))
-                                : Vector(Vector::Zero());
+  if (!material::is_polar(part.crystal))
+    return Vector::Zero();
+  return part.poling_everywhere ? *part.poling_everywhere
+                                : Vector(crystal_axes(part.asked, dim, centre).col(2));
 }
 
 template <int dim>
 bool Composition<dim>::varies() const {
   return parts_.size() > 1 || !parts_.front().everywhere;
+}
+
+template <int dim>
+bool Composition<dim>::is_polar() const {
+  return std::any_of(parts_.begin(), parts_.end(),
+                     [](const Part &part) { return material::is_polar(part.crystal); });
 }
 
 template class Composition<2>;

@@ -155,7 +155,7 @@ void ResultFolder::put_fields(int step, double time, const Grid &grid, const Poi
     vtu_.emplace(grid);
   else if (grid.points.size() != vtu_->n_points() || grid.n_cells() != vtu_->n_cells())
     throw std::invalid_argument("put_fields: not the grid of the first call");
-  regions_ = !cells.region.empty();
+  constant_ = {!cells.region.empty(), !cells.poling.empty()};
   vtu_->write(directory_ / piece_name(step, piece_.number, piece_.count), time, points, cells);
 }
 
@@ -168,7 +168,7 @@ void ResultFolder::list_fields(int step, double time) {
       pieces.push_back(piece_name(step, i, piece_.count));
     unsynced_.insert(unsynced_.end(), pieces.begin(), pieces.end());
     name = fmt::format("result_{:04}.pvtu", step);
-    write_file(directory_ / name, pvtu_text(time, pieces, regions_));
+    write_file(directory_ / name, pvtu_text(time, pieces, constant_));
   }
   series_.push_back({time, name});
   unsynced_.push_back(name);

@@ -127,10 +127,10 @@ void VtuWriter::write(const std::filesystem::path &path, double time, const Poin
   file.append(field("strain", cells.strain, n_cells_));
   file.append(field("electric_displacement", cells.electric_displacement, n_cells_));
   file.append(field("heat_flux", cells.heat_flux, n_cells_));
-  if (!cells.region.empty()) {
+  if (!cells.region.empty())
     file.append(field("region", cells.region, n_cells_));
+  if (!cells.poling.empty())
     file.append(field("poling", cells.poling, n_cells_));
-  }
   file.append("</CellData>\n");
   file.append(topology_);
   file.append(closing);
@@ -145,7 +145,8 @@ std::string declared(const char *name, std::string_view attributes) {
 
 }  // namespace
 
-std::string pvtu_text(double time, std::span<const std::string> pieces, bool regions) {
+std::string pvtu_text(double time, std::span<const std::string> pieces,
+                      const ConstantArrays &constant) {
   std::string text = fmt::format(
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" "
@@ -163,8 +164,10 @@ std::string pvtu_text(double time, std::span<const std::string> pieces, bool reg
           declared("strain", tensor_components) +
           declared("electric_displacement", vector_components) +
           declared("heat_flux", vector_components);
-  if (regions)
-    text += declared("region", "") + declared("poling", vector_components);
+  if (constant.region)
+    text += declared("region", "");
+  if (constant.poling)
+    text += declared("poling", vector_components);
   text += "</PCellData>\n<PPoints>\n" + declared("Points", vector_components) + "</PPoints>\n";
   for (const std::string &piece : pieces)
     text += fmt::format("<Piece Source=\"{}\"/>\n", piece);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tourmaline/report/number_text.h"
+#include "tourmaline/report/poling.h"
 #include "tourmaline/report/scale.h"
 #include "tourmaline/report/setting.h"
 
@@ -59,6 +60,11 @@ Canvas::Point Figure::on_paper(std::uint32_t node) const {
   const auto &place = view_.places[node];
   return {left_ + (place[0] - view_.low[0]) * per_metre_,
           top_ + (view_.high[1] - place[1]) * per_metre_};
+}
+
+Canvas::Point Figure::on_paper(const output::Vector &place) const {
+  const auto at = seen(result_.dimension, place);
+  return {left_ + (at[0] - view_.low[0]) * per_metre_, top_ + (view_.high[1] - at[1]) * per_metre_};
 }
 
 void Figure::title(const std::string &text) {
@@ -240,7 +246,28 @@ void Figure::setting() {
         paint_faces(raster, *boundary, group.colour);
   if (result_.dimension == 3)
     put(raster);
+  poling();
   legend();
+}
+
+void Figure::poling() {
+  for (const PolingArrow &one : poling_arrows(result_))
+    arrow(on_paper(one.tail), on_paper(one.tip));
+}
+
+/// With a light rim, as it may lie on any colour.
+void Figure::arrow(const Canvas::Point &tail, const Canvas::Point &tip) {
+  const double length = std::max(std::hypot(tip[0] - tail[0], tip[1] - tail[1]), 1e-9);
+  const double x = (tip[0] - tail[0]) / length, y = (tip[1] - tail[1]) / length;
+  const double head = std::min(4.5, 0.55 * length);
+  const auto beside = [&](double side) {
+    return Canvas::Point{tip[0] - head * (x - 0.42 * side * y),
+                         tip[1] - head * (y + 0.42 * side * x)};
+  };
+  const std::vector<Canvas::Point> shaft{tail, beside(0)}, point{tip, beside(1), beside(-1), tip};
+  canvas_.lines({shaft, point}, {255, 255, 255}, 2);
+  canvas_.lines({shaft}, ink, 0.8);
+  canvas_.area(point, ink);
 }
 
 void Figure::paint_sides(const Boundary &boundary, const Colour &colour) {
@@ -300,21 +327,53 @@ std::vector<std::string> texts_of(const SettingGroup &group) {
   return texts.empty() ? std::vector<std::string>{"no condition"} : texts;
 }
 
+/// A line of the legend: a name with what is said of it, and what stands before it.
+struct Entry {
+  enum class Mark { colour, arrow, none } mark;
+  Colour colour;
+  std::string name;
+  std::vector<std::string> texts;
+};
+
+bool is_poled(const Result &result) {
+  const Field *field = result.field("poling");
+  return field && std::any_of(field->values.begin(), field->values.end(), [](const auto &values) {
+           return std::any_of(values.begin(), values.end(), [](float v) { return v != 0; });
+         });
+}
+
+std::vector<Entry> entries_of(const Result &result) {
+  std::vector<Entry> entries;
+  for (const SettingGroup &group : groups_of(result))
+    entries.push_back({Entry::Mark::colour, group.colour, names_of(group), texts_of(group)});
+  if (is_poled(result))
+    entries.push_back({Entry::Mark::arrow, ink, "poling", {"direction of the crystal axis 3"}});
+  for (const Part &part : parts_of(result))
+    entries.push_back({Entry::Mark::none, ink, part.name, {part.material}});
+  return entries;
+}
+
 constexpr double legend_size = 7;
 
 }  // namespace
 
 void Figure::legend() {
-  const std::vector<SettingGroup> groups = groups_of(result_);
-  double column = 0;
-  for (const SettingGroup &group : groups)
-    column = std::max(column, canvas_.text_width(names_of(group), legend_size, true));
+  const std::vector<Entry> entries = entries_of(result_);
+  double conditions = 0, others = 0;  // the widest name of each kind
+  for (const Entry &entry : entries) {
+    double &widest = entry.mark == Entry::Mark::colour ? conditions : others;
+    widest = std::max(widest, canvas_.text_width(entry.name, legend_size, true));
+  }
   double y = top_ + height_ + axis_room + 6;
-  for (const SettingGroup &group : groups) {
+  for (const Entry &entry : entries) {
     const double left = left_margin - 20, right = left + 7;
-    canvas_.area({{left, y - 6}, {right, y - 6}, {right, y + 1}, {left, y + 1}}, group.colour);
-    canvas_.text(names_of(group), {left + 11, y}, Canvas::Align::left, legend_size, true);
-    for (const std::string &text : texts_of(group)) {
+    const double column = entry.mark == Entry::Mark::colour ? conditions : others;
+    if (entry.mark == Entry::Mark::colour)
+      canvas_.area({{left, y - 6}, {right, y - 6}, {right, y + 1}, {left, y + 1}}, entry.colour);
+    if (entry.mark == Entry::Mark::arrow)
+      arrow({left - 1, y - 2.5}, {right + 1, y - 2.5});
+    canvas_.text(entry.name, {left + 11, y}, Canvas::Align::left, legend_size, true);
+    for (const std::string &text : entry.texts) {
       const double room = left_margin + body_size + right_margin - left - 21 - column;
       const double fit = std::min(1., room / canvas_.text_width(text, legend_size));
       canvas_.text(text, {left + 19 + column, y}, Canvas::Align::left, fit * legend_size);
@@ -325,8 +384,8 @@ void Figure::legend() {
 
 double legend_height(const Result &result) {
   double lines = 0;
-  for (const SettingGroup &group : groups_of(result))
-    lines += static_cast<double>(texts_of(group).size());
+  for (const Entry &entry : entries_of(result))
+    lines += static_cast<double>(entry.texts.size());
   return lines * line_height + 8;
 }
 

@@ -23,12 +23,13 @@ class Figure {
   /// The body in one colour with the sides of its cells.
   void mesh();
   void outline();
-  /// Boundaries in the colours of their conditions, with a legend.
+  /// Boundaries in the colours of their conditions and arrows along the poling, with a legend.
   void setting();
   void write(const std::filesystem::path &path) { canvas_.write(path); }
 
  private:
   Canvas::Point on_paper(std::uint32_t node) const;
+  Canvas::Point on_paper(const output::Vector &place) const;
   void axes();
   void solid_axes_cross();
   void axis(int direction, const char *label);
@@ -37,6 +38,8 @@ class Figure {
   void paint_sides(const Boundary &boundary, const Colour &colour);
   void paint_faces(Raster &raster, const Boundary &boundary, const Colour &colour) const;
   void colour_bar(const ColourRange &range, const std::string &unit, bool clipped);
+  void poling();
+  void arrow(const Canvas::Point &tail, const Canvas::Point &tip);
   void legend();
 
   const Result &result_;

@@ -9,14 +9,16 @@
 #include "tourmaline/output/atomic_file.h"
 #include "tourmaline/report/colour_map.h"
 #include "tourmaline/report/packing.h"
+#include "tourmaline/report/poling.h"
 #include "tourmaline/report/result.h"
+#include "tourmaline/report/setting.h"
 
 namespace tourmaline::report {
 namespace {
 
 using Json = nlohmann::json;
 
-/// Of one page, on the skin: some 25 MB in a browser. 50 states of 64 x 64 squares have 11 million.
+/// Of one page, on the skin: some 25 MB in a browser. 50 states of 64 x 64 squares have 10 million.
 constexpr std::size_t most_numbers = 12'000'000;
 
 template <typename Number>
@@ -78,6 +80,20 @@ Json boundary_json(Packing &packing, const Boundary &boundary) {
           {"nodes", packing.integers(nodes)}};
 }
 
+/// Tail and tip of each arrow; null where nothing is poled.
+Json poling_json(Packing &packing, const Result &result) {
+  std::vector<float> ends;
+  for (const PolingArrow &arrow : poling_arrows(result))
+    for (const output::Vector &end : {arrow.tail, arrow.tip})
+      ends.insert(ends.end(), end.begin(), end.end());
+  return ends.empty() ? Json() : packing.floats(ends, 1);
+}
+
+/// Where the poling is the same everywhere, the arrows say all.
+bool is_shown(const Field &field, const Result &result) {
+  return field.name != "poling" || result.field("region");
+}
+
 Json result_json(Packing &packing, const Result &result) {
   Json json{{"name", result.name},
             {"title", result.asked ? result.asked->title : ""},
@@ -88,13 +104,18 @@ Json result_json(Packing &packing, const Result &result) {
             {"times", result.times},
             {"steps", result.steps},
             {"fields", Json::array()},
-            {"boundaries", Json::array()}};
+            {"boundaries", Json::array()},
+            {"parts", Json::array()}};
   if (json["summary"].is_discarded())
     json["summary"] = nullptr;
   if (!result.points.empty())
     json["grid"] = grid_json(packing, result);
   for (const Field &field : result.fields)
-    json["fields"].push_back(field_json(packing, field, result.times.size()));
+    if (is_shown(field, result))
+      json["fields"].push_back(field_json(packing, field, result.times.size()));
+  json["poling"] = poling_json(packing, result);
+  for (const Part &part : parts_of(result))
+    json["parts"].push_back({{"name", part.name}, {"material", part.material}});
   for (const Boundary &boundary : result.boundaries)
     json["boundaries"].push_back(boundary_json(packing, boundary));
   if (result.history)

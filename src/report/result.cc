@@ -10,6 +10,7 @@
 #include "tourmaline/case/reader.h"
 #include "tourmaline/error.h"
 #include "tourmaline/report/field_file.h"
+#include "tourmaline/report/recorded_mesh.h"
 #include "tourmaline/report/text_file.h"
 #include "tourmaline/report/xml.h"
 
@@ -39,10 +40,12 @@ void read_case(Result &result, const fs::path &folder) {
     return;
   result.resolved = read_text_file(folder / "resolved.toml");
   try {
-    result.asked = casefile::read_file(folder / "resolved.toml");
+    result.asked =
+        casefile::read_file(folder / "resolved.toml", {},
+                            [&](const casefile::MeshCase &) { return recorded_mesh(folder); });
     result.dimension = result.asked->dimension;
   } catch (const CaseError &error) {
-    // The numbers can be shown without: a case of another version, or a mesh that has moved.
+    // The numbers can be shown without: a case of another version, or a run that failed.
     result.remarks.push_back(std::string("The conditions are not shown: ") + error.what());
   }
 }

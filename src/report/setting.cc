@@ -67,4 +67,24 @@ std::vector<SettingGroup> groups_of(const Result &result) {
   return groups;
 }
 
+namespace {
+
+std::string name_of(const casefile::RegionCase &region) {
+  std::string names;
+  for (const std::string &name : region.on)
+    names += (names.empty() ? "" : ", ") + name;
+  return region.inside ? region.inside->text() : names;
+}
+
+}  // namespace
+
+std::vector<Part> parts_of(const Result &result) {
+  std::vector<Part> parts;
+  if (!result.asked || result.asked->regions.size() < 2)
+    return parts;
+  for (const casefile::RegionCase &region : result.asked->regions)
+    parts.push_back({name_of(region), region.material.library.value_or("material of the case")});
+  return parts;
+}
+
 }  // namespace tourmaline::report

@@ -46,6 +46,11 @@ Triple deformed(const Result &result, std::size_t node, double scale) {
 
 }  // namespace
 
+std::array<double, 3> seen(int dimension, const output::Vector &vector) {
+  const auto rows = directions(dimension);
+  return {dot(rows[0], vector), dot(rows[1], vector), dot(rows[2], vector)};
+}
+
 std::array<std::array<double, 3>, 3> solid_axes() {
   const auto rows = directions(3);
   std::array<Triple, 3> axes;

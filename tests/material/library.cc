@@ -102,6 +102,44 @@ TEST(Library, ConvertedCrystalsHaveThePublishedStrainChargeConstants) {
   EXPECT_NEAR((quartz.piezoelectric * s)(0, 0), 2.31e-12, 0.01e-12);
 }
 
+// A slip in one number would spoil these: what follows from all of them is round.
+TEST(Library, PolyvinylideneFluorideHasRoundStrainCoefficients) {
+  const Constants c = electric("PVDF");
+  const Piezoelectric d = c.piezoelectric * c.stiffness.inverse();
+  EXPECT_NEAR(d(2, 0), 21e-12, 1e-15);
+  EXPECT_NEAR(d(2, 1), 1.5e-12, 1e-15);
+  EXPECT_NEAR(d(2, 2), -32.5e-12, 1e-15);
+  EXPECT_NEAR(d(1, 3), -23e-12, 1e-15);
+  EXPECT_NEAR(d(0, 4), -27e-12, 1e-15);
+  const double rounded_vacuum = 8.85e-12;
+  EXPECT_NEAR(c.permittivity(0, 0) / rounded_vacuum, 6.1, 1e-9);
+  EXPECT_NEAR(c.permittivity(1, 1) / rounded_vacuum, 7.5, 1e-9);
+  EXPECT_NEAR(c.permittivity(2, 2) / rounded_vacuum, 6.7, 1e-9);
+}
+
+// Geesaman, Hearst, Power (1964): charge over pressure, along axis 3 and from all sides.
+TEST(Library, TourmalineIsAsSensitiveAsMeasured) {
+  const Constants c = electric("tourmaline");
+  const Piezoelectric d = c.piezoelectric * c.stiffness.inverse();
+  EXPECT_NEAR(d(2, 2) / 1.69e-12, 1, 0.09);
+  EXPECT_NEAR((d(2, 0) + d(2, 1) + d(2, 2)) / 2.39e-12, 1, 0.06);
+}
+
+// Auld (1973), appendix 2, has 165.7, 63.9 and 79.56 GPa.
+TEST(Library, AuthorsAgreeOnSilicon) {
+  const Constants c = electric("silicon");
+  EXPECT_NEAR(c.stiffness(0, 0) / 165.7e9, 1, 1e-3);
+  EXPECT_NEAR(c.stiffness(0, 1) / 63.9e9, 1, 1e-3);
+  EXPECT_NEAR(c.stiffness(3, 3) / 79.56e9, 1, 1e-3);
+}
+
+// Two molecules in a cell of 3.111 and 4.978 angstrom weigh what the entry says.
+TEST(Library, AluminiumNitrideHasTheDensityOfItsLattice) {
+  const double mass = 2 * (26.98154 + 14.0067) * 1.66054e-27;
+  const double volume = std::sqrt(0.75) * 3.111e-10 * 3.111e-10 * 4.978e-10;
+  EXPECT_NEAR(with_entry(named("AlN")).constants.at("density"), mass / volume, 5);
+}
+
 TEST(Library, CouplingFactorsAreThePublishedOnes) {
   EXPECT_THAT(describe(named("PZT-5H")),
               AllOf(HasSubstr("k33  0.75"), HasSubstr("k31  0.38"), HasSubstr("k15  0.67")));
@@ -250,10 +288,14 @@ TEST(Composition, TurnsThePolingWithThePlace) {
   asked.material.poling = {3., 4.};
   const Composition<2> fixed(asked);
   EXPECT_FALSE(fixed.varies());
+  EXPECT_TRUE(fixed.is_polar());
+  EXPECT_LT((fixed.poling(0, {}) - Vector(0.6, 0.8, 0)).norm(), 1e-15);
   EXPECT_LT((radial.at(0, {6, 8, 0}).stiffness - fixed.at(0, {}).stiffness).norm(), 1);
   EXPECT_LT((radial.at(0, {6, 8, 0}).piezoelectric - fixed.at(0, {}).piezoelectric).norm(), 1e-12);
   EXPECT_LT((radial.poling(0, {6, 8, 0}) - Vector(0.6, 0.8, 0)).norm(), 1e-15);
   EXPECT_THROW(radial.at(0, {0, 0, 0}), CaseError);
+  asked.material = named("steel");
+  EXPECT_FALSE(Composition<2>(asked).is_polar());
 }
 
 }  // namespace

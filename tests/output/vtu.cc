@@ -16,6 +16,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 template <std::size_t n>
 std::vector<double> flat(const std::vector<std::array<double, n>> &list) {
@@ -71,6 +72,25 @@ TEST_F(Vtu, HexahedraHaveEightNodesAndTheirOwnType) {
   const std::string text = written();
   EXPECT_THAT(array_in<std::int64_t>(text, "offsets"), ElementsAre(8));
   EXPECT_THAT(array_in<std::uint8_t>(text, "types"), ElementsAre(12));
+}
+
+TEST_F(Vtu, RegionAndPolingAreThereWhereTheyAreTold) {
+  for (const char *array : {"region", "poling"})
+    EXPECT_THAT(written(), Not(HasSubstr(array)));
+  cells.poling.assign(grid.n_cells(), {0.6, 0.8, 0});
+  EXPECT_EQ(array_in<double>(written(), "poling"), flat(cells.poling));
+  EXPECT_THAT(written(), Not(HasSubstr("region")));
+  cells.region.assign(grid.n_cells(), 2);
+  EXPECT_EQ(array_in<double>(written(), "region"), cells.region);
+}
+
+TEST(Pvtu, DeclaresTheArraysOfItsPieces) {
+  const std::vector<std::string> pieces{"result_0001_0.vtu", "result_0001_1.vtu"};
+  EXPECT_THAT(pvtu_text(1, pieces), AllOf(Not(HasSubstr("region")), Not(HasSubstr("poling"))));
+  EXPECT_THAT(pvtu_text(1, pieces, {.region = false, .poling = true}),
+              AllOf(Not(HasSubstr("region")), HasSubstr("Name=\"poling\"")));
+  EXPECT_THAT(pvtu_text(1, pieces, {.region = true, .poling = true}),
+              AllOf(HasSubstr("Name=\"region\""), HasSubstr("Name=\"poling\"")));
 }
 
 TEST_F(Vtu, ComponentsAreNamedAsParaViewOrdersThem) {

@@ -77,6 +77,15 @@ TEST_F(Figures, AnUnknownFieldIsAnsweredWithTheKnownOnes) {
   EXPECT_THROW(figure_format("gif"), CaseError);
 }
 
+TEST_F(Figures, TheSettingShowsThePoling) {
+  const auto setting = [&](const std::string &poling) {
+    const ResultFolder turned({"time.steps=1", "material.poling=" + poling}, "[8, 8]");
+    return output::content_of(
+        write_figures(turned.path(), out.path(), {FigureFormat::png, {}, {}}).front());
+  };
+  EXPECT_FALSE(setting("[0, 1]") == setting("[0, -1]"));
+}
+
 TEST(FiguresOfARunWithoutFields, AreRefusedWithTheReason) {
   const ResultFolder run({"time.steps=1", "output.fields=false"});
   EXPECT_THAT([&] { write_figures(run.path(), run.path() / "figures", {}); },

@@ -8,6 +8,7 @@
 #include "../output/temporary_folder.h"
 #include "result_folder.h"
 #include "tourmaline/error.h"
+#include "tourmaline/mesh/gmsh.h"
 
 namespace tourmaline::report {
 namespace {
@@ -57,6 +58,38 @@ TEST(Page, EveryBoundaryStandsThereWithItsConditionsAndFacets) {
   EXPECT_EQ(boundaries["right"]["conditions"][1], "φ = 0 V");
   EXPECT_EQ(boundaries["top"]["kind"], "traction");
   EXPECT_EQ(boundaries["bottom"]["kind"], "free");
+}
+
+TEST(Page, ThePolingStandsThereAsArrows) {
+  const auto result = results_in(ResultFolder(quick).content("report.html"))[0];
+  EXPECT_EQ(result["poling"]["columns"], 6 * 36);
+  EXPECT_TRUE(result["parts"].empty());
+  for (const auto &field : result["fields"])
+    EXPECT_NE(field["name"], "poling");  // it is the same everywhere
+}
+
+TEST(Page, ACaseWithAMeshFileIsShownWithoutThatFile) {
+  const output::TemporaryFolder run, elsewhere;
+  const std::filesystem::path cases =
+      std::filesystem::path(TOURMALINE_SOURCE_DIR) / "cases/devices";
+  for (const char *file : {"bimorph.toml", "bimorph.geo"})
+    std::filesystem::copy(cases / file, elsewhere / file);
+  solve::simulate(
+      casefile::read_file(elsewhere / "bimorph.toml", {"time.steps=1", "output.report=false"},
+                          mesh::read_mesh_file),
+      run.path(), true);
+  std::filesystem::remove(elsewhere / "bimorph.geo");
+  write_page({run.path()}, run / "report.html");
+  const auto result = results_in(output::content_of(run / "report.html"))[0];
+  EXPECT_TRUE(result["remarks"].empty()) << result["remarks"];
+  std::map<std::string, nlohmann::json> conditions;
+  for (const auto &boundary : result["boundaries"])
+    conditions[boundary["name"]] = boundary["conditions"];
+  EXPECT_EQ(conditions["pad"][1], "Tresca friction, S = 2000 N/m²");
+  EXPECT_EQ(conditions["upper face"][0], "φ = 50*t V");
+  ASSERT_EQ(result["parts"].size(), 2U);
+  EXPECT_EQ(result["parts"][1]["name"], "lower");
+  EXPECT_EQ(result["parts"][1]["material"], "BaTiO3-Liu2014");
 }
 
 TEST(Page, TheFrictionBoundIsEvaluatedWhereAndWhenItActs) {

@@ -223,12 +223,17 @@ export class Body {
     return best;
   }
 
-  /** Normalised device coordinates of all nodes. */
-  project(camera: THREE.Camera): Float32Array {
+  /** Places of the undeformed body [m] in the scene. */
+  inScene(points: Float32Array): Float32Array {
+    return points.map((v, i) => (v - this.centre[i % 3]) / this.size);
+  }
+
+  /** Normalised device coordinates of places in the scene, of all nodes when none are given. */
+  project(camera: THREE.Camera, places = this.places): Float32Array {
     const m = new THREE.Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse).elements;
-    const result = new Float32Array(this.places.length);
+    const result = new Float32Array(places.length);
     for (let i = 0; i < result.length; i += 3) {
-      const x = this.places[i], y = this.places[i + 1], z = this.places[i + 2];
+      const x = places[i], y = places[i + 1], z = places[i + 2];
       for (let r = 0; r < 3; ++r) result[i + r] = m[r] * x + m[4 + r] * y + m[8 + r] * z + m[12 + r];
     }
     return result;

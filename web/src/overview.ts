@@ -68,7 +68,7 @@ export class Overview {
     };
     if (result.boundaries.length > 0)
       add('Physical setting', new Picture(body, camera, coloursOf(groups)),
-        () => ({ state: 0, scale: 0, mesh: false, component: '', range: even }), legend(groups));
+        () => ({ state: 0, scale: 0, mesh: false, component: '', range: even }), legend(groups, result));
     const plain = result.field('displacement');
     if (plain)
       add('Deformed mesh', new Picture(body, camera),

@@ -1,4 +1,5 @@
 // One picture of a body: a canvas with the field, the mesh and, in the plane, the boundaries.
+import { arrow } from './arrow';
 import { Body, Look } from './body';
 import { Camera, draw, fitted } from './stage';
 import { element } from './dom';
@@ -18,6 +19,17 @@ export class Picture {
     draw(this.body.scene, this.camera.three, this.canvas);
     if (this.boundaries && !solid) this.outline(this.boundaries, 3.5 * size.ratio);
     else if (!solid) this.outline(undefined, size.ratio);
+    if (this.boundaries) this.poling(size.ratio);
+  }
+
+  // Only places that are seen from the first position of the camera have an arrow, and the setting keeps it.
+  private poling(ratio: number) {
+    const { body, canvas } = this;
+    if (!body.result.poling) return;
+    const ends = body.project(this.camera.three, body.inScene(body.result.poling));
+    const at = (i: number): [number, number] =>
+      [((ends[i] + 1) / 2) * canvas.width, ((1 - ends[i + 1]) / 2) * canvas.height];
+    for (let i = 0; i < ends.length; i += 6) arrow(canvas.getContext('2d')!, at(i), at(i + 3), ratio);
   }
 
   private outline(colours: Map<string, string> | undefined, width: number) {

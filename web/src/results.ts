@@ -14,6 +14,8 @@ interface PackedResult {
   steps: number[];
   fields: { name: string; unit: string; on: 'points' | 'cells'; components: string[]; values: Packed[] }[];
   boundaries: { name: string; kind: string; conditions: string[]; sizes: Packed; nodes: Packed }[];
+  parts: { name: string; material: string }[];
+  poling: Packed | null;
   grid?: Record<'points' | 'nodes' | 'cells' | 'triangles' | 'triangleCells' | 'edges', Packed>;
   history?: PackedTable;
   contact?: PackedTable;
@@ -119,6 +121,8 @@ export class Result {
   readonly fields: Field[];
   readonly grid?: Grid;
   readonly boundaries: Boundary[];
+  /** tail and tip [m] of arrows along the poling, six numbers each */
+  readonly poling?: Float32Array;
   readonly history?: Table;
   readonly contact?: Table;
   readonly frictionBound?: Float32Array;
@@ -135,6 +139,7 @@ export class Result {
         edges: unpackIntegers(packed.grid.edges),
       };
     this.boundaries = packed.boundaries.map((b) => ({ ...b, facets: facetsOf(b.sizes, b.nodes) }));
+    if (packed.poling) this.poling = unpack(packed.poling);
     if (packed.history) this.history = new Table(packed.history);
     if (packed.contact) this.contact = new Table(packed.contact);
     if (packed.frictionBound) this.frictionBound = unpack(packed.frictionBound);
@@ -145,6 +150,8 @@ export class Result {
   get dimension(): 2 | 3 { return this.packed.dimension; }
   get caseText(): string { return this.packed.case; }
   get summary(): any | null { return this.packed.summary; }
+  /** Regions and what they consist of; empty where the body is one. */
+  get parts(): { name: string; material: string }[] { return this.packed.parts; }
   get remarks(): string[] { return this.packed.remarks; }
   get steps(): number[] { return this.packed.steps; }
 

@@ -1,6 +1,7 @@
 // The physical setting: boundaries coloured by their conditions, with a legend.
 import { Result } from './results';
 import { furtherColours, palette } from './colours';
+import { arrowMark } from './arrow';
 import { element } from './dom';
 
 export interface Group { colour: string; names: string[]; conditions: string[] }
@@ -32,9 +33,13 @@ export function coloursOf(groups: Group[]): Map<string, string> {
   return new Map(groups.flatMap((g) => g.names.map((name): [string, string] => [name, g.colour])));
 }
 
-export function legend(groups: Group[]): HTMLElement {
-  return element('ul', { class: 'legend' }, ...groups.map((g) => element('li', {},
-    element('span', { class: 'swatch', style: `background:${g.colour}` }),
-    element('span', {}, element('b', {}, g.names.join(', ')), ' ',
-      g.conditions.join('; ') || 'no condition'))));
+/** Boundaries, the arrows if there are any, regions if there are several. */
+export function legend(groups: Group[], result: Result): HTMLElement {
+  const line = (mark: HTMLElement, name: string, said: string) =>
+    element('li', {}, mark, element('span', {}, element('b', {}, name), ' ', said));
+  return element('ul', { class: 'legend' },
+    ...groups.map((g) => line(element('span', { class: 'swatch', style: `background:${g.colour}` }),
+      g.names.join(', '), g.conditions.join('; ') || 'no condition')),
+    result.poling && line(arrowMark(), 'poling', 'direction of the crystal axis 3'),
+    ...result.parts.map((part) => line(element('span', { class: 'mark' }), part.name, part.material)));
 }

@@ -360,6 +360,42 @@ await inBrowser(desktop, async (context) => {
   await test('of a solid body nothing is complained of', () => assert.deepEqual(complaints, []));
 });
 
+/** The setting and the deformed mesh of a page, in light and dark. */
+async function pictures(file) {
+  const seen = {};
+  for (const colorScheme of ['light', 'dark'])
+    await inBrowser({ ...desktop, colorScheme }, async (context) => {
+      const { tab, complaints } = await open(context, file);
+      seen[colorScheme] = { setting: await pixels(tab, '.card canvas', 0), mesh: await pixels(tab, '.card canvas', 1) };
+      seen.legend = await tab.locator('.card.setting .legend').textContent();
+      seen.complaints = [...(seen.complaints ?? []), ...complaints];
+    });
+  return seen;
+}
+
+for (const [what, out, names] of [
+  ['a strip of two layers', run('bimorph', 'devices/bimorph.toml', 'time.steps=1'), ['poling', 'upper', 'lower', 'BaTiO3-Liu2014']],
+  ['a solid body', block, ['poling']]])
+  await test(`the setting of ${what} has arrows along the poling, in light and dark`, async () => {
+    const text = readFileSync(join(out, 'report.html'), 'utf8');
+    const without = join(out, 'without.html');
+    writeFileSync(without, text.replace(/"poling":\{[^}]*\}/, '"poling":null'));
+    const [arrows, none] = [await pictures(join(out, 'report.html')), await pictures(without)];
+    for (const theme of ['light', 'dark']) {
+      assert.notEqual(arrows[theme].setting, none[theme].setting, theme);
+      assert.equal(arrows[theme].mesh, none[theme].mesh, theme);
+    }
+    for (const name of names) assert.ok(arrows.legend.includes(name), `the legend lacks "${name}": ${arrows.legend}`);
+    assert.ok(!none.legend.includes('poling'));
+    assert.deepEqual([...arrows.complaints, ...none.complaints], []);
+  });
+for (const layers of [[1, -1], [-1, 1]]) run(`poled${layers[0]}`, 'devices/bimorph.toml', 'time.steps=1',
+  ...layers.map((up, i) => `region[${i}].material.poling=[0, ${up}]`));
+await test('arrows turn with the poling', async () => {
+  const [one, other] = [await pictures(join(folder, 'poled1/report.html')), await pictures(join(folder, 'poled-1/report.html'))];
+  assert.notEqual(one.light.setting, other.light.setting);
+});
+
 rmSync(folder, { recursive: true, force: true });
 console.log(failures === 0 ? 'all is as it should be' : `${failures} claims are wrong`);
 process.exit(failures === 0 ? 0 : 1);

@@ -33,8 +33,10 @@ class Composition {
   Vector poling(std::size_t region, const Place &centre) const;
 
   double reference_temperature() const { return parts_.front().crystal.reference_temperature; }
-  /// Whether there is anything to tell of regions and poling.
+  /// Whether materials or poling differ from place to place.
   bool varies() const;
+  /// Whether `poling` is anywhere not zero.
+  bool is_polar() const;
 
  private:
   struct Part {
@@ -42,6 +44,7 @@ class Composition {
     Constants crystal;
     std::optional<Constants> everywhere;  // in the axes of the body, where these do not vary
     std::optional<BodyConstants<dim>> restricted_everywhere;
+    std::optional<Vector> poling_everywhere;
   };
 
   void add(const casefile::MaterialCase &asked);

@@ -61,7 +61,7 @@ struct CellFields {
   std::vector<SymmetricTensor> strain;        // 1
   std::vector<Vector> electric_displacement;  // C/m^2
   std::vector<Vector> heat_flux;              // W/m^2
-  // Only where materials or poling vary; empty otherwise.
+  // Empty where there is nothing to tell: of one material, of nothing poled.
   std::vector<double> region;  // index of the case's [[region]]
   std::vector<Vector> poling;  // unit vector; 0 where nothing is piezo- or pyroelectric
 };

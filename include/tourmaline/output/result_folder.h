@@ -89,7 +89,7 @@ class ResultFolder {
   int dimension_;
   Piece piece_;
   std::optional<VtuWriter> vtu_;
-  bool regions_ = false;  // whether the field files tell regions and poling
+  ConstantArrays constant_;
   std::vector<PvdEntry> series_;
   std::vector<std::string> unsynced_;  // field files since the last checkpoint
   std::unique_ptr<AtomicFile> contact_, history_;

@@ -30,8 +30,14 @@ class VtuWriter {
   std::string topology_;  // the elements <Points> and <Cells>
 };
 
-/// The file (.pvtu) that joins the pieces of one step, given by their names; `regions` says whether
-/// they hold regions and poling.
-std::string pvtu_text(double time, std::span<const std::string> pieces, bool regions = false);
+/// Which of the arrays that not every case has the field files hold.
+struct ConstantArrays {
+  bool region = false, poling = false;
+};
+
+/// The file (.pvtu) that joins the pieces of one step, given by their names, and the arrays in
+/// them.
+std::string pvtu_text(double time, std::span<const std::string> pieces,
+                      const ConstantArrays &constant = {});
 
 }  // namespace tourmaline::output

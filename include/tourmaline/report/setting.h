@@ -18,4 +18,12 @@ struct SettingGroup {
 /// Contact first, then prescribed displacements, tractions, the rest.
 std::vector<SettingGroup> groups_of(const Result &result);
 
+/// A region and what it consists of, in words for a legend.
+struct Part {
+  std::string name, material;
+};
+
+/// The regions in the order of the case; empty where the body is one.
+std::vector<Part> parts_of(const Result &result);
+
 }  // namespace tourmaline::report

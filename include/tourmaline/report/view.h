@@ -21,6 +21,9 @@ struct View {
 /// The last state that `result` holds, displacements `scale` times as large.
 View view_of(const Result &result, double scale);
 
+/// A vector of a body in the axes of its view: to the right, up, away from the eye.
+std::array<double, 3> seen(int dimension, const output::Vector &vector);
+
 /// The directions of the axes x, y, z in the view of a solid body.
 std::array<std::array<double, 3>, 3> solid_axes();
 

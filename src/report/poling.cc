@@ -1,0 +1,266 @@
+#include "tourmaline/report/poling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "tourmaline/report/raster.h"
+
+namespace tourmaline::report {
+namespace {
+
+using Triple = std::array<double, 3>;
+
+constexpr double wanted = 36;  // arrows in all parts
+constexpr std::size_t fewest = 6;
+constexpr double pixels = 400;                  // along the largest side of the picture
+constexpr double shortest = 0.045 * pixels;     // an arrow that can still be read
+constexpr double of_box = 0.7, of_part = 0.85;  // how much of its room an arrow fills
+
+constexpr int nothing = -1;
+
+struct Pixel {
+  int x, y;
+};
+using Area = std::vector<Pixel>;  // of one part, from top to bottom, each line from left to right
+
+/// What a cell of the skin has of a field in the last state, 0 where there is no such component.
+double value_at(const Result &result, const char *name, const char *component, std::size_t cell) {
+  const Field *field = result.field(name);
+  for (std::size_t c = 0; field && c < field->components.size(); ++c)
+    if (field->components[c] == component)
+      return field->values[c].at(field->values[c].size() - result.skin.cells.size() + cell);
+  return 0;
+}
+
+/// By the cells of the skin.
+std::vector<Triple> polings_of(const Result &result) {
+  std::vector<Triple> polings;
+  for (std::size_t cell = 0; cell < result.skin.cells.size(); ++cell)
+    polings.push_back({value_at(result, "poling", "x", cell), value_at(result, "poling", "y", cell),
+                       value_at(result, "poling", "z", cell)});
+  return polings;
+}
+
+/// By the cells of the skin: the region, or `nothing` where nothing is poled.
+std::vector<int> regions_of(const Result &result, const std::vector<Triple> &polings) {
+  std::vector<int> regions;
+  for (std::size_t cell = 0; cell < polings.size(); ++cell)
+    regions.push_back(polings[cell] == Triple{}
+                          ? nothing
+                          : static_cast<int>(value_at(result, "region", "", cell)));
+  return regions;
+}
+
+/// Which triangle is seen at each pixel, and what stands in its cell.
+class Picture {
+ public:
+  explicit Picture(const Result &result)
+      : result_(result),
+        polings_(polings_of(result)),
+        regions_(regions_of(result, polings_)),
+        view_(view_of(result, 0)),
+        per_metre_(pixels / std::max({view_.width(), view_.height(), 1e-300})),
+        raster_(view_, per_metre_) {
+    for (std::size_t i = 0; i < result.skin.triangles.size(); ++i) {
+      const auto &t = result.skin.triangles[i];
+      const Colour number{static_cast<std::uint8_t>(i >> 16), static_cast<std::uint8_t>(i >> 8),
+                          static_cast<std::uint8_t>(i)};
+      raster_.triangle(view_.places[t[0]], view_.places[t[1]], view_.places[t[2]],
+                       [&](double, double, double) { return number; });
+    }
+  }
+
+  /// The poled parts by the index of their region.
+  std::map<int, Area> parts() const {
+    std::map<int, Area> parts;
+    for (int y = 0; y < raster_.height(); ++y)
+      for (int x = 0; x < raster_.width(); ++x)
+        if (const int region = region_at(x, y); region != nothing)
+          parts[region].push_back({x, y});
+    return parts;
+  }
+
+  /// `nothing` also beside the body.
+  int region_at(int x, int y) const {
+    if (x < 0 || y < 0 || x >= raster_.width() || y >= raster_.height() || pixel(x, y) == 0)
+      return nothing;
+    return regions_[result_.skin.triangle_cells[triangle_at(x, y)]];
+  }
+
+  const Triple &poling_at(const Pixel &at) const {
+    return polings_[result_.skin.triangle_cells[triangle_at(at.x, at.y)]];
+  }
+
+  /// The place on the body that is seen there.
+  Triple place_at(const Pixel &at) const {
+    const auto &t = result_.skin.triangles[triangle_at(at.x, at.y)];
+    const auto &a = view_.places[t[0]], &b = view_.places[t[1]], &c = view_.places[t[2]];
+    const double x = view_.low[0] + (at.x + 0.5) / per_metre_ - a[0],
+                 y = view_.high[1] - (at.y + 0.5) / per_metre_ - a[1];
+    const double area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    const double v = (x * (c[1] - a[1]) - y * (c[0] - a[0])) / area,
+                 w = ((b[0] - a[0]) * y - (b[1] - a[1]) * x) / area;
+    Triple place;
+    for (int i = 0; i < 3; ++i)
+      place[i] = (1 - v - w) * result_.points[t[0]][i] + v * result_.points[t[1]][i] +
+                 w * result_.points[t[2]][i];
+    return place;
+  }
+
+  /// How long an arrow amid that place can be until an end leaves its part, at most `most`
+  /// [pixels].
+  double room_at(const Pixel &at, double most) const {
+    const Triple along = seen(result_.dimension, poling_at(at));
+    const int region = region_at(at.x, at.y);
+    for (int half = 0; half < most / 2; ++half)
+      for (const int side : {-half, half})
+        if (region_at(static_cast<int>(std::floor(at.x + 0.5 + side * along[0])),
+                      static_cast<int>(std::floor(at.y + 0.5 - side * along[1]))) != region)
+          return 2 * half;
+    return most;
+  }
+
+  double per_metre() const { return per_metre_; }
+
+ private:
+  std::uint32_t pixel(int x, int y) const {
+    return raster_.pixels()[static_cast<std::size_t>(y) * raster_.width() + x];
+  }
+  std::size_t triangle_at(int x, int y) const { return pixel(x, y) & 0xffffffU; }
+
+  const Result &result_;
+  std::vector<Triple> polings_;
+  std::vector<int> regions_;
+  View view_;
+  double per_metre_;
+  Raster raster_;
+};
+
+/// A part of a picture in boxes of about `size` pixels, all alike, that fill its frame.
+class Boxes {
+ public:
+  /// Of an odd part they begin half a box earlier, so that arrows of neighbours do not meet.
+  Boxes(const Area &part, double size, bool odd) {
+    int right = 0, bottom = 0;
+    left_ = top_ = std::numeric_limits<int>::max();
+    for (const Pixel &p : part) {
+      left_ = std::min(left_, p.x);
+      right = std::max(right, p.x + 1);
+      top_ = std::min(top_, p.y);
+      bottom = std::max(bottom, p.y + 1);
+    }
+    const double across = std::max(1., std::round((right - left_) / size)),
+                 down = std::max(1., std::round((bottom - top_) / size));
+    width_ = (right - left_) / across;
+    height_ = (bottom - top_) / down;
+    shift_x_ = odd && across > 1 ? 0.5 : 0;
+    shift_y_ = odd && down > 1 ? 0.5 : 0;
+    for (const Pixel &p : part)
+      boxes_[{static_cast<int>((p.y + 0.5 - top_) / height_ + shift_y_),
+              static_cast<int>((p.x + 0.5 - left_) / width_ + shift_x_)}]
+          .push_back(p);
+  }
+
+  std::size_t size() const { return boxes_.size(); }
+  double side() const { return std::max(width_, height_); }
+
+  /// The middle of what lies in each box, without those that hold little.
+  std::vector<Pixel> middles() const {
+    std::size_t most = 0;
+    for (const auto &[at, inside] : boxes_)
+      most = std::max(most, inside.size());
+    std::vector<Pixel> middles;
+    for (const auto &[at, inside] : boxes_)
+      if (4 * inside.size() >= most)
+        middles.push_back(middle_of(inside));
+    return middles;
+  }
+
+ private:
+  /// The pixel of the part nearest to the mean, which may lie beside a curved one.
+  static Pixel middle_of(const Area &inside) {
+    double x = 0, y = 0;
+    for (const Pixel &p : inside) {
+      x += p.x;
+      y += p.y;
+    }
+    x /= static_cast<double>(inside.size());
+    y /= static_cast<double>(inside.size());
+    const auto away = [&](const Pixel &p) { return std::hypot(p.x - x, p.y - y); };
+    return *std::min_element(inside.begin(), inside.end(),
+                             [&](auto &a, auto &b) { return away(a) < away(b); });
+  }
+
+  int left_, top_;
+  double width_, height_, shift_x_, shift_y_;
+  std::map<std::pair<int, int>, Area> boxes_;
+};
+
+/// The longer side of the part's frame.
+double extent_of(const Area &part) {
+  const auto side = [&](int Pixel::*axis) {
+    const auto [low, high] = std::minmax_element(
+        part.begin(), part.end(), [&](auto &a, auto &b) { return a.*axis < b.*axis; });
+    return (*high).*axis + 1 - (*low).*axis;
+  };
+  return std::max(side(&Pixel::x), side(&Pixel::y));
+}
+
+Boxes boxes_of(const Area &part, double number, bool odd) {
+  const double most = extent_of(part) / static_cast<double>(fewest);
+  double size = std::max(std::sqrt(static_cast<double>(part.size()) / number),
+                         std::min(1.5 * shortest, most));  // beside an arrow there is room
+  while (true) {
+    Boxes boxes(part, size, odd);
+    if (static_cast<double>(boxes.size()) <= 1.6 * number)
+      return boxes;
+    size *= 1.1;  // a thin, curved part touches many
+  }
+}
+
+/// Arrows of one part have one length, for which three of four have room.
+void add_arrows(const Picture &picture, const Area &part, double number, bool odd,
+                std::vector<PolingArrow> &arrows) {
+  const Boxes boxes = boxes_of(part, number, odd);
+  const std::vector<Pixel> middles = boxes.middles();
+  std::vector<double> rooms;
+  rooms.reserve(middles.size());
+  for (const Pixel &p : middles)
+    rooms.push_back(picture.room_at(p, boxes.side() * of_box / of_part));
+  std::nth_element(rooms.begin(), rooms.begin() + rooms.size() / 4, rooms.end());
+  const double room = of_part * rooms[rooms.size() / 4];
+  const double length = std::max(room, shortest) / picture.per_metre();
+  // One that is longer than its part is thick begins in the part to which it belongs.
+  const double before = room < shortest ? 0 : 0.5;
+  for (const Pixel &p : middles) {
+    const Triple place = picture.place_at(p), along = picture.poling_at(p);
+    PolingArrow arrow;
+    for (int i = 0; i < 3; ++i) {
+      arrow.tail[i] = place[i] - before * length * along[i];
+      arrow.tip[i] = arrow.tail[i] + length * along[i];
+    }
+    arrows.push_back(arrow);
+  }
+}
+
+}  // namespace
+
+std::vector<PolingArrow> poling_arrows(const Result &result) {
+  std::vector<PolingArrow> arrows;
+  if (!result.field("poling") || result.skin.triangles.size() > 0xffffffU)
+    return arrows;
+  const Picture picture(result);
+  const std::map<int, Area> parts = picture.parts();
+  double all = 0;
+  for (const auto &[region, part] : parts)
+    all += static_cast<double>(part.size());
+  for (const auto &[region, part] : parts)
+    add_arrows(picture, part,
+               std::max<double>(fewest, wanted * static_cast<double>(part.size()) / all),
+               region % 2 == 1, arrows);
+  return arrows;
+}
+
+}  // namespace tourmaline::report
