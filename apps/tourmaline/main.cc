@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tourmaline/case/json_schema.h"
 #include "tourmaline/case/nearest.h"
 #include "tourmaline/case/reader.h"
 #include "tourmaline/case/reference.h"
@@ -153,6 +154,12 @@ void add_reference(CLI::App &app) {
   });
 }
 
+void add_schema(CLI::App &app) {
+  app.add_subcommand("schema", "print the JSON Schema of the case file, for editors")->callback([] {
+    std::cout << tourmaline::casefile::json_schema();
+  });
+}
+
 // CLI11 says of a misspelt command only that one is missing.
 void check_command(const CLI::App &app, int argc, char **argv) {
   if (argc < 2 || argv[1][0] == '-')
@@ -183,6 +190,7 @@ int obey(int argc, char **argv) {
   add_report(app, asked);
   add_figures(app, asked);
   add_materials(app, asked);
+  add_schema(app);
   add_reference(app);
   check_command(app, argc, argv);
   try {
