@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "sweep_command.h"
 #include "tourmaline/case/json_schema.h"
 #include "tourmaline/case/nearest.h"
 #include "tourmaline/case/reader.h"
@@ -178,6 +179,7 @@ void check_command(const CLI::App &app, int argc, char **argv) {
 /// Throws what the commands throw; of the errors on the command line, CLI11's are reported here.
 int obey(int argc, char **argv) {
   Asked asked;
+  int status = done;
   CLI::App app("Frictional contact of thermo-piezoelectric bodies.", "tourmaline");
   app.set_version_flag("--version", "tourmaline " TOURMALINE_VERSION);
   app.set_help_all_flag("--help-all", "the help of all commands");
@@ -186,6 +188,7 @@ int obey(int argc, char **argv) {
     return std::string("tourmaline: ") + error.what() + "; see tourmaline --help\n";
   });
   add_run(app, asked);
+  add_sweep(app, status);
   add_check(app, asked);
   add_report(app, asked);
   add_figures(app, asked);
@@ -200,7 +203,7 @@ int obey(int argc, char **argv) {
   }
   if (!std::cout.flush())
     throw tourmaline::MachineError("the standard output cannot be written");
-  return done;
+  return status;
 }
 
 // Errors of the parts that the program is made of may run over several lines with empty ones
