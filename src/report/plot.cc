@@ -136,7 +136,8 @@ class Drawing {
 
   void panel(const Plot::Panel &panel, const Point &corner) {
     const std::vector<double> values = values_in(panel);
-    const Axis y(values, plot_.logarithmic && spans_decades(values));
+    // Counts, which have no unit, are not seen by their ratio.
+    const Axis y(values, plot_.logarithmic && !panel.unit.empty() && spans_decades(values));
     ordinate(panel, corner, y);
     abscissa(corner);
     for (std::size_t i = 0; i < panel.lines.size(); ++i)
