@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <set>
 #include <utility>
@@ -225,9 +226,9 @@ void add_switch(Json &schema, const Switch &turned, const MeshKind &kind, const 
   Json any = positions.front();
   for (const Json &position : positions)
     any = merged(any, position);
-  std::vector<Json> demands;
-  for (const Json &position : positions)
-    demands.push_back(beyond(any, position));
+  std::vector<Json> demands(positions.size());
+  std::transform(positions.begin(), positions.end(), demands.begin(),
+                 [&](const Json &position) { return beyond(any, position); });
   Json &table = schema.at(Json::json_pointer(turned.table));
   table = merged(table, any);
   if (!turned.choices.empty())

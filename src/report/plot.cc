@@ -115,9 +115,11 @@ class Drawing {
         x_(plot.abscissae, plot.logarithmic) {}
 
   void draw() {
-    for (std::size_t i = 0; i < plot_.panels.size(); ++i)
+    for (std::size_t i = 0; i < plot_.panels.size(); ++i) {
+      const std::size_t row = i / 2;
       panel(plot_.panels[i], {left_margin + panel_width * static_cast<double>(i % 2),
-                              top_margin + panel_height * static_cast<double>(i / 2)});
+                              top_margin + panel_height * static_cast<double>(row)});
+    }
     if (legend_rows_ > 0)
       legend();
   }
@@ -224,9 +226,10 @@ class Drawing {
     const double width = legend_places().first;
     const std::size_t n = plot_.line_names.size(), each = (n + legend_rows_ - 1) / legend_rows_;
     for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t row = i / each;
       const Point at{left_margin + width * static_cast<double>(i % each),
                      panel_height * static_cast<double>(rows_) +
-                         legend_line * (static_cast<double>(i / each) + 0.5)};
+                         legend_line * (static_cast<double>(row) + 0.5)};
       canvas_.lines({{at, {at[0] + 14, at[1]}}}, line_colour(i, n), 1.1);
       mark({at[0] + 7, at[1]}, line_colour(i, n));
       canvas_.text(plot_.line_names[i], {at[0] + 19, at[1] + 2.5}, Canvas::Align::left, 7.5);

@@ -110,9 +110,9 @@ std::vector<Output> possible_outputs(const std::vector<casefile::Case> &cases) {
 std::vector<Output> chosen_outputs(const std::vector<std::string> &names,
                                    const std::vector<casefile::Case> &cases) {
   const std::vector<Output> possible = possible_outputs(cases);
-  std::vector<std::string> all;
-  for (const Output &output : possible)
-    all.push_back(output.name);
+  std::vector<std::string> all(possible.size());
+  std::transform(possible.begin(), possible.end(), all.begin(),
+                 [](const Output &output) { return output.name; });
   std::vector<Output> chosen;
   for (const std::string &name : names.empty() ? usual_names(cases) : names) {
     const auto found = std::find(all.begin(), all.end(), name);

@@ -103,7 +103,7 @@ std::size_t jobs_for(const std::vector<Prepared> &members) {
     threads = std::max(threads, member.asked.solver.threads);
     memory = std::max(memory, memory_of(member.asked));
   }
-  const double by_cores = std::thread::hardware_concurrency() / threads;
+  const double by_cores = static_cast<double>(std::thread::hardware_concurrency()) / threads;
   const double by_memory = solve::available_memory().bytes / memory;
   return static_cast<std::size_t>(
       std::clamp(std::min(by_cores, by_memory), 1., static_cast<double>(members.size())));

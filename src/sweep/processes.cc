@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -75,10 +76,9 @@ void Processes::start(std::size_t number, const std::vector<std::string> &comman
   const int file = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file < 0)
     throw MachineError("cannot write " + log.string() + ": " + std::strerror(errno));
-  std::vector<char *> words;
-  for (const std::string &word : command)
-    words.push_back(const_cast<char *>(word.c_str()));
-  words.push_back(nullptr);
+  std::vector<char *> words(command.size() + 1, nullptr);
+  std::transform(command.begin(), command.end(), words.begin(),
+                 [](const std::string &word) { return const_cast<char *>(word.c_str()); });
   const pid_t parent = ::getpid(), id = ::fork();
   if (id == 0)
     become(words.data(), file, parent);

@@ -46,7 +46,7 @@ std::string said(const fs::path &log) {
 }
 
 std::string reason_of(int status, const fs::path &log) {
-  if (const std::string text = said(log); !text.empty())
+  if (std::string text = said(log); !text.empty())
     return text;
   if (status > 128)
     return fmt::format("was killed by the signal {} ({})", status - 128, strsignal(status - 128));
@@ -222,6 +222,7 @@ Outcome run(const Request &request) {
   results.members = members_of(results.variations);
   const std::vector<Prepared> cases = prepared(request, results.variations, results.members);
   std::vector<casefile::Case> asked;
+  asked.reserve(cases.size());
   for (const Prepared &one : cases)
     asked.push_back(one.asked);
   results.outputs = chosen_outputs(request.outputs, asked);
