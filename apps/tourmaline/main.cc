@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "sweep_command.h"
+#include "tourmaline/case/json_schema.h"
 #include "tourmaline/case/nearest.h"
 #include "tourmaline/case/reader.h"
 #include "tourmaline/case/reference.h"
@@ -158,6 +160,12 @@ void add_reference(CLI::App &app) {
   });
 }
 
+void add_schema(CLI::App &app) {
+  app.add_subcommand("schema", "print the JSON Schema of the case file, for editors")->callback([] {
+    std::cout << tourmaline::casefile::json_schema();
+  });
+}
+
 // CLI11 says of a misspelt command only that one is missing.
 void check_command(const CLI::App &app, int argc, char **argv) {
   if (argc < 2 || argv[1][0] == '-')
@@ -176,6 +184,7 @@ void check_command(const CLI::App &app, int argc, char **argv) {
 /// Throws what the commands throw; of the errors on the command line, CLI11's are reported here.
 int obey(int argc, char **argv) {
   Asked asked;
+  int status = done;
   CLI::App app("Frictional contact of thermo-piezoelectric bodies.", "tourmaline");
   app.set_version_flag("--version", "tourmaline " TOURMALINE_VERSION);
   app.set_help_all_flag("--help-all", "the help of all commands");
@@ -184,10 +193,12 @@ int obey(int argc, char **argv) {
     return std::string("tourmaline: ") + error.what() + "; see tourmaline --help\n";
   });
   add_run(app, asked);
+  add_sweep(app, status);
   add_check(app, asked);
   add_report(app, asked);
   add_figures(app, asked);
   add_materials(app, asked);
+  add_schema(app);
   add_reference(app);
   check_command(app, argc, argv);
   try {
@@ -197,7 +208,7 @@ int obey(int argc, char **argv) {
   }
   if (!std::cout.flush())
     throw tourmaline::MachineError("the standard output cannot be written");
-  return done;
+  return status;
 }
 
 // Errors of the parts that the program is made of may run over several lines with empty ones

@@ -23,6 +23,14 @@ All values are SI. Temperatures are differences to the reference temperature. Un
 and impossible values are errors that say the place and what is allowed. `tourmaline check CASE.toml`
 prints the complete case with all defaults filled in; that text is itself a case file.
 
+[case.schema.json](case.schema.json), printed by `tourmaline schema`, is the same as JSON Schema (draft
+2020-12): with it editors complete keys and show units, ranges and mistakes. In editors with Taplo (Even Better
+TOML in Visual Studio Code) the first line of a case names it: `#:schema case.schema.json`, a path from the
+case or a URL. It accepts every valid case and refuses wrong names, types, ranges, choices and lengths, and keys
+that the others give no meaning. Only `tourmaline check` sees what depends on formulas, mesh files, materials and
+sums, and that `2.0` is no integer. Its `version` (also in `$id`) is raised when a case that it accepted is no
+longer accepted or means something else; new keys and values do not raise it.
+
 `--set key.path=value` replaces any key from the command line, the value as TOML; what is not TOML is a
 text: `--set time.steps=40 --set mesh.box.cells=[32,32] --set solver.method=monolithic`. Entries of lists
 are counted from 0: `--set "boundary[2].traction=[0,'-1*t']"`.

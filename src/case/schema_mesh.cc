@@ -248,6 +248,7 @@ void declare(Visitor &v, MeshCase &mesh) {
                       "from z = 0 on; its sides are named inner, outer and in 3D bottom, "
                       "top. The corners of the cells lie on circles, edges are straight"},
       mesh.annulus, [&](Visitor &inner, Annulus &ring) { declare(inner, ring, mesh.degree); });
+  v.exactly_one({"box", "annulus", "file"});
   v.check("", [&] {
     return mesh.box || mesh.annulus || mesh.file
                ? ""

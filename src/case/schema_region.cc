@@ -33,6 +33,7 @@ void declare(Visitor &v, RegionCase &region, const MeshCase &mesh) {
                              "centre, as with \"y > 0.01\"",
               .constant_in_time = true},
              region.inside);
+  v.exactly_one({"on", "where"});
   v.check("", [&]() -> std::string {
     if (region.on.empty() == !region.inside)
       return "give either `on`, a name in the mesh file, or `where`, a formula";
@@ -89,6 +90,7 @@ void declare_composition(Visitor &v, Case &c) {
   const bool given = v.given(key, c.regions.empty());
   if (given)
     v.table(key, [&](Visitor &inner) { declare(inner, c.material, c.dimension); });
+  v.exactly_one({"region", "material"});
   v.check("material", [&] {
     return given && !c.regions.empty() ? "stands beside [[region]]; a body has either of them" : "";
   });

@@ -7,6 +7,7 @@
 #include "tourmaline/report/poling.h"
 #include "tourmaline/report/scale.h"
 #include "tourmaline/report/setting.h"
+#include "tourmaline/report/ticks.h"
 
 namespace tourmaline::report {
 namespace {
@@ -17,21 +18,6 @@ constexpr double body_size = 200, left_margin = 42, right_margin = 16, top_margi
 constexpr double raster_pixels = 4;  // a point
 
 constexpr Colour ink{29, 33, 39}, grey{120, 126, 134}, body_colour{232, 235, 239};
-
-/// About five round numbers between the two.
-std::vector<double> ticks(double low, double high) {
-  const double power = std::pow(10, std::floor(std::log10((high - low) / 4)));
-  double step = power;
-  for (const double digit : {2., 5., 10.})
-    if ((high - low) / step > 6)
-      step = digit * power;
-  std::vector<double> values;
-  const auto first = static_cast<long>(std::ceil(low / step - 1e-9)),
-             last = static_cast<long>(std::floor(high / step + 1e-9));
-  for (long i = first; i <= last; ++i)
-    values.push_back(static_cast<double>(i) * step);
-  return values;
-}
 
 double points_per_metre(const View &view) {
   return body_size / std::max({view.width(), view.height(), 1e-300});

@@ -3,7 +3,7 @@
 #include "tourmaline/case/visitor.h"
 
 /// Every key of the case file is declared once, by `declare`. The reader, its error texts,
-/// resolved.toml and the reference page are visitors of that one declaration.
+/// resolved.toml, the reference page and the JSON Schema are visitors of that one declaration.
 namespace tourmaline::casefile {
 
 /// Declares all tables of the case file. Sets `asked.dimension` as soon as the mesh has been

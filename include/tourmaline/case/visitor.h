@@ -84,6 +84,8 @@ class Visitor {
   /// A condition on several keys: `complaint` returns what is wrong with `name` (empty: the table),
   /// or nothing. Only called once all keys declared before have been read.
   virtual void check(const std::string & /*name*/, const Complaint & /*complaint*/) {}
+  /// Of these keys and tables a case gives exactly one; a `check` complains otherwise.
+  virtual void exactly_one(const std::vector<std::string> & /*names*/) {}
   /// The mesh that a file holds, so that what follows can be checked against its names.
   virtual void load(MeshCase & /*mesh*/) {}
   /// A file's name, to be found from the folder of the case.

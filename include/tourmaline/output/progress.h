@@ -4,15 +4,13 @@
 #include <string>
 
 #include "tourmaline/output/records.h"
+#include "tourmaline/output/status_line.h"
 
 namespace tourmaline::output {
 
 /// What the progress line says after a step; `seconds_left` is left out when it is negative (not
 /// known yet).
 std::string progress_text(const HistoryRow &row, int steps, double seconds_left);
-
-/// `done` of `all` as a bar of that many characters with its ends: "[####----]".
-std::string progress_bar(int done, int all, std::size_t width);
 
 /// Says on stderr how far a run is: on a terminal in one line with a bar that is rewritten in
 /// place, elsewhere (a pipe, a log) in a line of its own every `pause`, so that a short run says
@@ -37,16 +35,15 @@ class Progress {
   using Clock = std::chrono::steady_clock;
 
   double seconds_left(int step, Clock::time_point now) const;
-  bool due(Clock::time_point now) const;
-  void draw(const std::string &text);
+  bool due() const { return line_.since_last() >= pause_; }
 
   int steps_;
-  bool quiet_, terminal_;
+  bool quiet_;
+  StatusLine line_;
   std::chrono::milliseconds pause_;  // between two drawings
-  bool drawn_ = false;               // whether the line holds text
   bool started_ = false;             // whether a step has been reported
   int first_step_ = 0;
-  Clock::time_point first_step_end_, last_draw_;
+  Clock::time_point first_step_end_;
 };
 
 }  // namespace tourmaline::output

@@ -1,0 +1,81 @@
+#include "sweep_command.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "tourmaline/error.h"
+#include "tourmaline/parallel/ranks.h"
+#include "tourmaline/sweep/sweep.h"
+
+namespace {
+
+using tourmaline::sweep::Outcome;
+using tourmaline::sweep::Request;
+
+void tell(const Outcome &outcome, bool quiet) {
+  for (const auto &failure : outcome.failures)
+    std::cerr << "tourmaline: " << failure.member << " failed: " << failure.reason << '\n';
+  if (outcome.signal != 0)
+    std::cerr << fmt::format(
+        "tourmaline: stopped; {} of {} cases have not run to their end, and run when the same "
+        "command is given again\n",
+        outcome.missing, outcome.members);
+  if (quiet)
+    return;
+  std::cout << fmt::format("{} cases: {} done before, {} failed\n", outcome.members, outcome.kept,
+                           outcome.failures.size());
+  for (const auto &file : outcome.files)
+    std::cout << file.string() << '\n';
+}
+
+int sweep(Request request) {
+  if (tourmaline::parallel::is_launched())
+    throw tourmaline::CaseError(
+        "sweep: each case is run by a process of its own, so this command is given without mpirun; "
+        "--jobs says how many run side by side");
+  if (request.folder.empty())
+    request.folder = std::filesystem::path("results") / (request.file.stem().string() + "-sweep");
+  request.program = std::filesystem::read_symlink("/proc/self/exe");
+  const Outcome outcome = tourmaline::sweep::run(request);
+  tell(outcome, request.quiet);
+  return outcome.exit_status();
+}
+
+}  // namespace
+
+void add_sweep(CLI::App &app, int &status) {
+  CLI::App *command = app.add_subcommand("sweep", "simulate a case for several values of its keys");
+  const auto request = std::make_shared<Request>();
+  command->add_option("CASE", request->file, "the case file (TOML)")->required();
+  command
+      ->add_option("--vary", request->variations,
+                   "a key and its values: key.path=V1,V2,... or key.path=lin:A:B:N or "
+                   "key.path=log:A:B:N, N values from A to B; of several --vary every value with "
+                   "every other's")
+      ->required()
+      ->allow_extra_args(false);
+  command
+      ->add_option("--set", request->overrides,
+                   "another value for a key of the case file, in all cases; may be given several "
+                   "times")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--output", request->outputs,
+                   "what sweep.csv and sweep.svg show: columns of history.csv, at the end; "
+                   "at_max_FIELD_x, ...: places of extremes. NAME,NAME,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("-o,--folder", request->folder,
+                      "folder of the study, made when missing; results/<name of the case>-sweep if "
+                      "not given");
+  command
+      ->add_option("--jobs", request->jobs,
+                   "cases that run side by side; if not given as many as cores (over "
+                   "solver.threads) and memory allow")
+      ->check(CLI::Range(1, 1024));
+  command->add_flag("-q,--quiet", request->quiet, "print nothing but errors");
+  command->callback([request, &status] { status = sweep(*request); });
+}

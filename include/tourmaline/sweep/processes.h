@@ -1,0 +1,52 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tourmaline::sweep {
+
+/// Programs that run side by side. They end with this process, whatever ends it, and do not hear of
+/// what is typed at the terminal. While it lives, SIGINT and SIGTERM only leave a note. One at a
+/// time.
+class Processes {
+ public:
+  /// How one of them ended.
+  struct End {
+    std::size_t number;
+    int status;  ///< of its exit; 128 + signal when one killed it
+  };
+
+  Processes();
+  Processes(const Processes &) = delete;
+  Processes &operator=(const Processes &) = delete;
+  /// Kills those that still run.
+  ~Processes();
+
+  /// Starts `command`, whose first word is the program's file; its stdout and stderr go to `log`.
+  /// Throws MachineError.
+  void start(std::size_t number, const std::vector<std::string> &command,
+             const std::filesystem::path &log);
+
+  /// The next one that ends; nothing when none did in that time, or a signal came.
+  std::optional<End> wait(std::chrono::milliseconds most);
+
+  std::size_t running() const { return numbers_.size(); }
+  void send(int signal) const;
+
+  /// SIGINT or SIGTERM, if one came since this was last asked; otherwise 0.
+  int take_signal();
+
+ private:
+  std::optional<End> ended();
+
+  std::map<pid_t, std::size_t> numbers_;
+};
+
+}  // namespace tourmaline::sweep

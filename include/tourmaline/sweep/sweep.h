@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tourmaline::sweep {
+
+/// What `tourmaline sweep` was asked for.
+struct Request {
+  std::filesystem::path file;           ///< the case
+  std::vector<std::string> overrides;   ///< as after `--set`
+  std::vector<std::string> variations;  ///< as after `--vary`
+  std::vector<std::string> outputs;     ///< empty: the usual ones
+  std::filesystem::path folder;         ///< of the study
+  std::filesystem::path program;        ///< whose `run` runs a member
+  int jobs = 0;  ///< members side by side; 0: as many as cores, their threads and memory allow
+  bool quiet = false;
+};
+
+/// A member that failed, with the exit status and the error of its run.
+struct Failure {
+  std::string member, reason;
+  int status = 0;
+};
+
+/// What a study came to.
+struct Outcome {
+  std::size_t members = 0;
+  std::size_t kept = 0;     ///< were done before
+  std::size_t missing = 0;  ///< were not run to their end because of the signal
+  int signal = 0;           ///< SIGINT or SIGTERM when one stopped it
+  std::vector<Failure> failures;
+  std::vector<std::filesystem::path> files;  ///< the table, and the plot when a member is done
+
+  /// Of the command: 128 + signal; the greatest of the failures; 0.
+  int exit_status() const;
+};
+
+/// Runs the members of a study, each as a process of its own in a folder of its own, and leaves
+/// sweep.csv and sweep.svg. A member whose folder holds the finished run of the same case is not
+/// run again. Every member is read and checked before the first runs. A failed one does not stop
+/// the others. SIGINT and SIGTERM end those that run, what is done stays. Throws CaseError,
+/// MachineError.
+Outcome run(const Request &request);
+
+}  // namespace tourmaline::sweep

@@ -1,0 +1,294 @@
+#include "tourmaline/case/json_schema.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <utility>
+
+#include "json_schema_key.h"
+
+namespace tourmaline::casefile {
+
+namespace {
+
+/// How a body's shape is given; what a case may say elsewhere depends on it.
+struct MeshKind {
+  std::string given;  ///< in [mesh]
+  int dimension;
+};
+
+const std::array<MeshKind, 6> mesh_kinds{
+    {{"box", 2}, {"box", 3}, {"annulus", 2}, {"annulus", 3}, {"file", 2}, {"file", 3}}};
+
+std::vector<std::string> cells_of(int dimension) {
+  std::vector<std::string> names;
+  for (const CellShape shape : {CellShape::triangle, CellShape::quadrilateral,
+                                CellShape::tetrahedron, CellShape::hexahedron})
+    if (dimension_of(shape) == dimension)
+      names.emplace_back(name_of(shape));
+  return names;
+}
+
+/// A key that other keys of its table may depend on.
+struct Switch {
+  std::string table;  ///< as a JSON pointer into the schema
+  std::string key;
+  std::vector<std::string> choices = {};  ///< empty: whether it is given matters
+  std::string standard = {};              ///< the choice without the key
+};
+
+/// A switch in one position.
+struct Position {
+  std::string table, key;
+  std::string choice = {};  ///< empty: the key is not given
+};
+
+/// What stays the same for all tables of one visit.
+struct Visit {
+  const MeshKind &kind;
+  Position position = {};
+  std::vector<Switch> switches = {};  ///< those that were met
+
+  bool is_at(const std::string &table, const std::string &key) const {
+    return position.table == table && position.key == key;
+  }
+};
+
+const std::string mesh_table = "/properties/mesh";
+
+/// One table as the declaration has it in one case.
+class Table : public Visitor {
+ public:
+  Table(std::string path, Visit &visit) : path_(std::move(path)), visit_(visit) {}
+
+  Json schema() const {
+    Json all{{"type", "object"}, {"properties", properties_}, {"additionalProperties", false}};
+    if (!required_.empty())
+      all["required"] = required_;
+    if (!one_of_.empty())
+      all["oneOf"] = one_of_;
+    return all;
+  }
+
+  void key(const Key &key, Value value) override {
+    add(key, key.used ? schema_of_key(key, value) : Json(false));
+    if (const auto text = std::get_if<std::string *>(&value); text && !key.choices.empty())
+      choose(key, **text);
+  }
+
+  bool given(const Key &key, bool) override {
+    if (path_ == mesh_table && is_kind(key.name) && key.name != visit_.kind.given)
+      return false;
+    visit_.switches.push_back({path_, key.name});
+    return !visit_.is_at(path_, key.name);
+  }
+
+  void table(const Key &key, const Body &body) override {
+    add(key, described(key, inner(key.name, "", body)));
+  }
+
+  int count(const Key &, int) override { return 1; }
+
+  void entry(const Key &key, int, const Body &body) override {
+    arrays_.insert(key.name);
+    add(key, described(key, {{"type", "array"}, {"items", inner(key.name, "/items", body)}}));
+  }
+
+  void exactly_one(const std::vector<std::string> &names) override {
+    for (const std::string &name : names) {
+      Json one{{"required", {name}}};
+      if (arrays_.contains(name))
+        one["properties"] = {{name, {{"minItems", 1}}}};
+      one_of_.push_back(one);
+    }
+  }
+
+  void load(MeshCase &mesh) override {
+    if (!mesh.file)
+      return;
+    MeshFile any;
+    any.dimension = visit_.kind.dimension;
+    mesh.content = std::make_shared<MeshFile>(any);
+  }
+
+ private:
+  static bool is_kind(const std::string &name) {
+    return name == "box" || name == "annulus" || name == "file";
+  }
+
+  static Json described(const Key &key, const Json &schema) {
+    Json all{{"description", key.description}};
+    all.update(schema);
+    return all;
+  }
+
+  void add(const Key &key, const Json &schema) {
+    properties_[key.name] = schema;
+    if (key.required && key.used)
+      required_.push_back(key.name);
+  }
+
+  Json inner(const std::string &name, const char *suffix, const Body &body) {
+    Table table(path_ + "/properties/" + name + suffix, visit_);
+    body(table);
+    return table.schema();
+  }
+
+  // The declaration sees the choice of this visit from here on.
+  void choose(const Key &key, std::string &value) {
+    if (key.optional)
+      return;
+    visit_.switches.push_back({path_, key.name, key.choices, value});
+    if (visit_.is_at(path_, key.name))
+      value = visit_.position.choice;
+    else if (path_ == mesh_table + "/properties/" + visit_.kind.given && key.name == "cell")
+      value = cells_of(visit_.kind.dimension).front();
+  }
+
+  std::string path_;
+  Visit &visit_;
+  Json properties_ = Json::object(), required_ = Json::array(), one_of_ = Json::array();
+  std::set<std::string> arrays_;
+};
+
+Json visited(Visit &visit) {
+  Case asked;
+  Table root("", visit);
+  declare(root, asked);
+  return root.schema();
+}
+
+Json at(const Json &schema, const std::string &pointer) {
+  return schema.at(Json::json_pointer(pointer));
+}
+
+/// "If the key has one of these values", the value that it has without being there included.
+Json has_choice(const std::string &key, const std::vector<std::string> &choices,
+                const std::string &standard) {
+  Json condition{{"properties", {{key, {{"enum", choices}}}}}};
+  if (std::find(choices.begin(), choices.end(), standard) == choices.end())
+    condition["required"] = {key};
+  return condition;
+}
+
+void add_rule(Json &table, const Json &condition, const Json &demand) {
+  if (demand.is_null())
+    return;
+  if (!table.contains("allOf"))
+    table["allOf"] = Json::array();
+  table["allOf"].push_back({{"if", condition}, {"then", demand}});
+}
+
+// A key that is not given needs no rule about itself.
+Json without_key(Json demand, const std::string &key) {
+  if (!demand.contains("properties"))
+    return demand;
+  demand["properties"].erase(key);
+  if (demand["properties"].empty())
+    demand.erase("properties");
+  return demand.empty() ? Json() : demand;
+}
+
+// What the switch's table is, by its positions; the first of a switch without choices is "given".
+std::vector<Json> positions_of(const Switch &turned, const MeshKind &kind, const Json &given) {
+  std::vector<Json> all;
+  if (turned.choices.empty())
+    all.push_back(at(given, turned.table));
+  std::vector<std::string> choices = turned.choices;
+  if (choices.empty())
+    choices.emplace_back();
+  for (const std::string &choice : choices) {
+    Visit visit{kind, {turned.table, turned.key, choice}};
+    all.push_back(at(visited(visit), turned.table));
+  }
+  return all;
+}
+
+void add_rules_of_choices(Json &table, const Switch &turned, const std::vector<Json> &demands) {
+  std::vector<bool> told(demands.size(), false);
+  for (std::size_t i = 0; i < demands.size(); ++i) {
+    std::vector<std::string> alike;
+    for (std::size_t j = i; j < demands.size(); ++j)
+      if (!told[j] && demands[j] == demands[i]) {
+        alike.push_back(turned.choices[j]);
+        told[j] = true;
+      }
+    if (!alike.empty())
+      add_rule(table, has_choice(turned.key, alike, turned.standard), demands[i]);
+  }
+}
+
+// Makes the table accept what it may hold in any position of the switch, and tells the rules.
+void add_switch(Json &schema, const Switch &turned, const MeshKind &kind, const Json &given) {
+  const std::vector<Json> positions = positions_of(turned, kind, given);
+  Json any = positions.front();
+  for (const Json &position : positions)
+    any = merged(any, position);
+  std::vector<Json> demands(positions.size());
+  std::transform(positions.begin(), positions.end(), demands.begin(),
+                 [&](const Json &position) { return beyond(any, position); });
+  Json &table = schema.at(Json::json_pointer(turned.table));
+  table = merged(table, any);
+  if (!turned.choices.empty())
+    add_rules_of_choices(table, turned, demands);
+  else
+    add_rule(table, {{"not", {{"required", {turned.key}}}}}, without_key(demands[1], turned.key));
+}
+
+Json without_mesh(Json schema) {
+  schema["properties"].erase("mesh");
+  return schema;
+}
+
+// A mesh file's dimension and names are not in the case.
+void add_mesh_rule(Json &schema, const MeshKind &kind, const Json &any, const Json &special) {
+  if (kind.given == "file")
+    return;
+  const Json cell = has_choice("cell", cells_of(kind.dimension), name_of(CellShape::triangle));
+  const Json condition{
+      {"required", {"mesh"}},
+      {"properties",
+       {{"mesh", {{"required", {kind.given}}, {"properties", {{kind.given, cell}}}}}}}};
+  add_rule(schema, condition, beyond(without_mesh(any), without_mesh(special)));
+}
+
+Json complete() {
+  std::vector<Visit> visits;
+  std::vector<Json> specials;
+  for (const MeshKind &kind : mesh_kinds) {
+    visits.push_back({kind});
+    specials.push_back(visited(visits.back()));
+  }
+  Json any = specials.front();
+  for (const Json &special : specials)
+    any = merged(any, special);
+  Json schema = any;
+  std::set<std::pair<std::string, std::string>> done;
+  for (std::size_t i = 0; i < specials.size(); ++i)
+    for (const Switch &turned : visits[i].switches)
+      if (done.emplace(turned.table, turned.key).second)
+        add_switch(schema, turned, mesh_kinds[i], specials[i]);
+  for (std::size_t i = 0; i < specials.size(); ++i)
+    add_mesh_rule(schema, mesh_kinds[i], any, specials[i]);
+  return schema;
+}
+
+}  // namespace
+
+std::string json_schema() {
+  Json schema{
+      {"$schema", "https://json-schema.org/draft/2020-12/schema"},
+      {"$id", fmt::format("urn:tourmaline:case-file:{}", schema_version)},
+      {"version", schema_version},
+      {"title", "Tourmaline case file"},
+      {"description",
+       "All values are SI; temperatures are differences to the reference temperature. Printed by "
+       "`tourmaline schema`. What a case must satisfy beyond this schema, `tourmaline check` "
+       "says."}};
+  schema.update(complete());
+  return schema.dump(2) + "\n";
+}
+
+}  // namespace tourmaline::casefile

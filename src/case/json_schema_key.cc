@@ -1,0 +1,128 @@
+#include "json_schema_key.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace tourmaline::casefile {
+
+namespace {
+
+// A whole number as editors show it.
+Json plain(double number) {
+  const bool whole = std::abs(number) < 1e15 && number == std::floor(number);
+  return whole ? Json(static_cast<std::int64_t>(number)) : Json(number);
+}
+
+Json limited(const char *type, const Range &range) {
+  Json schema{{"type", type}};
+  if (std::isfinite(range.low))
+    schema[range.low_allowed ? "minimum" : "exclusiveMinimum"] = plain(range.low);
+  if (std::isfinite(range.high))
+    schema[range.high_allowed ? "maximum" : "exclusiveMaximum"] = plain(range.high);
+  return schema;
+}
+
+Json list_of(const Json &entry, const std::vector<int> &counts) {
+  Json schema{{"type", "array"}, {"items", entry}};
+  if (!counts.empty()) {
+    schema["minItems"] = *std::min_element(counts.begin(), counts.end());
+    schema["maxItems"] = *std::max_element(counts.begin(), counts.end());
+  }
+  return schema;
+}
+
+/// What TOML may hold for the key.
+struct Values {
+  const Key &key;
+
+  Json number() const { return limited("number", key.range); }
+  Json integer() const {
+    Json schema = limited("integer", key.range);
+    if (!schema.contains("maximum"))
+      schema["maximum"] = std::numeric_limits<int>::max();
+    return schema;
+  }
+  Json text() const {
+    Json schema{{"type", "string"}};
+    if (!key.choices.empty())
+      schema["enum"] = key.choices;
+    return schema;
+  }
+  Json formula() const { return {{"anyOf", {number(), {{"type", "string"}, {"minLength", 1}}}}}; }
+  Json texts() const {
+    Json list = list_of(text(), {});
+    list["minItems"] = 1;
+    list["uniqueItems"] = true;
+    return {{"anyOf", {text(), list}}};
+  }
+
+  Json operator()(const bool *) const { return {{"type", "boolean"}}; }
+  Json operator()(const int *) const { return integer(); }
+  Json operator()(const double *) const { return number(); }
+  Json operator()(const std::string *) const { return text(); }
+  Json operator()(const std::vector<std::string> *) const { return texts(); }
+  Json operator()(const std::vector<int> *) const { return list_of(integer(), key.length.counts); }
+  Json operator()(const std::vector<double> *) const {
+    return list_of(number(), key.length.counts);
+  }
+  Json operator()(const Matrix *) const {
+    return list_of(list_of(number(), key.length.counts), {key.rows});
+  }
+  Json operator()(const Formula *) const { return formula(); }
+  Json operator()(const FormulaVector *) const { return list_of(formula(), key.length.counts); }
+  Json operator()(const Displacement *) const { return list_of(formula(), key.length.counts); }
+};
+
+/// The default as JSON; null where a list has none.
+struct DefaultOf {
+  template <class T>
+  Json operator()(const T *value) const {
+    return *value;
+  }
+  template <class T>
+  Json operator()(const std::vector<T> *) const {
+    return Json();
+  }
+  Json operator()(const double *value) const { return plain(*value); }
+  Json operator()(const Formula *value) const {
+    return value->is_number() ? plain(value->value({}, 0)) : Json(value->text());
+  }
+};
+
+std::string description_of(const Key &key, const Value &value) {
+  std::string text = key.description;
+  if (std::holds_alternative<Formula *>(value) || std::holds_alternative<FormulaVector *>(value))
+    text += "; number or formula";
+  if (!key.unit.empty())
+    text += " [" + key.unit + "]";
+  if (!key.choices_words.empty())
+    text += "; one of " + key.choices_words;
+  if (!key.length.words.empty() && !std::holds_alternative<Matrix *>(value))
+    text += "; entries: " + key.length.words;
+  if (const std::string range = key.range.words(); !range.empty())
+    text += "; " + range;
+  if (key.constant_in_time)
+    text += "; must not depend on t";
+  if (!key.used_with.empty())
+    text += "; only with " + key.used_with;
+  if (!key.foreseen.empty())
+    text += fmt::format("; not available in this version: {}", fmt::join(key.foreseen, ", "));
+  return key.default_words.empty() ? text : text + "; default: " + key.default_words;
+}
+
+}  // namespace
+
+Json schema_of_key(const Key &key, const Value &value) {
+  Json schema{{"description", description_of(key, value)}};
+  schema.update(std::visit(Values{key}, value));
+  if (!key.required && !key.optional && key.default_words.empty())
+    if (const Json standard = std::visit(DefaultOf{}, value); !standard.is_null())
+      schema["default"] = standard;
+  return schema;
+}
+
+}  // namespace tourmaline::casefile

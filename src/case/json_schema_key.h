@@ -1,0 +1,12 @@
+#pragma once
+
+#include "json_schema_alternatives.h"
+#include "tourmaline/case/schema.h"
+
+namespace tourmaline::casefile {
+
+/// The JSON Schema of a key's values. A list of names that depend on the mesh is one only where the
+/// key has them.
+Json schema_of_key(const Key &key, const Value &value);
+
+}  // namespace tourmaline::casefile

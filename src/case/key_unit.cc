@@ -1,0 +1,45 @@
+#include "tourmaline/case/key_unit.h"
+
+#include <regex>
+
+#include "tourmaline/case/schema.h"
+
+namespace tourmaline::casefile {
+
+namespace {
+
+class UnitOf : public Visitor {
+ public:
+  explicit UnitOf(std::string wanted) : wanted_(std::move(wanted)) {}
+
+  std::string unit;
+
+  void key(const Key &key, Value) override {
+    if (path_ + key.name == wanted_)
+      unit = key.unit;
+  }
+  bool given(const Key &, bool) override { return true; }
+  void table(const Key &key, const Body &body) override {
+    const std::string outside = path_;
+    path_ += key.name + ".";
+    body(*this);
+    path_ = outside;
+  }
+  int count(const Key &, int) override { return 1; }
+  void entry(const Key &key, int, const Body &body) override { table(key, body); }
+
+ private:
+  std::string wanted_, path_;
+};
+
+}  // namespace
+
+std::string unit_of_key(const std::string &path) {
+  static const std::regex index(R"(\[[0-9]+\]|\.[0-9]+(?=\.|$))");
+  UnitOf search(std::regex_replace(path, index, ""));
+  Case any;
+  declare(search, any);
+  return search.unit;
+}
+
+}  // namespace tourmaline::casefile

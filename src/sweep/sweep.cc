@@ -1,0 +1,237 @@
+#include "tourmaline/sweep/sweep.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstring>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+#include "prepared.h"
+#include "tourmaline/error.h"
+#include "tourmaline/output/atomic_file.h"
+#include "tourmaline/output/status_line.h"
+#include "tourmaline/report/text_file.h"
+#include "tourmaline/stopwatch.h"
+#include "tourmaline/sweep/processes.h"
+#include "tourmaline/sweep/results.h"
+
+namespace tourmaline::sweep {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int machine_failed = 4;
+
+void make(const fs::path &folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    throw MachineError(
+        fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
+}
+
+// The paragraph that the run ended with, on one line and without the program's name.
+std::string said(const fs::path &log) {
+  std::istringstream words(report::read_text_file(log));
+  std::string text;
+  for (std::string word; words >> word;)
+    text += (text.empty() ? "" : " ") + word;
+  constexpr std::string_view name = "tourmaline: ";
+  return text.starts_with(name) ? text.substr(name.size()) : text;
+}
+
+std::string reason_of(int status, const fs::path &log) {
+  if (std::string text = said(log); !text.empty())
+    return text;
+  if (status > 128)
+    return fmt::format("was killed by the signal {} ({})", status - 128, strsignal(status - 128));
+  return fmt::format("ended with the exit status {} and no word", status);
+}
+
+// A killed run has not said what it would: that is the machine's failure.
+int failure_status(int status) {
+  return status >= 2 && status <= machine_failed ? status : machine_failed;
+}
+
+/// The members of a study while they run.
+class Study {
+ public:
+  Study(const Request &request, Results &results, const std::vector<Prepared> &cases)
+      : request_(request),
+        results_(results),
+        cases_(cases),
+        jobs_(request.jobs > 0 ? static_cast<std::size_t>(request.jobs) : jobs_for(cases)) {
+    outcome_.members = results.members.size();
+  }
+
+  Outcome run() {
+    for (std::size_t i = 0; i < results_.members.size(); ++i)
+      if (!keep(i))
+        waiting_.push_back(i);
+    outcome_.kept = outcome_.members - waiting_.size();
+    while (started_ < waiting_.size() || processes_.running() > 0) {
+      fill();
+      if (const auto end = processes_.wait(std::chrono::milliseconds(200)))
+        finish(*end);
+      obey_signal();
+      show();
+      if (outcome_.signal != 0 && processes_.running() == 0)
+        break;
+    }
+    outcome_.missing =
+        static_cast<std::size_t>(std::count_if(results_.rows.begin(), results_.rows.end(),
+                                               [](const Row &r) { return r.status == "stopped"; }));
+    return outcome_;
+  }
+
+ private:
+  fs::path folder_of(std::size_t i) const { return request_.folder / results_.members[i].name; }
+  fs::path log_of(std::size_t i) const { return folder_of(i) / "error.txt"; }
+
+  // Whether the member is done already; a folder that cannot be read is none.
+  bool keep(std::size_t i) {
+    try {
+      if (!is_done(folder_of(i), cases_[i]))
+        return false;
+      results_.rows[i] = {"done", read_outputs(folder_of(i), results_.outputs)};
+      return true;
+    } catch (const CaseError &) {
+      return false;
+    }
+  }
+
+  void fill() {
+    while (outcome_.signal == 0 && started_ < waiting_.size() && processes_.running() < jobs_)
+      start(waiting_[started_++]);
+  }
+
+  void start(std::size_t i) {
+    std::vector<std::string> command{
+        request_.program.string(), "run", request_.file.string(), "--quiet", "-o",
+        folder_of(i).string()};
+    const auto add = [&](const std::string &override) {
+      command.emplace_back("--set");
+      command.push_back(override);
+    };
+    std::for_each(request_.overrides.begin(), request_.overrides.end(), add);
+    for (const std::string &override : overrides_of(results_.variations, results_.members[i]))
+      add(override);
+    try {
+      make(folder_of(i));
+      processes_.start(i, command, log_of(i));
+    } catch (const MachineError &error) {
+      fail(i, machine_failed, error.what());
+    }
+  }
+
+  void finish(const Processes::End &end) {
+    const std::size_t i = end.number;
+    if (end.status != 0 && outcome_.signal == 0)
+      return fail(i, failure_status(end.status), reason_of(end.status, log_of(i)));
+    std::error_code ignored;
+    fs::remove(log_of(i), ignored);
+    if (end.status == 0)
+      take_results(i);
+  }
+
+  void take_results(std::size_t i) {
+    try {
+      results_.rows[i] = {"done", read_outputs(folder_of(i), results_.outputs)};
+      ++finished_;
+    } catch (const CaseError &error) {
+      fail(i, machine_failed, error.what());
+    }
+  }
+
+  void fail(std::size_t i, int status, const std::string &reason) {
+    results_.rows[i].status = "failed";
+    outcome_.failures.push_back({results_.members[i].name, reason, status});
+    ++finished_;
+  }
+
+  // The first signal asks the runs to end, the second does not ask.
+  void obey_signal() {
+    const int signal = processes_.take_signal();
+    if (signal == 0)
+      return;
+    processes_.send(outcome_.signal == 0 ? signal : SIGKILL);
+    outcome_.signal = signal;
+  }
+
+  void show() {
+    seconds_ += watch_.lap();
+    if (request_.quiet || !line_.is_terminal())
+      return;
+    const std::size_t n = waiting_.size(), done = outcome_.kept + finished_;
+    std::string text =
+        fmt::format("{}/{} done, {} running", done, outcome_.members, processes_.running());
+    if (!outcome_.failures.empty())
+      text += fmt::format(", {} failed", outcome_.failures.size());
+    if (outcome_.signal != 0)
+      text += ", stopping";
+    else if (finished_ > 0)
+      text +=
+          fmt::format(", {} left", output::duration_text(seconds_ / static_cast<double>(finished_) *
+                                                         static_cast<double>(n - finished_)));
+    line_.draw(text, static_cast<int>(done), static_cast<int>(outcome_.members));
+  }
+
+  const Request &request_;
+  Results &results_;
+  const std::vector<Prepared> &cases_;
+  std::size_t jobs_;
+  std::vector<std::size_t> waiting_;  // members to be run
+  std::size_t started_ = 0, finished_ = 0;
+  Outcome outcome_;
+  Processes processes_;
+  output::StatusLine line_;
+  Stopwatch watch_;
+  double seconds_ = 0;
+};
+
+std::vector<fs::path> write_results(const Results &results, const fs::path &folder) {
+  std::vector<fs::path> files{folder / "sweep.csv"};
+  output::write_file(files.front(), table_text(results));
+  if (std::any_of(results.rows.begin(), results.rows.end(),
+                  [](const Row &row) { return row.status == "done"; })) {
+    files.push_back(folder / "sweep.svg");
+    report::write_plot(plot_of(results), report::FigureFormat::svg, files.back());
+  }
+  return files;
+}
+
+}  // namespace
+
+int Outcome::exit_status() const {
+  if (signal != 0)
+    return 128 + signal;
+  int status = 0;
+  for (const Failure &failure : failures)
+    status = std::max(status, failure.status);
+  return status;
+}
+
+Outcome run(const Request &request) {
+  Results results;
+  results.variations = read_variations(request.variations);
+  results.members = members_of(results.variations);
+  const std::vector<Prepared> cases = prepared(request, results.variations, results.members);
+  std::vector<casefile::Case> asked;
+  asked.reserve(cases.size());
+  for (const Prepared &one : cases)
+    asked.push_back(one.asked);
+  results.outputs = chosen_outputs(request.outputs, asked);
+  const std::vector<double> none(results.outputs.size(), std::numeric_limits<double>::quiet_NaN());
+  results.rows.assign(results.members.size(), {"stopped", none});
+  make(request.folder);
+  Outcome outcome = Study(request, results, cases).run();
+  outcome.files = write_results(results, request.folder);
+  return outcome;
+}
+
+}  // namespace tourmaline::sweep

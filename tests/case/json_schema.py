@@ -1,0 +1,186 @@
+#!/usr/bin/env python3
+"""Tests of docs/case.schema.json with a JSON Schema validator that is not ours: Debian's python3-jsonschema."""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import tomllib
+import unittest
+
+import jsonschema
+
+PROGRAM = sys.argv.pop(1)
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+SHIPPED = sorted((SOURCE / "cases").rglob("*.toml"))
+
+# Whole cases, each small; wrong and right ones differ from them in one place.
+SQUARE = """
+mesh.box = { min = [0, 0], max = [1, 1], cells = [4, 4] }
+material.library = "BaTiO3-Liu2014"
+time = { end = 1, steps = 2 }
+boundary = [{ on = "right", displacement = [0, 0], potential = 0 }]
+contact = { on = "left", friction = { law = "tresca", bound = 15 } }
+"""
+CUBE = """
+mesh.box = { min = [0, 0, 0], max = [1, 1, 1], cells = [2, 2, 2], cell = "hexahedron" }
+material.library = "BaTiO3-Liu2014"
+time = { end = 1, steps = 2 }
+boundary = [{ on = "bottom", displacement = [0, 0, 0], potential = 0 }]
+"""
+TUBE = """
+mesh.annulus = { inner = 0.1, outer = 0.2, height = 0.1, cells = [2, 16, 2], cell = "tetrahedron" }
+material.library = "BaTiO3-Liu2014"
+time = { end = 1, steps = 2 }
+boundary = [{ on = "outer", displacement = [0, 0, 0], potential = 0 }]
+contact.on = "inner"
+"""
+LAYERS = """
+mesh.box = { min = [0, 0], max = [1, 1], cells = [4, 4] }
+region = [{ where = "y < 0.5", material = { library = "BaTiO3-Liu2014" } },
+          { where = "y > 0.5", material = { library = "steel", poling = [1, 0] } }]
+time = { end = 1, steps = 2 }
+boundary = [{ on = "right", displacement = [0, 0], potential = 0 }]
+"""
+
+# A text that stands in the case, and what stands there instead.
+RIGHT = [
+    (SQUARE, "", ""), (CUBE, "", ""), (TUBE, "", ""), (LAYERS, "", ""),
+    (SQUARE, "bound = 15", 'bound = "15*(1 + x)"'),
+    (SQUARE, 'law = "tresca", bound = 15', 'law = "none"'),
+    (SQUARE, 'law = "tresca", bound = 15', ""),
+    (SQUARE, 'on = "left"', 'on = ["left", "bottom"]'),
+    (SQUARE, "displacement = [0, 0]", 'displacement = ["free", "1e-9*t"], temperature = 0'),
+    (SQUARE, "cells = [4, 4]", 'cells = [4, 4], cell = "quadrilateral", grading = { left = 3, top = 2.5 }'),
+    (CUBE, 'cell = "hexahedron"', 'cell = "hexahedron", grading = { front = 3 }'),
+    (SQUARE, '"BaTiO3-Liu2014"', '"BaTiO3-Liu2014"\nmaterial.pyroelectric = [0, 1e-4]'),
+    (CUBE, '"BaTiO3-Liu2014"', '"BaTiO3-Liu2014"\nmaterial.pyroelectric = [0, 0, 1e-4]'),
+    (CUBE, '"BaTiO3-Liu2014"', '"BaTiO3-Liu2014"\nmaterial.poling = ["x", "y", 1]\nmaterial.axis1 = [1, 0, 0]'),
+    (SQUARE, "time =", 'solver = { method = "monolithic", multiplier = "piecewise-constant", r_normal = 1e9 }\ntime ='),
+    (SQUARE, "time =", 'solver = { body = "direct", threads = 2 }\ntime ='),
+    (SQUARE, "time =", "initial = { displacement = [0, 0], temperature = 1 }\nload = { force = [0, 1] }\ntime ="),
+    (SQUARE, "time =", 'electrode = [{ name = "lead", on = "top", resistor = 1e9, voltage = "t" }]\ntime ='),
+    (SQUARE, "time =", "output = { fields = false, every = 3, report = false }\nregion = []\ntime ="),
+]
+WRONG = {
+    "unknown key": (SQUARE, "bound = 15", "bound = 15, bonud = 15"),
+    "unknown table": (SQUARE, "time =", "solvr = {}\ntime ="),
+    "missing key": (SQUARE, "end = 1, ", ""),
+    "missing table": (SQUARE, "time = { end = 1, steps = 2 }", ""),
+    "text for a number": (SQUARE, "end = 1", 'end = "1"'),
+    "number for a text": (SQUARE, "time =", "title = 1\ntime ="),
+    "fraction for an integer": (SQUARE, "steps = 2", "steps = 2.5"),
+    "truth for a formula": (SQUARE, "potential = 0", "potential = true"),
+    "number below its range": (SQUARE, "bound = 15", "bound = -15"),
+    "number at the open end of its range": (SQUARE, "end = 1", "end = 0"),
+    "number above its range": (SQUARE, "cells = [4, 4]", "cells = [4, 4] }\nmesh.degree = 3 #"),
+    "integer that does not fit": (SQUARE, "steps = 2", "steps = 3000000000"),
+    "wrong choice": (SQUARE, "tresca", "treska"),
+    "law of a later version": (SQUARE, "tresca", "coulomb"),
+    "charge law of a later version": (SQUARE, 'on = "left",', 'on = "left", charge = {},'),
+    "too short a list": (SQUARE, "min = [0, 0]", "min = [0]"),
+    "three displacements in two dimensions": (SQUARE, "displacement = [0, 0]", "displacement = [0, 0, 0]"),
+    "two displacements in three dimensions": (CUBE, "displacement = [0, 0, 0]", "displacement = [0, 0]"),
+    "two corners' coordinates of a cuboid": (CUBE, "max = [1, 1, 1]", "max = [1, 1]"),
+    "side that a rectangle lacks": (SQUARE, 'on = "left"', 'on = "front"'),
+    "side of another shape": (TUBE, 'on = "inner"', 'on = "left"'),
+    "grading of a side that a rectangle lacks": (SQUARE, "cells = [4, 4]", "cells = [4, 4], grading = { front = 2 }"),
+    "one side twice": (SQUARE, 'on = "left"', 'on = ["left", "left"]'),
+    "no side": (SQUARE, 'on = "left"', "on = []"),
+    "bound without the law": (SQUARE, 'law = "tresca", ', ""),
+    "law without its bound": (SQUARE, ", bound = 15", ""),
+    "exchange without its coefficient": (SQUARE, "bound = 15 }", 'bound = 15 }, heat = { law = "exchange" }'),
+    "coefficient without the exchange": (SQUARE, "bound = 15 }", "bound = 15 }, heat = { coefficient = 1 }"),
+    "height of a ring": (TUBE, "tetrahedron", "triangle"),
+    "tube without height": (TUBE, "height = 0.1, ", ""),
+    "no mesh": (SQUARE, "mesh.box = { min = [0, 0], max = [1, 1], cells = [4, 4] }", "mesh.degree = 1"),
+    "two meshes": (SQUARE, "material.", "mesh.annulus = { inner = 1, outer = 2, cells = [2, 16] }\nmaterial."),
+    "mesh file beside a box": (SQUARE, "material.", 'mesh.file = "a.msh"\nmaterial.'),
+    "size without a mesh file": (SQUARE, "material.", "mesh.size = 1\nmaterial."),
+    "no material": (SQUARE, 'material.library = "BaTiO3-Liu2014"', ""),
+    "material beside regions": (LAYERS, "time =", 'material.library = "steel"\ntime ='),
+    "region without place": (LAYERS, 'where = "y < 0.5", ', ""),
+    "region without material": (LAYERS, ', material = { library = "BaTiO3-Liu2014" }', ""),
+    "named region of a box": (LAYERS, 'where = "y < 0.5"', 'on = "lower"'),
+    "file of materials without entry": (SQUARE, 'material.library = "BaTiO3-Liu2014"', 'material.file = "own.toml"'),
+    "multiplier of the other method": (SQUARE, "time =", 'solver.multiplier = "nodal"\ntime ='),
+    "tolerance of what is not iterative": (SQUARE, "time =", 'solver = { body = "direct", linear_tolerance = 1e-9 }\ntime ='),
+    "too few rows": (SQUARE, "time =", "material.conductivity = [[1, 0, 0], [0, 1, 0]]\ntime ="),
+    "table for an array of tables": (SQUARE, "[{ on = \"right\", displacement = [0, 0], potential = 0 }]", '{ on = "right" }'),
+    "value for a table": (SQUARE, "time = { end = 1, steps = 2 }", "time = 1"),
+}
+
+
+def changed(case, before, after):
+    assert before in case, before
+    return case.replace(before, after, 1)
+
+
+def program(*arguments):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
+
+
+def check(text, folder):
+    """What `tourmaline check` says of a case."""
+    case = pathlib.Path(folder) / "case.toml"
+    case.write_text(text)
+    return program("check", case)
+
+
+class CaseSchema(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.schema = json.loads((SOURCE / "docs/case.schema.json").read_text())
+        cls.validator = jsonschema.Draft202012Validator(cls.schema)
+
+    def assert_valid(self, text):
+        errors = [f"{error.json_path}: {error.message}" for error in self.validator.iter_errors(tomllib.loads(text))]
+        self.assertEqual(errors, [])
+
+    def test_is_the_one_that_the_program_prints(self):
+        printed = program("schema").stdout
+        self.assertTrue(printed == (SOURCE / "docs/case.schema.json").read_text(),
+                        "docs/case.schema.json is out of date: tourmaline schema > docs/case.schema.json")
+
+    def test_is_valid_against_its_meta_schema(self):
+        self.assertEqual(self.schema["$schema"], "https://json-schema.org/draft/2020-12/schema")
+        jsonschema.Draft202012Validator.check_schema(self.schema)
+
+    def test_says_its_version(self):
+        self.assertEqual(self.schema["$id"], f"urn:tourmaline:case-file:{self.schema['version']}")
+
+    def test_accepts_every_shipped_case_and_what_it_resolves_to(self):
+        self.assertGreater(len(SHIPPED), 20)
+        for case in SHIPPED:
+            with self.subTest(case=case.relative_to(SOURCE)):
+                self.assert_valid(case.read_text())
+                resolved = program("check", case)
+                self.assertEqual(resolved.stderr, "")
+                self.assert_valid(resolved.stdout)
+
+    def test_accepts_what_the_program_accepts(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for case, before, after in RIGHT:
+                with self.subTest(change=after):
+                    text = changed(case, before, after)
+                    said = check(text, folder)
+                    self.assertEqual(said.stderr, "")
+                    self.assert_valid(text)
+                    self.assert_valid(said.stdout)
+
+    def test_refuses_what_the_program_refuses(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name, change in WRONG.items():
+                with self.subTest(name):
+                    text = changed(*change)
+                    self.assertEqual(check(text, folder).returncode, 2)
+                    self.assertFalse(self.validator.is_valid(tomllib.loads(text)))
+
+    def test_says_unit_and_default(self):
+        friction = self.schema["properties"]["contact"]["properties"]["friction"]["properties"]
+        self.assertIn("[N/m^2]", friction["bound"]["description"])
+        self.assertEqual(friction["law"]["default"], "none")
+
+
+if __name__ == "__main__":
+    unittest.main()

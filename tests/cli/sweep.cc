@@ -1,0 +1,281 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <map>
+#include <sstream>
+#include <thread>
+
+#include "program.h"
+
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string small_case = R"(mesh.box = { min = [0, 0], max = [0.1, 0.1], cells = [4, 4] }
+material.library = "BaTiO3-Liu2014"
+time = { end = 1, steps = 4 }
+output = { fields = false, report = false }
+boundary = [
+  { on = "right", displacement = [0, 0], potential = 0 },
+  { on = "top", traction = [0, "-50*t"] },
+]
+[contact]
+on = "left"
+friction = { law = "tresca", bound = 15 }
+)";
+
+using Cells = std::vector<std::string>;
+
+// Of tables without commas inside of cells.
+std::vector<Cells> table_in(const std::filesystem::path &file) {
+  std::vector<Cells> rows;
+  std::istringstream lines(content_of(file));
+  for (std::string line; std::getline(lines, line);) {
+    rows.emplace_back();
+    std::istringstream cells(line);
+    for (std::string cell; std::getline(cells, cell, ',');)
+      rows.back().push_back(cell);
+  }
+  return rows;
+}
+
+std::string cell_under(const std::string &name, const std::vector<Cells> &table, std::size_t row) {
+  const auto found = std::find(table[0].begin(), table[0].end(), name);
+  return table.at(row).at(static_cast<std::size_t>(found - table[0].begin()));
+}
+
+class Sweep : public Program {
+ protected:
+  void SetUp() override {
+    Program::SetUp();
+    std::ofstream(here() / "small.toml") << small_case;
+  }
+
+  /// When each member's run ended.
+  std::map<std::string, std::filesystem::file_time_type> ends(const std::string &folder) const {
+    std::map<std::string, std::filesystem::file_time_type> times;
+    for (const auto &entry : std::filesystem::directory_iterator(here() / folder))
+      if (exists(entry.path() / "summary.json"))
+        times[entry.path().filename()] = last_write_time(entry.path() / "summary.json");
+    return times;
+  }
+};
+
+TEST_F(Sweep, ATablesRowHoldsWhatARunOfItsOwnSays) {
+  ASSERT_EQ(run("sweep small.toml --vary contact.friction.bound=15,30 --vary time.steps=2,3 "
+                "--output slip,max_displacement,at_max_potential_y -o study"),
+            0);
+  EXPECT_EQ(complained_, "");
+  EXPECT_EQ(said_, "4 cases: 0 done before, 0 failed\nstudy/sweep.csv\nstudy/sweep.svg\n");
+  ASSERT_EQ(run("run small.toml --set contact.friction.bound=30 --set time.steps=2 -o alone -q"),
+            0);
+  const auto table = table_in(here() / "study/sweep.csv"),
+             history = table_in(here() / "alone/history.csv");
+  ASSERT_EQ(table.size(), 5u);
+  EXPECT_EQ(table[0], (Cells{"member", "contact.friction.bound", "time.steps", "status", "slip",
+                             "max_displacement", "at_max_potential_y"}));
+  EXPECT_EQ(table[3][0], "bound=30_steps=2");
+  EXPECT_EQ(table[3][3], "done");
+  for (const char *output : {"slip", "max_displacement"})
+    EXPECT_EQ(cell_under(output, table, 3), cell_under(output, history, 2));
+  EXPECT_NE(cell_under("max_displacement", table, 3), cell_under("max_displacement", table, 1));
+  EXPECT_EQ(content_of(here() / "study/bound=30_steps=2/nodes.csv"),
+            content_of(here() / "alone/nodes.csv"));
+  EXPECT_THAT(content_of(here() / "study/sweep.svg"), testing::StartsWith("<?xml"));
+}
+
+TEST_F(Sweep, TheFolderIsNamedAfterTheCase) {
+  ASSERT_EQ(run("sweep small.toml --vary contact.friction.bound=15 --quiet"), 0);
+  EXPECT_EQ(said_, "");
+  EXPECT_TRUE(exists(here() / "results/small-sweep/bound=15/history.csv"));
+  EXPECT_FALSE(exists(here() / "results/small-sweep/bound=15/error.txt"));
+}
+
+TEST_F(Sweep, WhatIsDoneIsNotRunAgain) {
+  const std::string study = "sweep small.toml --vary contact.friction.bound=15,30,45 -o study";
+  ASSERT_EQ(run(study), 0);
+  const auto first = ends("study");
+  const std::string table = content_of(here() / "study/sweep.csv");
+  ASSERT_EQ(first.size(), 3u);
+  ASSERT_EQ(run(study), 0);
+  EXPECT_THAT(said_, HasSubstr("3 cases: 3 done before"));
+  EXPECT_EQ(ends("study"), first);
+  EXPECT_EQ(content_of(here() / "study/sweep.csv"), table);
+
+  // A run that did not finish has no summary.
+  remove(here() / "study/bound=30/summary.json");
+  ASSERT_EQ(run(study + " --vary time.steps=4"), 0);
+  EXPECT_THAT(said_, HasSubstr("3 cases: 0 done before")) << "other folders";
+  ASSERT_EQ(run(study), 0);
+  EXPECT_THAT(said_, HasSubstr("3 cases: 2 done before"));
+  const auto second = ends("study");
+  EXPECT_EQ(second.at("bound=15"), first.at("bound=15"));
+  EXPECT_EQ(second.at("bound=45"), first.at("bound=45"));
+  EXPECT_GT(second.at("bound=30"), first.at("bound=30"));
+}
+
+TEST_F(Sweep, AChangedCaseIsRunAgain) {
+  const std::string study = "sweep small.toml --vary contact.friction.bound=15,30 -o study";
+  ASSERT_EQ(run(study), 0);
+  const auto first = ends("study");
+  ASSERT_EQ(run(study + " --set time.end=2"), 0);
+  EXPECT_THAT(said_, HasSubstr("2 cases: 0 done before"));
+  for (const auto &[member, end] : ends("study"))
+    EXPECT_GT(end, first.at(member));
+}
+
+TEST_F(Sweep, AChangedMeshFileIsNoticed) {
+  const std::string square = R"(
+    Point(1) = {0, 0, 0, 0.05}; Point(2) = {0.1, 0, 0, 0.05};
+    Point(3) = {0.1, 0.1, 0, 0.05}; Point(4) = {0, 0.1, 0, 0.05};
+    Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+    Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
+    Physical Curve("bottom") = {1}; Physical Curve("right") = {2};
+    Physical Curve("top") = {3}; Physical Curve("left") = {4}; Physical Surface("all") = {1};
+)";
+  std::ofstream(here() / "square.geo") << square;
+  std::string text = small_case;
+  text.replace(0, text.find('\n'), "mesh.file = \"square.geo\"");
+  std::ofstream(here() / "small.toml") << text;
+  const std::string study = "sweep small.toml --vary contact.friction.bound=15,30 -o study";
+  ASSERT_EQ(run(study), 0) << complained_;
+  ASSERT_EQ(run(study), 0);
+  EXPECT_THAT(said_, HasSubstr("2 cases: 2 done before"));
+  std::ofstream(here() / "square.geo") << square << "// another\n";
+  ASSERT_EQ(run(study), 0);
+  EXPECT_THAT(said_, HasSubstr("2 cases: 0 done before"));
+}
+
+TEST_F(Sweep, MembersThatFailDoNotStopTheOthers) {
+  // The bound becomes negative in the second step; before, one iteration is too few where it falls.
+  const std::string study =
+      "sweep small.toml --vary \"contact.friction.bound=15,'15-40*t',1e6\" --vary "
+      "solver.max_iterations=1,100 -o study";
+  EXPECT_EQ(run(study), 3) << "the greater of 2 and 3";
+  EXPECT_THAT(said_, HasSubstr("6 cases: 0 done before, 2 failed\n"));
+  EXPECT_EQ(std::count(complained_.begin(), complained_.end(), '\n'), 2) << complained_;
+  EXPECT_THAT(complained_, AllOf(HasSubstr("tourmaline: bound=15-40_t_max_iterations=1 failed: the "
+                                           "contact iteration did not converge"),
+                                 HasSubstr("tourmaline: bound=15-40_t_max_iterations=100 failed: "),
+                                 HasSubstr("it must be >= 0")));
+  const auto table = table_in(here() / "study/sweep.csv");
+  std::vector<std::string> status;
+  for (std::size_t row = 1; row < table.size(); ++row)
+    status.push_back(cell_under("status", table, row));
+  EXPECT_THAT(status, testing::ElementsAre("done", "done", "failed", "failed", "done", "done"));
+  EXPECT_EQ(cell_under("max_displacement", table, 3), "nan");
+  EXPECT_NE(cell_under("max_displacement", table, 6), "nan");
+  EXPECT_THAT(content_of(here() / "study/bound=15-40_t_max_iterations=1/error.txt"),
+              HasSubstr("raise solver.max_iterations"));
+  // What failed is tried again, what is done is kept.
+  EXPECT_EQ(run(study), 3);
+  EXPECT_THAT(said_, HasSubstr("6 cases: 4 done before, 2 failed\n"));
+}
+
+struct BadStudy {
+  const char *claim, *arguments, *piece;
+};
+
+void PrintTo(const BadStudy &bad, std::ostream *out) {
+  *out << bad.claim;
+}
+
+class BadSweep : public Sweep, public testing::WithParamInterface<BadStudy> {};
+
+TEST_P(BadSweep, IsRefusedInOneParagraphBeforeAnythingRuns) {
+  EXPECT_EQ(run(std::string("sweep small.toml -o study ") + GetParam().arguments), 2);
+  EXPECT_THAT(complained_, AllOf(testing::StartsWith("tourmaline: "), HasSubstr(GetParam().piece)));
+  EXPECT_EQ(std::count(complained_.begin(), complained_.end(), '\n'), 1) << complained_;
+  EXPECT_EQ(said_, "");
+  EXPECT_EQ(files_below(here()), std::set<std::string>{"small.toml"});
+}
+
+const BadStudy bad_studies[] = {
+    {"NothingVaried", "", "--vary is required"},
+    {"NoValues", "--vary contact.friction.bound", "has no \"=\""},
+    {"WrongSpacing", "--vary contact.friction.bound=lgo:1:2:3", "did you mean \"log\"?"},
+    {"LastValueOutOfRange", "--vary contact.friction.bound=5,15,-45",
+     "bound = -45: must be >= 0 N/m^2 (in the case bound=-45 of the study; nothing has been run)"},
+    {"UnknownKey", "--vary contact.friction.buond=5", "did you mean \"bound\"?"},
+    {"FractionForAnInteger", "--vary time.steps=lin:1:2:3", "must be an integer"},
+    {"CombinationThatIsWrong",
+     "--vary mesh.box.cell=triangle,hexahedron --vary contact.friction.bound=1,2",
+     "(in the case cell=hexahedron_bound=1 of the study"},
+    {"UnknownMaterial", "--vary material.library=BaTiO3-Liu2014,BaTiO3-Liu2015", "BaTiO3-Liu2015"},
+    {"UnknownOutput", "--vary contact.friction.bound=5 --output slop", "did you mean \"slip\"?"},
+    {"WrongSet", "--vary contact.friction.bound=5 --set time.steps=0", "steps = 0: must be >= 1"},
+    {"NoJobs", "--vary contact.friction.bound=5 --jobs 0", "--jobs"},
+};
+INSTANTIATE_TEST_SUITE_P(Studies, BadSweep, testing::ValuesIn(bad_studies),
+                         [](const auto &bad) { return std::string(bad.param.claim); });
+
+TEST_F(Sweep, AFolderThatCannotBeMadeIsTheMachinesFailure) {
+  EXPECT_EQ(run("sweep small.toml --vary contact.friction.bound=5 -o small.toml/study"), 4);
+  EXPECT_THAT(complained_, HasSubstr("cannot make the folder"));
+}
+
+/// The processes whose command names that folder.
+std::size_t processes_in(const std::filesystem::path &folder) {
+  std::size_t n = 0;
+  for (const auto &entry : std::filesystem::directory_iterator("/proc")) {
+    const std::string command = content_of(entry.path() / "cmdline");
+    n += command.find(folder.string()) != std::string::npos;
+  }
+  return n;
+}
+
+bool happens(const std::function<bool()> &event) {
+  for (int i = 0; i < 1200; ++i) {
+    if (event())
+      return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  return false;
+}
+
+class StoppedSweep : public Sweep {
+ protected:
+  std::filesystem::path study() const { return here() / "study"; }
+
+  /// Sends the signal once one member is done and another, which would take hours, runs.
+  int status_after(int signal) {
+    std::thread sender([&] {
+      EXPECT_TRUE(happens([&] {
+        return exists(study() / "steps=2/summary.json") &&
+               exists(study() / "steps=200000000/resolved.toml");
+      }));
+      ::kill(std::stoi(content_of(folder_ / "pid")), signal);
+    });
+    const int status =
+        run("sweep small.toml --vary time.steps=2,200000000,100000000 --jobs 1 -o '" +
+                study().string() + "'",
+            "echo $$ > ../pid; exec");
+    sender.join();
+    return status;
+  }
+};
+
+TEST_F(StoppedSweep, EndsItsRunsAndKeepsWhatIsDone) {
+  EXPECT_EQ(status_after(SIGTERM), 128 + SIGTERM);
+  EXPECT_THAT(complained_, AllOf(HasSubstr("stopped; 2 of 3 cases have not run to their end"),
+                                 Not(HasSubstr("failed"))));
+  EXPECT_EQ(processes_in(study()), 0u);
+  const auto table = table_in(study() / "sweep.csv");
+  EXPECT_EQ(cell_under("status", table, 1), "done");
+  EXPECT_EQ(cell_under("status", table, 2), "stopped");
+  EXPECT_EQ(cell_under("status", table, 3), "stopped");
+  EXPECT_FALSE(exists(study() / "steps=100000000/resolved.toml")) << "nothing starts any more";
+}
+
+TEST_F(StoppedSweep, RunsEndWithItWhateverEndsIt) {
+  status_after(SIGKILL);
+  EXPECT_TRUE(happens([&] { return processes_in(study()) == 0; }));
+}
+
+}  // namespace

@@ -1,0 +1,117 @@
+#include "tourmaline/sweep/outputs.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "../output/temporary_folder.h"
+#include "tourmaline/case/reader.h"
+#include "tourmaline/error.h"
+#include "tourmaline/report/table.h"
+#include "tourmaline/solve/simulation.h"
+
+namespace tourmaline::sweep {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+casefile::Case shipped(const std::string &file, std::vector<std::string> overrides) {
+  overrides.insert(overrides.end(), {"output.fields=false", "output.report=false"});
+  return casefile::read_file(std::filesystem::path(TOURMALINE_SOURCE_DIR) / "cases" / file,
+                             overrides);
+}
+
+std::set<std::string> names_of(const std::vector<Output> &outputs) {
+  std::set<std::string> names;
+  for (const Output &output : outputs)
+    names.insert(output.name);
+  return names;
+}
+
+struct Shipped {
+  const char *file;
+  std::vector<std::string> overrides;
+};
+
+class OutputsOf : public testing::TestWithParam<Shipped> {};
+
+TEST_P(OutputsOf, ACaseAreTheColumnsOfItsHistoryAndThePlacesOfTheExtremes) {
+  const output::TemporaryFolder folder;
+  const casefile::Case asked = shipped(GetParam().file, GetParam().overrides);
+  solve::simulate(asked, folder.path(), true);
+  const std::vector<Output> outputs = outputs_of(asked);
+  const report::Table history = report::read_table(folder / "history.csv");
+  std::set<std::string> columns(history.names.begin(), history.names.end());
+  std::set<std::string> names = names_of(outputs);
+  EXPECT_EQ(names.size(), outputs.size());
+  EXPECT_EQ(std::erase_if(names, [](const auto &name) { return name.starts_with("at_"); }),
+            static_cast<std::size_t>(6 * asked.dimension));
+  EXPECT_EQ(names, columns);
+  for (const double value : read_outputs(folder.path(), outputs))
+    EXPECT_TRUE(std::isfinite(value));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Shipped, OutputsOf,
+    testing::Values(Shipped{"ouafik-2020/conductive.toml",
+                            {"mesh.box.cells=[8,8]", "time.steps=2"}},
+                    Shipped{"ouafik-2020/insulated.toml", {"mesh.box.cells=[8,8]", "time.steps=2"}},
+                    Shipped{"devices/friction-sensor-loaded.toml", {"time.steps=2"}},
+                    Shipped{"block-3d/twisted.toml", {"mesh.box.cells=[3,3,3]", "time.steps=1"}},
+                    Shipped{"ring/ring.toml", {"mesh.annulus.cells=[2,16]", "time.steps=1"}}));
+
+const std::vector<casefile::Case> &paper() {
+  static const std::vector<casefile::Case> both{shipped("ouafik-2020/insulated.toml", {}),
+                                                shipped("ouafik-2020/conductive.toml", {})};
+  return both;
+}
+
+TEST(ChosenOutputs, WithoutNamesTheyAreWhatOneLooksAtFirst) {
+  EXPECT_EQ(names_of(chosen_outputs({}, paper())),
+            (std::set<std::string>{"slip", "max_displacement", "min_potential", "max_potential",
+                                   "min_temperature", "max_temperature"}));
+}
+
+TEST(ChosenOutputs, TheyStandInTheOrderOfTheirNamesWithTheirUnits) {
+  const auto chosen =
+      chosen_outputs({"max_potential", "at_max_potential_y", "elastic_energy"}, paper());
+  ASSERT_EQ(chosen.size(), 3u);
+  EXPECT_EQ(chosen[0].unit, "V");
+  EXPECT_EQ(chosen[1].unit, "m");
+  EXPECT_EQ(chosen[2].unit, "J");
+}
+
+TEST(ChosenOutputs, OneOfTheCasesHasToHaveThem) {
+  // Only the conductive foundation takes heat.
+  EXPECT_EQ(chosen_outputs({"heat_left"}, paper()).size(), 1u);
+  EXPECT_THAT([] { chosen_outputs({"heat_left"}, {paper().front()}); },
+              ThrowsMessage<CaseError>(HasSubstr("--output heat_left: no column")));
+}
+
+TEST(ChosenOutputs, AMisspeltNameIsAnsweredWithTheNearest) {
+  EXPECT_THAT([] { chosen_outputs({"max_displacment"}, paper()); },
+              ThrowsMessage<CaseError>(HasSubstr("did you mean \"max_displacement\"?")));
+  EXPECT_THAT(
+      [] {
+        chosen_outputs({"slip", "slip"}, paper());
+      },
+      ThrowsMessage<CaseError>(HasSubstr("asked for twice")));
+}
+
+TEST(ReadOutputs, WhatARunLacksIsNoNumber) {
+  const output::TemporaryFolder folder;
+  std::ofstream(folder / "history.csv") << "step,slip\n1,3\n2,5\n";
+  std::ofstream(folder / "summary.json")
+      << R"({"extremes": [{"field": "potential", "at_minimum": [1, 2], "at_maximum": [3, 4]}]})";
+  const auto values =
+      read_outputs(folder.path(), {{"slip", ""}, {"heat_left", "W"}, {"at_max_potential_y", "m"}});
+  EXPECT_EQ(values[0], 5);
+  EXPECT_TRUE(std::isnan(values[1]));
+  EXPECT_EQ(values[2], 4);
+}
+
+}  // namespace
+}  // namespace tourmaline::sweep
