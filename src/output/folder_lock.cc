@@ -82,6 +82,7 @@ void require_unused(const std::filesystem::path &directory) {
     return;
   if (!lock(descriptor))
     refuse(path, descriptor);
+  ::unlink(path.c_str());  // a killed process left it
   ::close(descriptor);
 }
 

@@ -27,7 +27,8 @@ class FolderLock {
   int descriptor_ = -1;
 };
 
-/// Throws MachineError when a run has the folder at this moment. Leaves nothing there.
+/// Throws MachineError when a run has the folder at this moment. Removes the file
+/// that a killed one left.
 void require_unused(const std::filesystem::path &directory);
 
 }  // namespace tourmaline::output
