@@ -47,8 +47,9 @@ void run(const Asked &asked) {
                              ? std::filesystem::path("results") / asked.file.stem()
                              : asked.directory;
   using tourmaline::solve::Start;
-  tourmaline::solve::simulate(read, directory, asked.quiet,
-                              asked.resume ? Start::checkpoint : Start::beginning);
+  tourmaline::solve::simulate(
+      read, directory,
+      {.quiet = asked.quiet, .start = asked.resume ? Start::checkpoint : Start::beginning});
 }
 
 void check(const Asked &asked) {

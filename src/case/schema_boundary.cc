@@ -79,6 +79,7 @@ void declare(Visitor &v, ElectrodeCase &electrode, const MeshCase &mesh) {
         &electrode.name);
   v.key(on_sides("boundary that the electrode covers, or list of boundaries that it joins", mesh),
         &electrode.on);
+  v.check("on", [&] { return inside_complaint(electrode.on, mesh); });
   v.optional({.name = "voltage",
               .description = "potential of the electrode over time; beside a resistor or capacitor "
                              "that of their other end, 0 when not given",

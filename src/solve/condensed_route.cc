@@ -63,6 +63,7 @@ class CondensedRoute : public Route {
   Eigen::SparseMatrix<double> directions_;  // T: admissible slips of all nodes, block diagonal
   MatrixXd slip_stiffness_;                 // T^T S T
   std::vector<ContactPoint> points_;
+  std::vector<Eigen::MatrixXd> slip_directions_;  // by point, the columns that T has for it
   VectorXd last_increment_;
   double backward_error_ = 0, condense_seconds_ = 0;
   double substitution_seconds_ = 0, contact_seconds_ = 0;
@@ -87,6 +88,7 @@ void CondensedRoute<dim>::condense_onto_slips() {
   for (std::size_t i = 0; i < model_.interface.size(); ++i) {
     const auto directions = admissible(i, zero).directions;
     points_.push_back({n_slips, directions.cols(), model_.interface[i].weight, {}});
+    slip_directions_.push_back(directions);
     for (Index k = 0; k < directions.cols(); ++k)
       for (int c = 0; c < dim; ++c)
         triplets.emplace_back(dim * static_cast<Index>(i) + c, n_slips + k, directions(c, k));
@@ -132,8 +134,8 @@ template <int dim>
 InterfaceSolution CondensedRoute<dim>::solve_contact(double time, const VectorXd &s,
                                                      const VectorXd &held, const VectorXd &before) {
   for (std::size_t i = 0; i < points_.size(); ++i)
-    points_[i].friction =
-        contact::friction_at(model_.asked.contact->friction, model_.interface[i].point, time);
+    points_[i].friction = model_.friction(
+        contact::contact_place(model_.interface[i].point, time, slip_directions_[i]));
   const VectorXd slips_before = directions_.transpose() * before;
   const VectorXd stuck = held + directions_ * slips_before;  // the contact if no point slipped
   const VectorXd resisted = condensed_.stiffness() * stuck;

@@ -127,8 +127,8 @@ void IterativeRoute<dim>::begin_step(double time, std::span<const double> before
   for (std::size_t i = 0; i < points_.size(); ++i) {
     Point<dim> &p = points_[i];
     p.admissible = admissible(i, state);
-    p.friction =
-        contact::friction_at(model_.asked.contact->friction, model_.interface[i].point, time);
+    p.friction = model_.friction(
+        contact::contact_place(model_.interface[i].point, time, p.admissible.directions));
     p.slip_before = p.admissible.directions.transpose() * displacement(before, i);
     p.slip =
         p.admissible.directions.transpose() * (displacement(state, i) - displacement(before, i));

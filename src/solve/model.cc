@@ -58,6 +58,7 @@ Model<dim>::Model(const casefile::Case &asked_for, Built built)
       mesh_seconds(built.mesh_seconds) {
   if (asked.contact) {
     interface = contact::interface_nodes(body, asked.contact->on);
+    friction = contact::friction_of(asked.contact->friction);
     if (asked.contact->heat.law == "exchange")
       op.add_exchange(body, asked.contact->on, asked.contact->heat.coefficient);
   }

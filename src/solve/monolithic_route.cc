@@ -92,7 +92,8 @@ std::vector<AugmentedLagrangian> MonolithicRoute<dim>::laws_at(double time) cons
     law.has_normal = point.has_normal;
     law.r_normal = solver.r_normal.value_or(r);
     law.r_slip = solver.r_tangential ? *solver.r_tangential / model_.step : r;
-    law.friction = contact::friction_at(model_.asked.contact->friction, point.place, time);
+    const auto tangential = point.directions.rightCols(point.directions.cols() - point.has_normal);
+    law.friction = model_.friction(contact::contact_place(point.place, time, tangential));
   }
   return laws;
 }

@@ -34,8 +34,8 @@ template <int dim>
 class Simulation {
  public:
   /// Starts behind the checkpoint, if there is one.
-  Simulation(const casefile::Case &asked, const std::filesystem::path &directory, bool quiet,
-             std::optional<output::Checkpoint> checkpoint);
+  Simulation(const casefile::Case &asked, const std::filesystem::path &directory,
+             const RunOptions &options, std::optional<output::Checkpoint> checkpoint);
   void run();
 
  private:
@@ -83,10 +83,10 @@ std::unique_ptr<Route> make_route(const Model<dim> &model, bool iterative) {
 // factorisation.
 template <int dim>
 Simulation<dim>::Simulation(const casefile::Case &asked, const std::filesystem::path &directory,
-                            bool quiet, std::optional<output::Checkpoint> checkpoint)
+                            const RunOptions &options, std::optional<output::Checkpoint> checkpoint)
     : checkpoint_(std::move(checkpoint)),
       inputs_(parallel::is_first() ? inputs_of(asked) : ""),
-      progress_(asked.time.steps, quiet || !parallel::is_first()),
+      progress_(asked.time.steps, options.quiet || !parallel::is_first()),
       iterative_(checkpoint_ ? checkpoint_->numbers.get("iterative", 1)[0] != 0
                              : solves_iteratively(asked)),
       model_((progress_.stage("mesh and operator"), asked)) {
@@ -95,7 +95,10 @@ Simulation<dim>::Simulation(const casefile::Case &asked, const std::filesystem::
   prescribe(model_.time(1), trial);
   sum_loads(model_.time(1));
   for (const auto &node : model_.interface)
-    contact::friction_at(asked.contact->friction, node.point, model_.time(1));
+    model_.friction(
+        contact::contact_place(node.point, model_.time(1), Eigen::Matrix<double, dim, 0>{}));
+  if (options.friction)
+    model_.friction = options.friction;
   open_folder(directory);
   recorder_.emplace(model_, *folder_);
   progress_.stage(iterative_ ? "preconditioner" : "factorisation");
@@ -331,38 +334,38 @@ void say(const std::string &text, bool quiet) {
 
 // All ranks see the same folder.
 Resumption start_in(const std::filesystem::path &directory, const casefile::Case &asked,
-                    Start start, bool quiet) {
+                    const RunOptions &options) {
   parallel::on_first([&] { output::require_unused(directory); });
   Resumption found;
-  if (start == Start::beginning)
+  if (options.start == Start::beginning)
     return found;
   parallel::together([&] { found = resumption(asked, directory); });
   const std::string name = directory.string();
   if (found.is_complete)
-    say("the run in " + name + " is complete; there is nothing to go on with", quiet);
+    say("the run in " + name + " is complete; there is nothing to go on with", options.quiet);
   else if (found.checkpoint)
     say(fmt::format("going on in {} after step {} of {}", name, found.checkpoint->step,
                     asked.time.steps),
-        quiet);
+        options.quiet);
   else
-    say("there is no checkpoint in " + name + "; starting from the beginning", quiet);
+    say("there is no checkpoint in " + name + "; starting from the beginning", options.quiet);
   return found;
 }
 
 }  // namespace
 
-void simulate(const casefile::Case &asked, const std::filesystem::path &directory, bool quiet,
-              Start start) {
+void simulate(const casefile::Case &asked, const std::filesystem::path &directory,
+              const RunOptions &options) {
   const Process process(asked.solver.threads);
   check(asked);
-  Resumption from = start_in(directory, asked, start, quiet);
+  Resumption from = start_in(directory, asked, options);
   if (from.is_complete)
     return;
   try {
     if (asked.dimension == 2)
-      Simulation<2>(asked, directory, quiet, std::move(from.checkpoint)).run();
+      Simulation<2>(asked, directory, options, std::move(from.checkpoint)).run();
     else
-      Simulation<3>(asked, directory, quiet, std::move(from.checkpoint)).run();
+      Simulation<3>(asked, directory, options, std::move(from.checkpoint)).run();
   } catch (const Error &) {
     throw;  // is that of all ranks
   } catch (const std::exception &error) {

@@ -167,7 +167,7 @@ TEST(Run, AFailedSolveSaysWhereAndWhyAndKeepsTheStepsBefore) {
        "boundary[2].traction=[0,\"if(t>0.155, -300*sin(100*t), -0.5*t)\"]"});
   const auto folder = std::filesystem::temp_directory_path() / "tourmaline-failed-solve";
   try {
-    solve::simulate(asked, folder, true);
+    solve::simulate(asked, folder, {.quiet = true});
     FAIL() << "one iteration sufficed";
   } catch (const SolveError &error) {
     const std::string text = error.what();

@@ -30,7 +30,7 @@ class RunCase {
   const std::filesystem::path &folder() const { return folder_.path(); }
 
  private:
-  void run(const casefile::Case &asked) { solve::simulate(asked, folder_.path(), true); }
+  void run(const casefile::Case &asked) { solve::simulate(asked, folder_.path(), {.quiet = true}); }
 
   output::TemporaryFolder folder_;
 };

@@ -77,7 +77,7 @@ TEST(Page, ACaseWithAMeshFileIsShownWithoutThatFile) {
   solve::simulate(
       casefile::read_file(elsewhere / "bimorph.toml", {"time.steps=1", "output.report=false"},
                           mesh::read_mesh_file),
-      run.path(), true);
+      run.path(), {.quiet = true});
   std::filesystem::remove(elsewhere / "bimorph.geo");
   write_page({run.path()}, run / "report.html");
   const auto result = results_in(output::content_of(run / "report.html"))[0];

@@ -41,7 +41,7 @@ class OutputsOf : public testing::TestWithParam<Shipped> {};
 TEST_P(OutputsOf, ACaseAreTheColumnsOfItsHistoryAndThePlacesOfTheExtremes) {
   const output::TemporaryFolder folder;
   const casefile::Case asked = shipped(GetParam().file, GetParam().overrides);
-  solve::simulate(asked, folder.path(), true);
+  solve::simulate(asked, folder.path(), {.quiet = true});
   const std::vector<Output> outputs = outputs_of(asked);
   const report::Table history = report::read_table(folder / "history.csv");
   std::set<std::string> columns(history.names.begin(), history.names.end());

@@ -1,18 +1,38 @@
 #pragma once
 
+#include <functional>
 #include <variant>
 
 #include "tourmaline/case/case.h"
+#include "tourmaline/contact/friction_law.h"
 #include "tourmaline/contact/tresca.h"
 
 namespace tourmaline::contact {
 
 /// The friction laws there are. A new law is its file, its place here, and its line in
-/// `friction_at`. A law is convex in the slip increment and offers what Tresca offers; no friction
+/// `friction_of`. A law is convex in the slip increment and offers what Tresca offers; no friction
 /// is the bound zero.
-using Friction = std::variant<Tresca>;
+using Friction = std::variant<Tresca, OwnLaw>;
 
-/// The law at one point and time. Throws CaseError for a negative bound.
-Friction friction_at(const casefile::FrictionCase &asked, const output::Vector &point, double time);
+/// Where and when a law is asked for.
+struct ContactPlace {
+  output::Vector point;  ///< [m]
+  double time;           ///< [s]
+  /// orthonormal columns, along which the point can slip and which the law's components belong to
+  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> directions;
+};
+
+template <class Directions>
+ContactPlace contact_place(const output::Vector &point, double time, const Directions &directions) {
+  ContactPlace place{point, time, {}};
+  place.directions.setZero(3, directions.cols());
+  place.directions.topRows(directions.rows()) = directions;
+  return place;
+}
+
+using FrictionAt = std::function<Friction(const ContactPlace &)>;
+
+/// The law of a case; it throws CaseError where the bound is negative.
+FrictionAt friction_of(const casefile::FrictionCase &asked);
 
 }  // namespace tourmaline::contact

@@ -4,6 +4,7 @@
 #include "tourmaline/body/loads.h"
 #include "tourmaline/body/operator.h"
 #include "tourmaline/case/case.h"
+#include "tourmaline/contact/friction.h"
 #include "tourmaline/contact/interface.h"
 #include "tourmaline/material/composition.h"
 
@@ -26,6 +27,7 @@ struct Model {
   std::vector<std::vector<body::Node>> electrodes;  ///< nodes by electrode of the case
   body::Loads<dim> loads;
   std::vector<contact::InterfaceNode<dim>> interface;  ///< empty without contact
+  contact::FrictionAt friction;                        ///< the case's, unless replaced
   double mesh_seconds = 0, assemble_seconds = 0;
 
   double time(int n) const { return asked.time.end * n / asked.time.steps; }

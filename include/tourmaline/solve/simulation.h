@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "tourmaline/case/case.h"
+#include "tourmaline/contact/friction.h"
 
 namespace tourmaline::solve {
 
@@ -14,10 +15,16 @@ void check(const casefile::Case &asked);
 /// the folder, from its checkpoint.
 enum class Start { beginning, checkpoint };
 
-/// Runs a case and leaves its results in `directory`. Progress goes to a terminal on stderr unless
-/// `quiet`. Throws CaseError, SolveError, MachineError, Stopped; the results of the steps before
-/// are kept.
-void simulate(const casefile::Case &asked, const std::filesystem::path &directory, bool quiet,
-              Start start = Start::beginning);
+/// How a case is run.
+struct RunOptions {
+  bool quiet = false;  ///< no progress on a terminal
+  Start start = Start::beginning;
+  contact::FrictionAt friction = {};  ///< instead of the case's law; asked for again in every step
+};
+
+/// Runs a case and leaves its results in `directory`. Progress goes to stderr. Throws CaseError,
+/// SolveError, MachineError, Stopped; the results of the steps before are kept.
+void simulate(const casefile::Case &asked, const std::filesystem::path &directory,
+              const RunOptions &options = {});
 
 }  // namespace tourmaline::solve

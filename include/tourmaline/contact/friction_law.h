@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+
+#include "tourmaline/contact/tangent.h"
+#include "tourmaline/output/records.h"
+
+namespace tourmaline::contact {
+
+/// A friction law that a program of somebody else brings along (examples/). With lambda =
+/// -sigma_tau and the slip increment d over a step it says, for any r > 0,
+///
+///     lambda = P(lambda + r d),   P the projection onto a closed convex set C that holds 0,
+///
+/// or lambda in the subdifferential of the dissipation j(d) = sup over lambda in C of lambda.d,
+/// which is convex and positively homogeneous. `Tresca`, whose C is a ball, has the same functions
+/// and says more of them.
+class FrictionLaw {
+ public:
+  virtual ~FrictionLaw() = default;
+
+  virtual double dissipation(const Tangent &d) const = 0;                     ///< j(d) [J/m^2]
+  virtual Tangent traction(const Tangent &trial) const = 0;                   ///< P [N/m^2]
+  virtual TangentMatrix traction_derivative(const Tangent &trial) const = 0;  ///< P'
+  virtual output::ContactStatus status(const Tangent &trial) const = 0;
+
+  /// Where j is differentiable; there follow its gradient [N/m^2] and Hessian [N/m^3].
+  virtual bool is_smooth_at(const Tangent &d) const = 0;
+  virtual Tangent gradient(const Tangent &d) const = 0;
+  virtual TangentMatrix hessian(const Tangent &d) const = 0;
+};
+
+/// Such a law as a value beside the others.
+struct OwnLaw {
+  std::shared_ptr<const FrictionLaw> law;
+
+  double dissipation(const Tangent &d) const { return law->dissipation(d); }
+  Tangent traction(const Tangent &trial) const { return law->traction(trial); }
+  TangentMatrix traction_derivative(const Tangent &trial) const {
+    return law->traction_derivative(trial);
+  }
+  output::ContactStatus status(const Tangent &trial) const { return law->status(trial); }
+  bool is_smooth_at(const Tangent &d) const { return law->is_smooth_at(d); }
+  Tangent gradient(const Tangent &d) const { return law->gradient(d); }
+  TangentMatrix hessian(const Tangent &d) const { return law->hessian(d); }
+};
+
+}  // namespace tourmaline::contact

@@ -1,0 +1,101 @@
+// Friction laws that a caller brings along.
+#include <algorithm>
+
+#include "run_case.h"
+#include "tourmaline/solve/simulation.h"
+
+namespace tourmaline::testing {
+namespace {
+
+using contact::Tangent;
+using contact::TangentMatrix;
+
+/// Tresca's law as somebody else's.
+class Borrowed : public contact::FrictionLaw {
+ public:
+  explicit Borrowed(double bound) : law_{bound} {}
+  double dissipation(const Tangent &d) const override { return law_.dissipation(d); }
+  Tangent traction(const Tangent &trial) const override { return law_.traction(trial); }
+  TangentMatrix traction_derivative(const Tangent &trial) const override {
+    return law_.traction_derivative(trial);
+  }
+  output::ContactStatus status(const Tangent &trial) const override { return law_.status(trial); }
+  bool is_smooth_at(const Tangent &d) const override { return law_.is_smooth_at(d); }
+  Tangent gradient(const Tangent &d) const override { return law_.gradient(d); }
+  TangentMatrix hessian(const Tangent &d) const override { return law_.hessian(d); }
+
+ private:
+  contact::Tresca law_;
+};
+
+/// Other bounds for the two senses of a line.
+class OneWay : public contact::FrictionLaw {
+ public:
+  OneWay(double forwards, double backwards) : forwards_(forwards), backwards_(backwards) {}
+  double dissipation(const Tangent &d) const override { return d[0] * gradient(d)[0]; }
+  Tangent traction(const Tangent &trial) const override {
+    return Tangent::Constant(1, std::clamp(trial[0], -backwards_, forwards_));
+  }
+  TangentMatrix traction_derivative(const Tangent &trial) const override {
+    return TangentMatrix::Constant(1, 1, traction(trial) == trial);
+  }
+  output::ContactStatus status(const Tangent &trial) const override {
+    return traction(trial) == trial ? output::ContactStatus::stick : output::ContactStatus::slip;
+  }
+  bool is_smooth_at(const Tangent &d) const override { return d[0] != 0; }
+  Tangent gradient(const Tangent &d) const override {
+    return Tangent::Constant(1, d[0] > 0 ? forwards_ : -backwards_);
+  }
+  TangentMatrix hessian(const Tangent &) const override { return TangentMatrix::Zero(1, 1); }
+
+ private:
+  double forwards_, backwards_;
+};
+
+casefile::Case asked_for(const std::string &file, const std::vector<std::string> &overrides) {
+  return casefile::read_file(std::filesystem::path(TOURMALINE_SOURCE_DIR) / file, overrides,
+                             mesh::read_mesh_file);
+}
+
+class OwnLaw : public ::testing::TestWithParam<const char *> {
+ protected:
+  std::vector<std::string> with(std::vector<std::string> overrides) const {
+    overrides.push_back(GetParam());
+    return overrides;
+  }
+};
+
+TEST_P(OwnLaw, ThatIsTrescasGivesWhatTrescasGives) {
+  const output::TemporaryFolder own, shipped;
+  const casefile::Case asked =
+      asked_for("cases/block-3d/twisted.toml", with({"mesh.box.cells=[4,4,4]", "time.steps=4"}));
+  solve::simulate(asked, shipped.path(), {.quiet = true});
+  solve::simulate(asked, own.path(), {.quiet = true, .friction = [](const contact::ContactPlace &) {
+                                        return contact::OwnLaw{std::make_shared<Borrowed>(15.)};
+                                      }});
+  EXPECT_EQ(output::content_of(own / "contact.csv"), output::content_of(shipped / "contact.csv"));
+}
+
+// The sensor's pad is sheared back and forth until it slips in both senses.
+TEST_P(OwnLaw, MayHaveOtherBoundsForTheTwoSenses) {
+  const double right = 5e4, left = 2e4;
+  const output::TemporaryFolder folder;
+  solve::simulate(asked_for("cases/devices/friction-sensor.toml", with({"output.fields=false"})),
+                  folder.path(),
+                  {.quiet = true, .friction = [=](const contact::ContactPlace &place) {
+                     const bool along = place.directions(0, 0) > 0;
+                     return contact::OwnLaw{along ? std::make_shared<OneWay>(right, left)
+                                                  : std::make_shared<OneWay>(left, right)};
+                   }});
+  const std::vector<double> traction =
+      read_table(folder / "contact.csv").numbers("tangential_traction_x");
+  const auto [least, greatest] = std::minmax_element(traction.begin(), traction.end());
+  EXPECT_NEAR(*least, -right, 1e-9 * right);
+  EXPECT_NEAR(*greatest, left, 1e-9 * left);
+}
+
+INSTANTIATE_TEST_SUITE_P(Routes, OwnLaw,
+                         ::testing::Values("solver.method=condensed", "solver.method=monolithic"));
+
+}  // namespace
+}  // namespace tourmaline::testing
