@@ -60,10 +60,18 @@ class Writer {
   std::uint64_t sum_ = 0;
 };
 
-/// Reads what `Writer` wrote; the bytes have proved to be whole.
+[[noreturn]] void refuse(const std::filesystem::path &path, const std::string &reason) {
+  throw MachineError(fmt::format(
+      "{} {}, so that the run cannot go on from it; the files beside it are those of the steps so "
+      "far. Start again from the beginning without --resume, which removes them, or with -o in "
+      "another folder",
+      path.string(), reason));
+}
+
+/// Reads what `Writer` wrote.
 class Reader {
  public:
-  explicit Reader(std::string_view rest) : rest_(rest) {}
+  Reader(const std::filesystem::path &path, std::string_view rest) : path_(path), rest_(rest) {}
 
   std::uint64_t number() {
     std::uint64_t value = 0;
@@ -72,19 +80,27 @@ class Reader {
   }
   std::string text() { return std::string(bytes(number())); }
   std::vector<double> numbers() {
-    std::vector<double> values(number());
-    const std::string_view part = bytes(values.size() * sizeof(double));
+    const std::uint64_t count = number();
+    need(count <= rest_.size() / sizeof(double));
+    std::vector<double> values(count);
+    const std::string_view part = bytes(count * sizeof(double));
     std::copy(part.begin(), part.end(), reinterpret_cast<char *>(values.data()));
     return values;
   }
 
  private:
+  void need(bool is_there) const {
+    if (!is_there)
+      refuse(path_, "is damaged: it holds less than it says");
+  }
   std::string_view bytes(std::size_t size) {
+    need(size <= rest_.size());
     const std::string_view part = rest_.substr(0, size);
-    rest_.remove_prefix(part.size());
+    rest_.remove_prefix(size);
     return part;
   }
 
+  const std::filesystem::path &path_;
   std::string_view rest_;
 };
 
@@ -96,14 +112,6 @@ std::string contents(const std::filesystem::path &path) {
   return text;
 }
 
-[[noreturn]] void refuse(const std::filesystem::path &path, const std::string &reason) {
-  throw MachineError(fmt::format(
-      "{} {}, so that the run cannot go on from it; the files beside it are those of the steps so "
-      "far. Start again from the beginning without --resume, which removes them, or with -o in "
-      "another folder",
-      path.string(), reason));
-}
-
 /// What stands between the version and the checksum.
 std::string_view body(const std::filesystem::path &path, std::string_view file) {
   constexpr std::size_t word = sizeof(std::uint64_t);
@@ -111,12 +119,12 @@ std::string_view body(const std::filesystem::path &path, std::string_view file) 
     refuse(path, "is no checkpoint");
   if (file.size() < magic.size() + 2 * word)
     refuse(path, "is damaged: its end is missing");
-  if (const std::uint64_t version = Reader(file.substr(magic.size())).number();
+  if (const std::uint64_t version = Reader(path, file.substr(magic.size())).number();
       version != format_version)
     refuse(path, fmt::format("has version {} of the format, this program reads version {}", version,
                              format_version));
   const std::string_view summed = file.substr(0, file.size() - word);
-  if (Reader(file.substr(summed.size())).number() != checksum(0, summed))
+  if (Reader(path, file.substr(summed.size())).number() != checksum(0, summed))
     refuse(path, "is damaged: its checksum is wrong");
   return summed.substr(magic.size() + word);
 }
@@ -162,7 +170,7 @@ void write_checkpoint(const std::filesystem::path &path, const Checkpoint &check
 
 Checkpoint read_checkpoint(const std::filesystem::path &path) {
   const std::string whole = contents(path);
-  Reader file(body(path, whole));
+  Reader file(path, body(path, whole));
   Checkpoint checkpoint;
   checkpoint.program = file.text();
   checkpoint.inputs = file.text();
