@@ -96,6 +96,13 @@ bool is_done(const fs::path &folder, const Prepared &member) {
   });
 }
 
+bool was_interrupted(const fs::path &folder, const Prepared &member) {
+  std::error_code error;
+  return fs::exists(folder / "checkpoint.bin", error) &&
+         fs::exists(folder / "resolved.toml", error) &&
+         report::read_text_file(folder / "resolved.toml") == member.resolved;
+}
+
 std::size_t jobs_for(const std::vector<Prepared> &members) {
   int threads = 1;
   double memory = 0;

@@ -23,6 +23,8 @@ std::vector<Prepared> prepared(const Request &request, const std::vector<Variati
 /// Whether the folder holds the finished run of that case, and no file that the case names has
 /// changed since.
 bool is_done(const std::filesystem::path &folder, const Prepared &member);
+/// Whether the folder holds a checkpoint of a run of this case.
+bool was_interrupted(const std::filesystem::path &folder, const Prepared &member);
 
 /// How many members may run side by side.
 std::size_t jobs_for(const std::vector<Prepared> &members);

@@ -123,6 +123,8 @@ class Study {
       add(override);
     try {
       make(folder_of(i));
+      if (was_interrupted(folder_of(i), cases_[i]))
+        command.emplace_back("--resume");
       processes_.start(i, command, log_of(i));
     } catch (const MachineError &error) {
       fail(i, machine_failed, error.what());

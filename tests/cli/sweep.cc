@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <sstream>
 #include <thread>
@@ -220,11 +222,17 @@ TEST_F(Sweep, AFolderThatCannotBeMadeIsTheMachinesFailure) {
   EXPECT_THAT(complained_, HasSubstr("cannot make the folder"));
 }
 
+/// Empty of a process that has ended meanwhile, and of what is no process.
+std::string command_of(const std::filesystem::path &process) {
+  std::ifstream in(process / "cmdline", std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
 /// The processes whose command names that folder.
 std::size_t processes_in(const std::filesystem::path &folder) {
   std::size_t n = 0;
   for (const auto &entry : std::filesystem::directory_iterator("/proc")) {
-    const std::string command = content_of(entry.path() / "cmdline");
+    const std::string command = command_of(entry.path());
     n += command.find(folder.string()) != std::string::npos;
   }
   return n;
@@ -271,6 +279,26 @@ TEST_F(StoppedSweep, EndsItsRunsAndKeepsWhatIsDone) {
   EXPECT_EQ(cell_under("status", table, 2), "stopped");
   EXPECT_EQ(cell_under("status", table, 3), "stopped");
   EXPECT_FALSE(exists(study() / "steps=100000000/resolved.toml")) << "nothing starts any more";
+}
+
+TEST_F(StoppedSweep, AStoppedRunGoesOnWhereItWas) {
+  const auto member = study() / "bound=5";
+  const std::string all =
+      "sweep small.toml --vary contact.friction.bound=5 --set time.steps=3000 "
+      "--set output.fields=true --set output.every=1500 --set 'output.checkpoint=\"5 steps\"' -o "
+      "'" +
+      study().string() + "'";
+  std::thread sender([&] {
+    EXPECT_TRUE(happens([&] { return exists(member / "checkpoint.bin"); }));
+    ::kill(std::stoi(content_of(folder_ / "pid")), SIGTERM);
+  });
+  EXPECT_EQ(run(all, "echo $$ > ../pid; exec"), 128 + SIGTERM);
+  sender.join();
+  ASSERT_TRUE(exists(member / "checkpoint.bin"));
+  const auto begun = last_write_time(member / "result_0000.vtu");
+  EXPECT_EQ(run(all), 0) << complained_;
+  EXPECT_EQ(last_write_time(member / "result_0000.vtu"), begun) << "it started again";
+  EXPECT_EQ(cell_under("status", table_in(study() / "sweep.csv"), 1), "done");
 }
 
 TEST_F(StoppedSweep, RunsEndWithItWhateverEndsIt) {
