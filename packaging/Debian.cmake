@@ -7,7 +7,7 @@ string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
 file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/changelog.Debian
 "tourmaline (${PROJECT_VERSION}-${revision}) bookworm; urgency=medium
 
-  * Built for Debian 12 from the project's source; changelog.gz lists the changes.
+  * Built for Debian 12; changelog.gz lists the changes.
 
  -- ${maintainer}  ${date}
 ")
@@ -43,8 +43,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS openmpi-bin)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS paraview)
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
-"simulates frictional contact of thermo-piezoelectric bodies
-Displacement, electric potential and temperature of piezoelectric and
+"Displacement, electric potential and temperature of piezoelectric and
 pyroelectric bodies in frictional contact with a foundation, fully coupled, in
 two and three dimensions. The quasistatic model is that of Ouafik (2020), with
 bilateral contact, Tresca friction and heat exchange. Case files are TOML;
@@ -58,8 +57,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${libraries}, pkg-config")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "cmake, tourmaline")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
-"library behind tourmaline, for programs of one's own
-Frictional contact of thermo-piezoelectric bodies as a static C++ library with
-a CMake package: case files, meshes, materials, solvers, results. A program that
-uses it may bring a friction law of its own.")
+"This is the library behind the program tourmaline, static and with a CMake
+package: case files, meshes, materials, solvers, results. A program that uses
+it may bring a friction law of its own.")
 include(CPack)
