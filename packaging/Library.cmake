@@ -21,4 +21,4 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/TourmalineConfig.cmake
 
 # The example of a program that uses the library.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libtourmaline-dev/examples
-  COMPONENT development)
+  COMPONENT development PATTERN build EXCLUDE)

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # completion.sh COMPLETION: what bash offers after the beginnings of some commands.
 set -u
+# shellcheck source=/dev/null
+source "$1"
 cd "$(mktemp -d)" || exit 1
 trap 'rm -rf "$PWD"' EXIT
 touch first.toml notes.txt
 mkdir results
-# shellcheck source=/dev/null
-source "$1"
 wrong=0
 
 # offers LINE WORD...: after LINE exactly these words are offered, in any order.
@@ -22,7 +22,7 @@ offers() {
   found=$(printf '%s\n' "${COMPREPLY[@]}" | sort)
   expected=$(printf '%s\n' "$@" | sort)
   [[ $found == "$expected" ]] && return
-  echo "after '$line': offered" $found ", expected" $expected
+  echo "after '$line': offered ${found//$'\n'/ }, expected ${expected//$'\n'/ }"
   wrong=1
 }
 

@@ -18,6 +18,5 @@ diff <(usr/bin/tourmaline materials PZT-4 | tail -n +2) \
 cmake -S "$source/examples/directional_friction" -B example -DCMAKE_PREFIX_PATH="$root/usr" > configure.log 2>&1 \
   || { cat configure.log; exit 1; }
 cmake --build example > build.log 2>&1 || { cat build.log; exit 1; }
-mkdir run
-cd run
-../example/directional_friction
+example/directional_friction usr/share/tourmaline/cases/ouafik-2020/conductive.toml result
+test -s result/summary.json
