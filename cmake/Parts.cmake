@@ -1,4 +1,5 @@
-# The libraries Tourmaline is made of, all from Debian 12, each as one imported target `part::...`.
+# The libraries Tourmaline is made of, all from Debian 12, each as one imported target. Installed with the library:
+# a program that is built against it finds them again with this file. Their packages: packaging/libraries.
 
 find_package(PkgConfig REQUIRED)
 find_package(MPI REQUIRED COMPONENTS C)
@@ -12,35 +13,44 @@ pkg_check_modules(MUPARSER REQUIRED IMPORTED_TARGET muparser)
 
 # deal.II's own target drags some 150 Trilinos libraries into the link line, and with them into every
 # start of the program. Only the library itself is linked here; `--as-needed` keeps of the two Teuchos
-# libraries (which deal.II's headers refer to) what is used.
+# libraries (which deal.II's headers refer to) what is used. Whether deal.II's debug build is taken follows the
+# configuration; programs built against an installed library take the one that the library was built with.
+if(NOT DEFINED TOURMALINE_DEALII_DEBUG)
+  set(TOURMALINE_DEALII_DEBUG $<CONFIG:Debug>)
+endif()
 find_package(deal.II 9.4 REQUIRED HINTS /usr)
 include(${DEAL_II_TARGET_CONFIG})
 set(dealii_headers ${DEAL_II_INCLUDE_DIRS})
 list(REMOVE_ITEM dealii_headers /usr/include)
-add_library(part_dealii INTERFACE)
-target_include_directories(part_dealii SYSTEM INTERFACE ${dealii_headers})
-target_compile_definitions(part_dealii INTERFACE OMPI_SKIP_MPICXX $<$<CONFIG:Debug>:DEBUG>)
+add_library(part::dealii INTERFACE IMPORTED)
+target_include_directories(part::dealii SYSTEM INTERFACE ${dealii_headers})
+target_compile_definitions(part::dealii INTERFACE OMPI_SKIP_MPICXX $<$<BOOL:${TOURMALINE_DEALII_DEBUG}>:DEBUG>)
 get_target_property(dealii_release deal.ii IMPORTED_LOCATION_DEBUGRELEASE)
 get_target_property(dealii_debug deal.ii.g IMPORTED_LOCATION_DEBUGRELEASE)
-target_link_libraries(part_dealii INTERFACE
-  -Wl,--as-needed $<IF:$<CONFIG:Debug>,${dealii_debug},${dealii_release}>
+target_link_libraries(part::dealii INTERFACE
+  -Wl,--as-needed $<IF:$<BOOL:${TOURMALINE_DEALII_DEBUG}>,${dealii_debug},${dealii_release}>
   tbb trilinos_teuchoscomm trilinos_teuchoscore MPI::MPI_C)
-add_library(part::dealii ALIAS part_dealii)
 
 # The MPI build of MUMPS, the one that deal.II, PETSc and Trilinos use; never the `_seq` one beside it.
 find_path(MUMPS_INCLUDE dmumps_c.h REQUIRED)
 find_library(MUMPS_LIBRARY dmumps REQUIRED)
-add_library(part_mumps INTERFACE)
-target_include_directories(part_mumps SYSTEM INTERFACE ${MUMPS_INCLUDE})
-target_link_libraries(part_mumps INTERFACE ${MUMPS_LIBRARY} MPI::MPI_C)
-add_library(part::mumps ALIAS part_mumps)
+add_library(part::mumps INTERFACE IMPORTED)
+target_include_directories(part::mumps SYSTEM INTERFACE ${MUMPS_INCLUDE})
+target_link_libraries(part::mumps INTERFACE ${MUMPS_LIBRARY} MPI::MPI_C)
 
 # The build of PETSc that deal.II uses.
 pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET PETSc)
 
 find_library(METIS_LIBRARY metis REQUIRED)
+add_library(part::metis INTERFACE IMPORTED)
+target_link_libraries(part::metis INTERFACE ${METIS_LIBRARY})
+
 find_library(OPENBLAS_LIBRARY openblas REQUIRED)
+add_library(part::openblas INTERFACE IMPORTED)
+target_link_libraries(part::openblas INTERFACE ${OPENBLAS_LIBRARY})
 
 # deal.II is linked with libgmsh already, so that this adds nothing to the start of the program.
 find_path(GMSH_INCLUDE gmsh.h REQUIRED)
 find_library(GMSH_LIBRARY gmsh REQUIRED)
+add_library(part::gmsh INTERFACE IMPORTED)
+target_link_libraries(part::gmsh INTERFACE ${GMSH_LIBRARY})
