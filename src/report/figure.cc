@@ -68,13 +68,28 @@ void Figure::axes() {
   axis(1, "y");
 }
 
+namespace {
+
+// Of a flat body's marks only as many as their numbers do not cover each other.
+std::vector<double> sparse_ticks(double low, double high, double per_metre, double apart) {
+  std::vector<double> values = ticks(low, high);
+  if (values.size() < 2)
+    return values;
+  const double step = values[1] - values[0];
+  const auto every = std::max(1L, static_cast<long>(std::ceil(apart / (step * per_metre))));
+  std::erase_if(values, [&](double value) { return std::lround(value / step) % every != 0; });
+  return values;
+}
+
+}  // namespace
+
 // Coordinates are those of the undeformed body.
 void Figure::axis(int direction, const char *label) {
   const double low = view_.low[direction], high = view_.high[direction];
   const int power = shown_power(std::max(std::abs(low), std::abs(high)));
   const double foot = top_ + height_ + 5, side = left_ - 5;
   std::vector<std::vector<Canvas::Point>> marks;
-  for (const double value : ticks(low, high)) {
+  for (const double value : sparse_ticks(low, high, per_metre_, direction == 0 ? 18 : 8)) {
     const double at = (value - low) * per_metre_;
     const std::string text = number_text(value / std::pow(10, power), 4);
     if (direction == 0) {
@@ -224,7 +239,10 @@ void Figure::setting() {
   if (result_.dimension == 2)
     put(bare_surface());
   Raster raster(view_, per_metre_ * raster_pixels);
-  for (const SettingGroup &group : groups_of(result_))
+  // A facet may be in several groups; the first one, the contact, is painted last.
+  std::vector<SettingGroup> groups = groups_of(result_);
+  std::reverse(groups.begin(), groups.end());
+  for (const SettingGroup &group : groups)
     for (const Boundary *boundary : group.boundaries)
       if (result_.dimension == 2)
         paint_sides(*boundary, group.colour);

@@ -2,6 +2,7 @@
 // the nodes.
 import * as THREE from 'three';
 import { Field, Grid, Result } from './results';
+import { inOrderOfPainting } from './setting';
 import { mapBytes, Range } from './colours';
 
 /** What is to be seen of a body. */
@@ -174,7 +175,7 @@ export class Body {
   /** Facets of the boundaries as coloured surfaces, for three dimensions. */
   paintBoundaries(colours: Map<string, string>) {
     this.settingObject.clear();
-    for (const boundary of this.result.boundaries) {
+    for (const boundary of inOrderOfPainting(this.result, colours)) {
       const positions: number[] = [];
       for (const facet of boundary.facets)
         for (let i = 2; i < facet.length; ++i)

@@ -1,4 +1,5 @@
 // One picture of a body: a canvas with the field, the mesh and, in the plane, the boundaries.
+import { inOrderOfPainting } from './setting';
 import { arrow } from './arrow';
 import { Body, Look } from './body';
 import { Camera, draw, fitted } from './stage';
@@ -39,7 +40,7 @@ export class Picture {
     const y = (node: number) => ((1 - places[3 * node + 1]) / 2) * this.canvas.height;
     context.lineWidth = width;
     context.lineCap = 'round';
-    for (const boundary of this.body.result.boundaries) {
+    for (const boundary of inOrderOfPainting(this.body.result, colours)) {
       context.strokeStyle = colours?.get(boundary.name) ?? colour('--outline');
       context.beginPath();
       for (const facet of boundary.facets) {

@@ -29,6 +29,12 @@ export function groupsOf(result: Result): Group[] {
   return [...groups.values()];
 }
 
+/** A facet may be in several groups; the first one, the contact, is painted last. */
+export function inOrderOfPainting(result: Result, colours?: Map<string, string>) {
+  const order = [...(colours?.keys() ?? [])];
+  return [...result.boundaries].sort((a, b) => order.indexOf(b.name) - order.indexOf(a.name));
+}
+
 export function coloursOf(groups: Group[]): Map<string, string> {
   return new Map(groups.flatMap((g) => g.names.map((name): [string, string] => [name, g.colour])));
 }
