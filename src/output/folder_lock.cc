@@ -82,7 +82,16 @@ void require_unused(const std::filesystem::path &directory) {
     return;
   if (!lock(descriptor))
     refuse(path, descriptor);
-  ::unlink(path.c_str());  // a killed process left it
+  ::close(descriptor);
+}
+
+void remove_stale_lock(const std::filesystem::path &directory) {
+  const std::filesystem::path path = directory / lock_name;
+  const int descriptor = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
+  if (descriptor < 0)
+    return;
+  if (lock(descriptor))
+    ::unlink(path.c_str());
   ::close(descriptor);
 }
 

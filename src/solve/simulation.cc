@@ -341,9 +341,10 @@ Resumption start_in(const std::filesystem::path &directory, const casefile::Case
     return found;
   parallel::together([&] { found = resumption(asked, directory); });
   const std::string name = directory.string();
-  if (found.is_complete)
+  if (found.is_complete) {
+    parallel::on_first([&] { output::remove_stale_lock(directory); });
     say("the run in " + name + " is complete; there is nothing to go on with", options.quiet);
-  else if (found.checkpoint)
+  } else if (found.checkpoint)
     say(fmt::format("going on in {} after step {} of {}", name, found.checkpoint->step,
                     asked.time.steps),
         options.quiet);

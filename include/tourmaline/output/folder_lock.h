@@ -27,8 +27,10 @@ class FolderLock {
   int descriptor_ = -1;
 };
 
-/// Throws MachineError when a run has the folder at this moment. Removes the file
-/// that a killed one left.
+/// Throws MachineError when a run has the folder at this moment. Leaves everything there as it is.
 void require_unused(const std::filesystem::path &directory);
+
+/// Removes the file that a killed process left, if there is one.
+void remove_stale_lock(const std::filesystem::path &directory);
 
 }  // namespace tourmaline::output
