@@ -12,6 +12,7 @@
 #include <set>
 
 #include "tourmaline/error.h"
+#include "tourmaline/mesh/mesh.h"
 #include "tourmaline/output/place.h"
 #include "tourmaline/parallel/ranks.h"
 

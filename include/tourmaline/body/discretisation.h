@@ -8,8 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "tourmaline/mesh/mesh.h"
 #include "tourmaline/output/records.h"
+
+namespace tourmaline::mesh {
+template <int dim>
+struct Mesh;  // holds deal.II's cells: whoever makes one includes mesh/mesh.h
+}
 
 namespace tourmaline::body {
 
