@@ -7,6 +7,7 @@
 #include "tourmaline/body/discretisation.h"
 #include "tourmaline/case/sides.h"
 #include "tourmaline/material/composition.h"
+#include "tourmaline/mesh/mesh.h"
 
 namespace tourmaline::solve {
 

@@ -9,6 +9,7 @@
 #include "tourmaline/body/derived.h"
 #include "tourmaline/body/loads.h"
 #include "tourmaline/material/orientation.h"
+#include "tourmaline/mesh/mesh.h"
 
 namespace tourmaline::body {
 namespace {

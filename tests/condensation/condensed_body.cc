@@ -6,6 +6,7 @@
 
 #include "tourmaline/error.h"
 #include "tourmaline/material/orientation.h"
+#include "tourmaline/mesh/mesh.h"
 
 namespace tourmaline::condensation {
 namespace {

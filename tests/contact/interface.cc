@@ -6,6 +6,7 @@
 #include <map>
 
 #include "tourmaline/error.h"
+#include "tourmaline/mesh/mesh.h"
 
 namespace tourmaline::contact {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "../output/small_body.h"
 #include "tourmaline/body/discretisation.h"
+#include "tourmaline/mesh/mesh.h"
 #include "tourmaline/report/setting.h"
 
 namespace tourmaline::report {

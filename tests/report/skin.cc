@@ -6,6 +6,7 @@
 
 #include "../output/small_body.h"
 #include "tourmaline/body/discretisation.h"
+#include "tourmaline/mesh/mesh.h"
 
 namespace tourmaline::report {
 namespace {

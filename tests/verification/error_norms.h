@@ -2,6 +2,7 @@
 
 #include "../cases/run_case.h"
 #include "problem.h"
+#include "tourmaline/mesh/mesh.h"
 
 namespace tourmaline::testing {
 

@@ -4,6 +4,7 @@
 
 #include "march.h"
 #include "study.h"
+#include "tourmaline/mesh/mesh.h"
 
 namespace tourmaline::testing {
 namespace {

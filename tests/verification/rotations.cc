@@ -8,6 +8,7 @@
 
 #include "march.h"
 #include "richer_paper.h"
+#include "tourmaline/mesh/mesh.h"
 
 namespace tourmaline::testing {
 namespace {
