@@ -111,6 +111,14 @@ TEST(Material, AnEnergyThatIsNotPositiveIsRefused) {
   EXPECT_THROW(constants_of(asked), CaseError);
 }
 
+TEST(Material, AConductivityThatIsNotPositiveIsRefused) {
+  for (const double k11 : {0., -50.}) {
+    casefile::MaterialCase asked = batio3();
+    asked.constants["k11"] = k11;
+    EXPECT_THROW(constants_of(asked), CaseError) << k11;
+  }
+}
+
 TEST(Material, AMisspeltNameIsAnsweredWithTheNearest) {
   try {
     casefile::MaterialCase asked;
