@@ -1,4 +1,4 @@
-# The libraries Tourmaline is made of, all from Debian 12, each as one imported target. Installed with the library:
+# The libraries Tourmaline is made of, all from Debian 12 or 13, each as one imported target. Installed with the library:
 # a program that is built against it finds them again with this file. Their packages: packaging/libraries.
 
 find_package(PkgConfig REQUIRED)
@@ -19,14 +19,19 @@ if(NOT DEFINED TOURMALINE_DEALII_DEBUG)
   set(TOURMALINE_DEALII_DEBUG $<CONFIG:Debug>)
 endif()
 find_package(deal.II 9.4 REQUIRED HINTS /usr)
-include(${DEAL_II_TARGET_CONFIG})
-set(dealii_headers ${DEAL_II_INCLUDE_DIRS})
+if(NOT TARGET ${DEAL_II_TARGET_RELEASE})  # 9.4 leaves that to its users, 9.6 does it
+  include(${DEAL_II_TARGET_CONFIG})
+endif()
+# Not every release lists where its headers look for those of Trilinos (Kokkos among them).
+find_path(TRILINOS_INCLUDE Teuchos_config.h PATH_SUFFIXES trilinos REQUIRED)
+set(dealii_headers ${DEAL_II_INCLUDE_DIRS} ${TRILINOS_INCLUDE} ${MPI_C_INCLUDE_DIRS})
+list(REMOVE_DUPLICATES dealii_headers)
 list(REMOVE_ITEM dealii_headers /usr/include)
 add_library(part::dealii INTERFACE IMPORTED)
 target_include_directories(part::dealii SYSTEM INTERFACE ${dealii_headers})
 target_compile_definitions(part::dealii INTERFACE OMPI_SKIP_MPICXX $<$<BOOL:${TOURMALINE_DEALII_DEBUG}>:DEBUG>)
-get_target_property(dealii_release deal.ii IMPORTED_LOCATION_DEBUGRELEASE)
-get_target_property(dealii_debug deal.ii.g IMPORTED_LOCATION_DEBUGRELEASE)
+get_target_property(dealii_release ${DEAL_II_TARGET_RELEASE} IMPORTED_LOCATION_DEBUGRELEASE)
+get_target_property(dealii_debug ${DEAL_II_TARGET_DEBUG} IMPORTED_LOCATION_DEBUGRELEASE)
 target_link_libraries(part::dealii INTERFACE
   -Wl,--as-needed $<IF:$<BOOL:${TOURMALINE_DEALII_DEBUG}>,${dealii_debug},${dealii_release}>
   tbb trilinos_teuchoscomm trilinos_teuchoscore MPI::MPI_C)

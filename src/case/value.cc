@@ -102,10 +102,10 @@ void check_choice(const Item &item, const std::string &text) {
   fail(item, "is not allowed; allowed: " + listed(key.choices) + did_you_mean(text, key.choices));
 }
 
-const toml::array &entries_of(const Item &item, const std::string &wanted) {
+const toml::array &entries_of(const Item &item, std::string_view wanted) {
   if (const toml::array *array = item.node.as_array())
     return *array;
-  fail_type(item, wanted);
+  fail_type(item, std::string(wanted));
 }
 
 std::string needed(const std::vector<int> &counts) {

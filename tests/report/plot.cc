@@ -3,7 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <regex>
+#include <set>
+#include <sstream>
 
 #include "../output/temporary_folder.h"
 #include "tourmaline/report/ticks.h"
@@ -50,23 +54,76 @@ TEST_F(PlotFile, EachFormatIsWhatItsNameSays) {
   EXPECT_THAT(written(FigureFormat::png), StartsWith("\x89PNG"));
 }
 
-TEST_F(PlotFile, LogarithmicSpacingMovesThePoints) {
-  const std::string linear = written(FigureFormat::png);
+// The lines of the data in an SVG file, and apart from them those of its legend: colour and points.
+struct DrawnLine {
+  std::string colour;
+  std::vector<std::vector<std::array<double, 2>>> pieces;
+};
+
+DrawnLine drawn_line(const std::string &colour, const std::string &path) {
+  DrawnLine line{colour, {}};
+  std::istringstream words(path);
+  std::string word;
+  while (words >> word) {
+    if (word == "M")
+      line.pieces.emplace_back();
+    std::array<double, 2> point{};
+    words >> point[0] >> point[1];
+    line.pieces.back().push_back(point);
+  }
+  return line;
+}
+
+std::vector<DrawnLine> drawn_lines(const std::string &svg) {
+  const std::regex of_data(R"re(stroke-width:1\.1;[^"]*stroke:(rgb\([^)]*\))[^"]*" d="([^"]*)")re");
+  std::vector<DrawnLine> lines;
+  for (std::sregex_iterator at(svg.begin(), svg.end(), of_data), end; at != end; ++at)
+    lines.push_back(drawn_line((*at)[1], (*at)[2]));
+  return lines;
+}
+
+std::size_t marks(const std::string &svg, const std::string &colour) {
+  const std::string filled = "fill:" + colour;
+  std::size_t count = 0;
+  for (std::size_t at = svg.find(filled); at != std::string::npos; at = svg.find(filled, at + 1))
+    ++count;
+  return count;
+}
+
+// Ratio of the two distances between the three points of the first line.
+double spacing(const std::string &svg) {
+  const auto points = drawn_lines(svg).at(0).pieces.at(0);
+  return (points.at(2)[0] - points.at(1)[0]) / (points.at(1)[0] - points.at(0)[0]);
+}
+
+TEST_F(PlotFile, OnALogarithmicAbscissaEqualRatiosAreEqualDistances) {
+  // 1e-3: the file has six digits.
+  EXPECT_NEAR(spacing(written(FigureFormat::svg)), 10, 1e-3);
   plot.logarithmic = true;
-  EXPECT_FALSE(written(FigureFormat::png) == linear);
+  EXPECT_NEAR(spacing(written(FigureFormat::svg)), 1, 1e-3);
 }
 
-TEST_F(PlotFile, AGapIsNotDrawn) {
-  const std::string whole = written(FigureFormat::png);
+TEST_F(PlotFile, AGapIsNotDrawnAndLeavesTheOtherLineAsItWas) {
+  const std::vector<DrawnLine> whole = drawn_lines(written(FigureFormat::svg));
   plot.panels[0].lines[0][1] = std::nan("");
-  EXPECT_FALSE(written(FigureFormat::png) == whole);
+  const std::string svg = written(FigureFormat::svg);
+  const std::vector<DrawnLine> lines = drawn_lines(svg);
+  std::size_t strokes = 0;  // of the first colour, the legend's among them
+  for (const DrawnLine &line : lines)
+    if (line.colour == whole.at(0).colour)
+      for (const auto &piece : line.pieces)
+        strokes += piece.size() > 1;
+  EXPECT_EQ(strokes, 1);
+  EXPECT_EQ(marks(svg, whole.at(0).colour), 2 + 1);
+  EXPECT_EQ(marks(svg, whole.at(1).colour), 3 + 1);
 }
 
-TEST_F(PlotFile, OnePointAndNoPointAtAllAreDrawnToo) {
+TEST_F(PlotFile, OnePointIsAMarkAndNoPointNone) {
+  const std::string colour = drawn_lines(written(FigureFormat::svg)).at(0).colour;
   for (const double value : {0., 5., -1e-300, 1e300, std::nan("")}) {
     plot.abscissae = {7};
     plot.panels[0].lines = {{value}, {value}};
-    EXPECT_THAT(written(FigureFormat::svg), StartsWith("<?xml"));
+    EXPECT_EQ(marks(written(FigureFormat::svg), colour), (std::isnan(value) ? 0 : 1) + 1) << value;
   }
 }
 
@@ -77,7 +134,10 @@ TEST_F(PlotFile, ManyLinesHaveAsManyColours) {
     plot.line_names.push_back("contact.friction.bound = " + std::to_string(i));
     plot.panels[0].lines.push_back({1. * i, 2. * i, 3. * i});
   }
-  EXPECT_THAT(written(FigureFormat::svg), StartsWith("<?xml"));
+  std::set<std::string> colours;
+  for (const DrawnLine &line : drawn_lines(written(FigureFormat::svg)))
+    colours.insert(line.colour);
+  EXPECT_EQ(colours.size(), 40);
 }
 
 }  // namespace
