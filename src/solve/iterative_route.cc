@@ -369,8 +369,9 @@ StepOutcome IterativeRoute<dim>::outcome() const {
       q -= d * (d.transpose() * q + model_.interface[i].weight * lambda);
     }
     outcome.contact_forces.segment<dim>(dim * static_cast<Eigen::Index>(i)) = q;
+    const Tangent along = p.admissible.directions.transpose() * q;
     outcome.friction_forces.segment<dim>(dim * static_cast<Eigen::Index>(i)) =
-        p.admissible.directions * (p.admissible.directions.transpose() * q);
+        p.admissible.directions * along;
     outcome.status.push_back(p.slips ? ContactStatus::slip : ContactStatus::stick);
     worst = std::max(worst, contact_residual(i));
   }
