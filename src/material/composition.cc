@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 
 #include "tourmaline/error.h"
@@ -48,7 +49,10 @@ template <int dim>
 void Composition<dim>::fill_conductors() {
   double largest = 8.8541878128e-12;  // of the vacuum, for a body that is all metal
   for (const Part &part : parts_)
-    largest = std::max(largest, part.crystal.permittivity.maxCoeff());
+    largest = std::max(largest, Eigen::SelfAdjointEigenSolver<Tensor>(part.crystal.permittivity,
+                                                                      Eigen::EigenvaluesOnly)
+                                    .eigenvalues()
+                                    .maxCoeff());
   for (Part &part : parts_)
     if (part.crystal.conductor)
       part.crystal.permittivity = contrast * largest * Tensor::Identity();
@@ -94,6 +98,12 @@ Vector Composition<dim>::poling(std::size_t region, const Place &centre) const {
 template <int dim>
 bool Composition<dim>::varies() const {
   return parts_.size() > 1 || !parts_.front().everywhere;
+}
+
+template <int dim>
+bool Composition<dim>::has_conductors() const {
+  return std::any_of(parts_.begin(), parts_.end(),
+                     [](const Part &part) { return part.crystal.conductor; });
 }
 
 template <int dim>

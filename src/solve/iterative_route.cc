@@ -357,6 +357,7 @@ StepOutcome IterativeRoute<dim>::outcome() const {
   StepOutcome outcome;
   outcome.newton_iterations = iterations_;
   outcome.contact_forces = Eigen::VectorXd::Zero(dim * static_cast<Eigen::Index>(points_.size()));
+  outcome.friction_forces = outcome.contact_forces;
   double worst = 0;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const Point<dim> &p = points_[i];
@@ -368,6 +369,9 @@ StepOutcome IterativeRoute<dim>::outcome() const {
       q -= d * (d.transpose() * q + model_.interface[i].weight * lambda);
     }
     outcome.contact_forces.segment<dim>(dim * static_cast<Eigen::Index>(i)) = q;
+    const Tangent along = p.admissible.directions.transpose() * q;
+    outcome.friction_forces.segment<dim>(dim * static_cast<Eigen::Index>(i)) =
+        p.admissible.directions * along;
     outcome.status.push_back(p.slips ? ContactStatus::slip : ContactStatus::stick);
     worst = std::max(worst, contact_residual(i));
   }

@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "tourmaline/body/conductors.h"
 #include "tourmaline/material/orientation.h"
 #include "tourmaline/mesh/distribute.h"
 #include "tourmaline/stopwatch.h"
@@ -56,6 +57,7 @@ Model<dim>::Model(const casefile::Case &asked_for, Built built)
       electrodes(body::electrode_nodes<dim>(prescribed, asked.electrodes)),
       loads(body, asked, step, composition.reference_temperature()),
       mesh_seconds(built.mesh_seconds) {
+  body::check_conductors(body, composition, asked, prescribed);
   if (asked.contact) {
     interface = contact::interface_nodes(body, asked.contact->on);
     friction = contact::friction_of(asked.contact->friction);

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tourmaline/body/discretisation.h"
+#include "tourmaline/body/conductors.h"
 #include "tourmaline/case/sides.h"
 #include "tourmaline/material/composition.h"
 #include "tourmaline/mesh/mesh.h"
@@ -106,6 +106,8 @@ template <int dim>
 std::string survey_in(const casefile::Case &asked) {
   const material::Composition<dim> composition(asked);
   const body::Discretisation<dim> body(mesh::build<dim>(asked), 1);
+  body::check_conductors(body, composition, asked,
+                         body::prescribed_unknowns(body, asked.boundaries, asked.electrodes));
   std::string text = "\n# Boundaries and regions of this case\n";
   for (const std::string &name : casefile::side_names(asked.mesh)) {
     Extent extent;

@@ -22,6 +22,21 @@ struct Problem {
   }
 };
 
+// What a point's slip z and force f lack of f = b (z, o) / |(z, o)|, o the known slip [N]: as a
+// force, or, where the bend at z = 0 is sharp, as the distance to the slip that has this force,
+// times the stiffness.
+double lack(const VectorXd &z, const VectorXd &o, const VectorXd &f, double bound,
+            double stiffness) {
+  const double size = std::hypot(z.norm(), o.norm());
+  if (size == 0)
+    return std::max(0., f.norm() - bound);
+  const double force = (f - bound * z / size).norm();
+  if (o.norm() == 0 || f.norm() >= bound)
+    return force;
+  const VectorXd slip = f * (o.norm() / std::sqrt(bound * bound - f.squaredNorm()));
+  return std::min(force, stiffness * (z - slip).norm());
+}
+
 // The conditions that characterise the only minimiser, written out without the solver's own
 // functions: the nodal force f - A d lies in the ball where d = 0, and is bound * d / |d|
 // elsewhere. Relative to the size of the sums that make the force.
@@ -35,16 +50,17 @@ double violation(const Problem &p, const VectorXd &d) {
   for (std::size_t i = 0; i < p.points.size(); ++i) {
     const VectorXd di = d.segment(p.points[i].offset, p.points[i].size);
     const VectorXd fi = force.segment(p.points[i].offset, p.points[i].size);
-    const double here = di.isZero(0) ? std::max(0., fi.norm() - p.bounds[i])
-                                     : (fi - p.bounds[i] * di.normalized()).norm();
-    worst = std::max(worst, here);
+    if (di.size() > 0)
+      worst = std::max(worst, lack(di, p.points[i].friction.held(), fi, p.bounds[i],
+                                   p.stiffness(p.points[i].offset, p.points[i].offset)));
   }
   return size > 0 ? worst / size : worst;
 }
 
 class RandomProblems {
  public:
-  explicit RandomProblems(unsigned seed) : random_(seed) {}
+  /// `held`: share of the points that are moved along one of two directions.
+  explicit RandomProblems(unsigned seed, double held = 0) : held_(held), random_(seed) {}
 
   Problem next() {
     const int n_points = std::uniform_int_distribution<int>(1, 40)(random_);
@@ -56,6 +72,8 @@ class RandomProblems {
       const double weight = std::pow(10., uniform(-3, 1));
       p.bounds.push_back(bound());
       p.points.push_back({n, size, weight, contact::Tresca{p.bounds.back() / weight}});
+      if (held_ > 0 && size == 1 && uniform(0, 1) < held_)
+        p.points.back().friction = {contact::Tresca{p.bounds.back() / weight}, known_slip()};
       n += size;
     }
     p.stiffness = spd(n);
@@ -71,6 +89,12 @@ class RandomProblems {
  private:
   double uniform(double a, double b) {
     return std::uniform_real_distribution<double>(a, b)(random_);
+  }
+
+  // At rest, and from far less than the slips to more.
+  contact::Tangent known_slip() {
+    const double size = uniform(0, 1) < 0.1 ? 0 : std::pow(10., uniform(-12, 2));
+    return contact::Tangent::Constant(1, normal_(random_) * size);
   }
 
   // Zero, ordinary and practically infinite bounds.
@@ -100,6 +124,7 @@ class RandomProblems {
     return (a + a.transpose()) / 2;
   }
 
+  double held_;
   std::mt19937 random_;
   std::normal_distribution<double> normal_;
 };
@@ -119,6 +144,39 @@ TEST(InterfaceNewton, FindsTheOnlyMinimiserOfTwoThousandRandomProgrammesFromAnyS
     most = std::max(most, s.iterations);
   }
   RecordProperty("largest_number_of_iterations", most);
+}
+
+TEST(InterfaceNewton, FindsItWhereConditionsMoveSomePointsAlongTheFoundation) {
+  for (const double share : {0.2, 1.}) {
+    RandomProblems problems(20260102, share);
+    int most = 0;
+    for (int k = 0; k < 2000; ++k) {
+      const Problem p = problems.next();
+      const VectorXd start =
+          k % 2 ? problems.vector(p.force.size()) : VectorXd(VectorXd::Zero(p.force.size()));
+      const InterfaceSolution s = p.solve(start);
+      ASSERT_TRUE(s.converged) << "programme " << k << ", residual " << s.residual;
+      ASSERT_LT(violation(p, s.increment), 1e-9) << "programme " << k;
+      for (std::size_t i = 0; i < p.points.size(); ++i)
+        if (!p.points[i].friction.held().isZero(0)) {
+          EXPECT_EQ(s.status[i], output::ContactStatus::slip);
+        }
+      most = std::max(most, s.iterations);
+    }
+    RecordProperty("largest_number_of_iterations", most);
+  }
+}
+
+TEST(InterfaceNewton, APointThatIsMovedAcrossGivesTheHandCalculation) {
+  // Slip (3, 4) m at the bound 2 N: 4 N/m * 3 m + 2 N * 3 / 5.
+  Problem p{MatrixXd::Constant(1, 1, 4),
+            VectorXd::Constant(1, 13.2),
+            {{0, 1, 0.5, {contact::Tresca{4}, contact::Tangent::Constant(1, 4)}}},
+            {2}};
+  const InterfaceSolution s = p.solve(VectorXd::Zero(1));
+  EXPECT_NEAR(s.increment[0], 3, 1e-14);
+  EXPECT_NEAR(s.force[0], 1.2, 1e-14);
+  EXPECT_EQ(s.status[0], output::ContactStatus::slip);
 }
 
 TEST(InterfaceNewton, APointAloneGivesTheHandCalculation) {

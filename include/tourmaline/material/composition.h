@@ -13,8 +13,8 @@ using Place = std::array<double, 3>;
 /// to the poling at the place of the cell.
 ///
 /// A conductor is a dielectric of so large a permittivity that its field is nothing: `contrast`
-/// times the largest of the others. The error of this is of the order of 1 / contrast, and the
-/// operator of a step stays quasi-definite.
+/// times the largest of the others along any direction, whatever their axes. The error of this is
+/// of the order of 1 / contrast, and the operator of a step stays quasi-definite.
 template <int dim>
 class Composition {
  public:
@@ -32,6 +32,8 @@ class Composition {
   /// Direction of the crystal's axis 3; zero where nothing is piezo- or pyroelectric.
   Vector poling(std::size_t region, const Place &centre) const;
 
+  bool conducts(std::size_t region) const { return parts_.at(region).crystal.conductor; }
+  bool has_conductors() const;
   double reference_temperature() const { return parts_.front().crystal.reference_temperature; }
   /// Whether materials or poling differ from place to place.
   bool varies() const;
