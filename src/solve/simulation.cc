@@ -290,6 +290,7 @@ output::Summary Simulation<dim>::summary() const {
     summary.iterations["krylov_total"] = static_cast<std::int64_t>(report.krylov_iterations);
     summary.iterations["krylov_max"] = report.krylov_largest;
     summary.iterations["preconditioners"] = report.preconditioners;
+    summary.iterations["safe_steps"] = report.safe_steps;
   }
   summary.factorisations = report.factorisations;
   if (report.negative_pivots >= 0)

@@ -1,0 +1,286 @@
+#include "tourmaline/solve/slip_descent.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tourmaline::solve {
+
+namespace {
+
+using contact::Tangent;
+using contact::TangentMatrix;
+using Eigen::VectorXd;
+
+template <class Function>
+auto with_law(const ContactPoint &point, Function &&f) {
+  return std::visit(std::forward<Function>(f), point.friction);
+}
+
+class Descent {
+ public:
+  Descent(const SlipProgramme &programme, SlipResponse &response, VectorXd start)
+      : programme_(programme),
+        points_(programme.points),
+        response_(response),
+        d_(std::move(start)),
+        force_(response.force(d_)) {}
+
+  bool converged(double tolerance) const {
+    return largest_residual() <= tolerance * response_.force_size();
+  }
+  /// True when something moved.
+  bool proximal_step(double tolerance);
+  /// Solves one linear system; true when points came to stick on the way, so that the step after it
+  /// is another one.
+  bool newton_step(double tolerance);
+  InterfaceSolution solution(double tolerance) const;
+
+ private:
+  Tangent part(const VectorXd &v, std::size_t i) const {
+    return v.segment(points_[i].offset, points_[i].size);
+  }
+  Tangent trial(std::size_t i, double r) const { return (part(force_, i) + r * part(d_, i)); }
+  Tangent friction_force(std::size_t i, double r) const;
+  double residual(std::size_t i) const {
+    return (part(force_, i) - friction_force(i, programme_.curvature[i])).norm();
+  }
+  double largest_residual() const;
+  VectorXd proximal_point() const;
+  std::vector<bool> smooth_points() const;
+  double dissipation(const VectorXd &d) const;
+  double length_to_kink(std::size_t i, const VectorXd &direction) const;
+  VectorXd truncated(const VectorXd &direction) const;
+  VectorXd along(const VectorXd &direction, double length) const;
+  double length_of_descent(const VectorXd &direction, const VectorXd &resisted) const;
+  VectorXd newton_direction(const std::vector<bool> &is_smooth);
+  bool descends(const VectorXd &next, const VectorXd &next_force, double tolerance) const;
+  bool accept(const VectorXd &next, double tolerance);
+  bool restore();
+
+  const SlipProgramme &programme_;
+  const std::vector<ContactPoint> &points_;
+  SlipResponse &response_;
+  VectorXd d_;                     // slip increments
+  VectorXd force_;                 // f - A d
+  double stiffness_factor_ = 0.5;  // of the curvatures, with which the last proximal step descended
+};
+
+Tangent Descent::friction_force(std::size_t i, double r) const {
+  const ContactPoint &p = points_[i];
+  return p.weight *
+         with_law(p, [&](const auto &law) { return law.traction(trial(i, r) / p.weight); });
+}
+
+double Descent::largest_residual() const {
+  double largest = 0;
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    largest = std::max(largest, residual(i));
+  return largest;
+}
+
+// Every point's own problem with A replaced by a multiple of the identity. A point inside the ball
+// comes out as exactly zero.
+VectorXd Descent::proximal_point() const {
+  VectorXd next = d_;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const double r = stiffness_factor_ * programme_.curvature[i];
+    next.segment(points_[i].offset, points_[i].size) = (trial(i, r) - friction_force(i, r)) / r;
+  }
+  return next;
+}
+
+// The value of the programme falls by half of |change|^2, measured with the replaced A, as long as
+// A resists the change less than that does. A change that is too stiff is tried with a stiffer one.
+bool Descent::proximal_step(double tolerance) {
+  constexpr int most_tries = 40;  // a factor of 2^40 in the stiffness
+  for (int k = 0; k < most_tries; ++k) {
+    const VectorXd next = proximal_point();
+    const VectorXd change = next - d_;
+    if (change.isZero(0))
+      return restore();
+    double assumed = 0;
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      assumed += stiffness_factor_ * programme_.curvature[i] * part(change, i).squaredNorm();
+    const VectorXd next_force = response_.force(next);
+    const double resisted = change.dot(force_ - next_force);
+    const double round_off = tolerance * response_.force_size() * change.lpNorm<1>();
+    if (resisted <= assumed + round_off) {
+      d_ = next;
+      force_ = next_force;
+      stiffness_factor_ *= std::clamp(1.1 * resisted / assumed, 0.5, 1.);
+      return true;
+    }
+    stiffness_factor_ *= std::max(2., 1.1 * resisted / assumed);
+  }
+  return restore();
+}
+
+std::vector<bool> Descent::smooth_points() const {
+  std::vector<bool> smooth;
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    smooth.push_back(points_[i].size > 0 && with_law(points_[i], [&](const auto &law) {
+                       return law.is_smooth_at(part(d_, i));
+                     }));
+  return smooth;
+}
+
+double Descent::dissipation(const VectorXd &d) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    sum += points_[i].weight *
+           with_law(points_[i], [&](const auto &law) { return law.dissipation(part(d, i)); });
+  return sum;
+}
+
+double Descent::length_to_kink(std::size_t i, const VectorXd &direction) const {
+  const ContactPoint &p = points_[i];
+  const Tangent d = part(d_, i);
+  const double backwards = -d.dot(part(direction, i));
+  const bool kink =
+      !with_law(p, [&](const auto &law) { return law.is_smooth_at(Tangent::Zero(p.size)); });
+  return kink && backwards > 0 ? d.squaredNorm() / backwards
+                               : std::numeric_limits<double>::infinity();
+}
+
+// d + direction, but a point that comes to its kink stops there, at exactly zero.
+VectorXd Descent::truncated(const VectorXd &direction) const {
+  VectorXd next = d_ + direction;
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    if (length_to_kink(i, direction) <= 1)
+      next.segment(points_[i].offset, points_[i].size).setZero();
+  return next;
+}
+
+// On the straight line: where it leads through a kink, the point is at exactly zero.
+VectorXd Descent::along(const VectorXd &direction, double length) const {
+  VectorXd next = d_ + length * direction;
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    if (part(next, i).norm() <= 1e-12 * part(d_, i).norm())
+      next.segment(points_[i].offset, points_[i].size).setZero();
+  return next;
+}
+
+// Where the value is least between 0 and 1. It is convex, so nested intervals find it; where it has
+// its kinks is known better than they can tell.
+double Descent::length_of_descent(const VectorXd &direction, const VectorXd &resisted) const {
+  const double work = force_.dot(direction), stiffness = direction.dot(resisted);
+  const auto value = [&](double t) {
+    return t * (t * stiffness / 2 - work) + dissipation(along(direction, t));
+  };
+  constexpr double golden = 0.6180339887498949;
+  double low = 0, high = 1;
+  for (int k = 0; k < 40; ++k) {
+    const double a = high - golden * (high - low), b = low + golden * (high - low);
+    (value(a) <= value(b) ? high : low) = value(a) <= value(b) ? b : a;
+  }
+  const double middle = (low + high) / 2;
+  double best = middle, below = 0, above = 1;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const double kink = length_to_kink(i, direction);
+    (kink <= middle ? below : above) =
+        kink <= middle ? std::max(below, kink) : std::min(above, kink);
+  }
+  for (const double t : {below, above})
+    if (value(t) <= value(best))
+      best = t;
+  return best;
+}
+
+VectorXd Descent::newton_direction(const std::vector<bool> &is_smooth) {
+  std::vector<TangentMatrix> hessian(points_.size());
+  VectorXd descent = VectorXd::Zero(d_.size());
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (!is_smooth[i])
+      continue;
+    const ContactPoint &p = points_[i];
+    const Tangent d = part(d_, i);
+    with_law(p, [&](const auto &law) {
+      hessian[i] = p.weight * law.hessian(d);
+      descent.segment(p.offset, p.size) = part(force_, i) - p.weight * law.gradient(d);
+    });
+  }
+  const VectorXd direction = response_.direction(is_smooth, hessian, descent);
+  // An inexact one may lead nowhere.
+  return direction.size() == 0 || direction.dot(descent) <= 0 ? VectorXd() : direction;
+}
+
+// The change of the quadratic part is that of the mean force, exactly.
+bool Descent::descends(const VectorXd &next, const VectorXd &next_force, double tolerance) const {
+  const VectorXd change = next - d_;
+  const double work = (force_ + next_force).dot(change) / 2, dissipated = dissipation(d_);
+  const double round_off = 1e-14 * (std::abs(force_.dot(change)) + dissipated) +
+                           tolerance * response_.force_size() * change.lpNorm<1>();
+  return dissipation(next) - dissipated - work <= round_off;
+}
+
+bool Descent::accept(const VectorXd &next, double tolerance) {
+  const VectorXd next_force = response_.force(next);
+  if (!descends(next, next_force, tolerance))
+    return false;
+  d_ = next;
+  force_ = next_force;
+  return true;
+}
+
+// A step that was refused: the body goes back to where the increments are.
+bool Descent::restore() {
+  force_ = response_.force(d_);
+  return false;
+}
+
+bool Descent::newton_step(double tolerance) {
+  const std::vector<bool> smooth = smooth_points();
+  const auto n_smooth = std::count(smooth.begin(), smooth.end(), true);
+  if (n_smooth == 0)
+    return false;
+  const VectorXd direction = newton_direction(smooth);
+  if (direction.size() == 0)
+    return restore();
+  if (!accept(truncated(direction), tolerance)) {
+    const VectorXd resisted = force_ - response_.force(d_ + direction);
+    if (!accept(along(direction, length_of_descent(direction, resisted)), tolerance))
+      return restore();
+  }
+  const std::vector<bool> after = smooth_points();
+  return std::count(after.begin(), after.end(), true) < n_smooth;
+}
+
+InterfaceSolution Descent::solution(double tolerance) const {
+  InterfaceSolution solution;
+  solution.increment = d_;
+  solution.force = VectorXd::Zero(d_.size());
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const ContactPoint &p = points_[i];
+    const double r = programme_.curvature[i];
+    solution.force.segment(p.offset, p.size) = friction_force(i, r);
+    solution.status.push_back(
+        with_law(p, [&](const auto &law) { return law.status(trial(i, r) / p.weight); }));
+    if (residual(i) > tolerance * response_.force_size())
+      solution.unsettled.push_back(i);
+  }
+  solution.residual = largest_residual() / response_.force_size();
+  solution.converged = solution.unsettled.empty();
+  return solution;
+}
+
+}  // namespace
+
+InterfaceSolution minimise(const SlipProgramme &programme, SlipResponse &response, VectorXd start,
+                           const InterfaceSettings &settings) {
+  Descent descent(programme, response, std::move(start));
+  int solved = 0;
+  while (!descent.converged(settings.tolerance) && solved < settings.max_iterations) {
+    descent.proximal_step(settings.tolerance);
+    bool more = true;
+    while (more && solved < settings.max_iterations) {
+      more = descent.newton_step(settings.tolerance);
+      ++solved;
+    }
+  }
+  InterfaceSolution solution = descent.solution(settings.tolerance);
+  solution.iterations = solved;
+  return solution;
+}
+
+}  // namespace tourmaline::solve
