@@ -12,8 +12,7 @@ Tangent AugmentedLagrangian::trial(const Local &displacement, const Local &multi
 
 Tangent AugmentedLagrangian::friction_traction(const Local &displacement,
                                                const Local &multiplier) const {
-  const Tangent x = trial(displacement, multiplier);
-  return std::visit([&](const auto &law) { return law.traction(x); }, friction);
+  return friction.traction(trial(displacement, multiplier), r_slip);
 }
 
 AugmentedLagrangian::Gradient AugmentedLagrangian::gradient(const Local &displacement,
@@ -39,9 +38,8 @@ AugmentedLagrangian::Hessian AugmentedLagrangian::hessian(const Local &displacem
     h.displacement(0, 0) = r_normal;
     h.mixed(0, 0) = 1;
   }
-  const Tangent x = trial(displacement, multiplier);
   const TangentMatrix derivative =
-      std::visit([&](const auto &law) { return law.traction_derivative(x); }, friction);
+      friction.traction_derivative(trial(displacement, multiplier), r_slip);
   const TangentMatrix known =
       friction_held ? TangentMatrix(TangentMatrix::Zero(n_slip, n_slip)) : derivative;
   h.displacement.bottomRightCorner(n_slip, n_slip) = r_slip * derivative;
@@ -53,8 +51,7 @@ AugmentedLagrangian::Hessian AugmentedLagrangian::hessian(const Local &displacem
 
 output::ContactStatus AugmentedLagrangian::status(const Local &displacement,
                                                   const Local &multiplier) const {
-  const Tangent x = trial(displacement, multiplier);
-  return std::visit([&](const auto &law) { return law.status(x); }, friction);
+  return friction.status(trial(displacement, multiplier), r_slip);
 }
 
 }  // namespace tourmaline::contact

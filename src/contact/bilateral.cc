@@ -4,42 +4,100 @@
 
 namespace tourmaline::contact {
 
+namespace {
+
 template <int dim>
-Admissible<dim> bilateral(const Eigen::Matrix<double, dim, 1> &normal,
-                          const std::array<std::optional<double>, dim> &prescribed) {
-  using Vector = Eigen::Matrix<double, dim, 1>;
-  Vector base = Vector::Zero(), free_normal = normal;
-  std::vector<Vector> held;  // orthonormal: directions in which the displacement is known
-  for (int c = 0; c < dim; ++c)
-    if (prescribed[c]) {
-      base[c] = *prescribed[c];
-      free_normal[c] = 0;
-      held.push_back(Vector::Unit(c));
-    }
-  if (const double size = free_normal.norm(); size > 1e-8) {
-    // (9): u_nu = 0 fixes the free components along the rest of the normal.
-    base -= normal.dot(base) / (size * size) * free_normal;
-    held.push_back(free_normal / size);
-  }
-  std::vector<Vector> free_directions;
+using Vector = Eigen::Matrix<double, dim, 1>;
+
+// A part of the normal below this is the round-off of its computation.
+constexpr double no_normal = 1e-8;
+
+// Orthonormal columns that complete orthonormal vectors to a basis.
+template <int dim>
+typename Admissible<dim>::Directions completion(const std::vector<Vector<dim>> &known) {
+  std::vector<Vector<dim>> found;
   for (int c = 0; c < dim; ++c) {
-    Vector direction = Vector::Unit(c);
+    Vector<dim> direction = Vector<dim>::Unit(c);
     for (int pass = 0; pass < 2; ++pass) {
-      for (const Vector &h : held)
-        direction -= h.dot(direction) * h;
-      for (const Vector &f : free_directions)
+      for (const Vector<dim> &k : known)
+        direction -= k.dot(direction) * k;
+      for (const Vector<dim> &f : found)
         direction -= f.dot(direction) * f;
     }
     if (direction.norm() > 1e-3)
-      free_directions.push_back(direction.normalized());
+      found.push_back(direction.normalized());
   }
-  Admissible<dim> admissible{base, {}};
-  admissible.directions.setZero(dim, static_cast<Eigen::Index>(free_directions.size()));
-  for (std::size_t k = 0; k < free_directions.size(); ++k)
-    admissible.directions.col(static_cast<Eigen::Index>(k)) = free_directions[k];
+  typename Admissible<dim>::Directions columns(dim, static_cast<Eigen::Index>(found.size()));
+  for (std::size_t k = 0; k < found.size(); ++k)
+    columns.col(static_cast<Eigen::Index>(k)) = found[k];
+  return columns;
+}
+
+template <int dim>
+Vector<dim> in_free_components(Vector<dim> v, const std::array<bool, dim> &is_prescribed) {
+  for (int c = 0; c < dim; ++c)
+    if (is_prescribed[c])
+      v[c] = 0;
+  return v;
+}
+
+}  // namespace
+
+template <int dim>
+typename Admissible<dim>::Directions Admissible<dim>::tangent() const {
+  Directions all(dim, directions.cols() + held.cols());
+  all << directions, held;
+  return all;
+}
+
+template <int dim>
+Tangent Admissible<dim>::held_slip(const Vector &before) const {
+  const Tangent slip = held.transpose() * (base - before);
+  return beyond_round_off(slip, std::max(base.norm(), before.norm()));
+}
+
+template <int dim>
+typename Admissible<dim>::Vector Admissible<dim>::support(const Vector &force,
+                                                          const Vector &friction) const {
+  const Vector rest = force - friction;
+  const Vector free_normal = in_free_components<dim>(normal, is_prescribed);
+  const double size = free_normal.norm();
+  const double pressure =
+      size > no_normal ? rest.dot(free_normal) / (size * size) : rest.dot(normal);
+  Vector borne = rest - pressure * normal;
+  for (int c = 0; c < dim; ++c)
+    if (!is_prescribed[c])
+      borne[c] = 0;
+  return borne;
+}
+
+template <int dim>
+Admissible<dim> bilateral(const Eigen::Matrix<double, dim, 1> &normal,
+                          const std::array<std::optional<double>, dim> &prescribed) {
+  Admissible<dim> admissible{Vector<dim>::Zero(), {}, {}, normal, {}};
+  std::vector<Vector<dim>> known;  // orthonormal: directions in which the displacement is known
+  for (int c = 0; c < dim; ++c)
+    if (prescribed[c]) {
+      admissible.base[c] = *prescribed[c];
+      admissible.is_prescribed[c] = true;
+      known.push_back(Vector<dim>::Unit(c));
+    }
+  const Vector<dim> free_normal = in_free_components<dim>(normal, admissible.is_prescribed);
+  if (const double size = free_normal.norm(); size > no_normal) {
+    // (9): u_nu = 0 fixes the free components along the rest of the normal.
+    admissible.base -= normal.dot(admissible.base) / (size * size) * free_normal;
+    known.push_back(free_normal / size);
+  }
+  admissible.directions = completion<dim>(known);
+  std::vector<Vector<dim>> not_held{normal};
+  for (Eigen::Index k = 0; k < admissible.directions.cols(); ++k)
+    not_held.push_back(admissible.directions.col(k));
+  admissible.held = completion<dim>(not_held);
   return admissible;
 }
 
+template struct Admissible<2>;
+template struct Admissible<3>;
 template Admissible<2> bilateral<2>(const Eigen::Matrix<double, 2, 1> &,
                                     const std::array<std::optional<double>, 2> &);
 template Admissible<3> bilateral<3>(const Eigen::Matrix<double, 3, 1> &,

@@ -16,6 +16,15 @@ using body::unknown;
 using Eigen::Index;
 
 template <int dim>
+typename MultiplierPoint<dim>::Vector MultiplierPoint<dim>::mean_of(
+    std::span<const double> values) const {
+  Vector sum = Vector::Zero();
+  for (const Share &share : mean)
+    sum += share.factor * Eigen::Map<const Vector>(&values[unknown<dim>(share.node, 0)]);
+  return sum;
+}
+
+template <int dim>
 Local MultiplierPoint<dim>::displacement(std::span<const double> state,
                                          std::span<const double> before) const {
   Vector now = Vector::Zero(), change = Vector::Zero();
@@ -29,6 +38,21 @@ Local MultiplierPoint<dim>::displacement(std::span<const double> state,
   if (has_normal)
     y[0] = directions.col(0).dot(now);
   return y;
+}
+
+template <int dim>
+Tangent MultiplierPoint<dim>::held_slip(std::span<const double> state,
+                                        std::span<const double> before) const {
+  const Vector now = mean_of(state), then = mean_of(before);
+  const Tangent slip = held_now.transpose() * now - held.transpose() * then;
+  return beyond_round_off(slip, std::max(now.norm(), then.norm()));
+}
+
+template <int dim>
+typename MultiplierPoint<dim>::Directions MultiplierPoint<dim>::tangent() const {
+  Directions all(dim, directions.cols() - has_normal + held.cols());
+  all << directions.rightCols(directions.cols() - has_normal), held;
+  return all;
 }
 
 namespace {
@@ -47,12 +71,24 @@ MultiplierPoint<dim> at_node(const InterfaceNode<dim> &at, const IsPrescribed &i
       free_normal[c] = 0;
       --n_free;
     }
-  const auto slips = bilateral<dim>(at.normal, prescribed).directions;
-  MultiplierPoint<dim> point{at.point, at.weight, {{at.node, 1}}, n_free > slips.cols(), {}};
+  const Admissible<dim> admissible = bilateral<dim>(at.normal, prescribed);
+  const auto &slips = admissible.directions;
+  MultiplierPoint<dim> point;
+  point.place = at.point;
+  point.weight = at.weight;
+  point.mean = {{at.node, 1}};
+  point.has_normal = n_free > slips.cols();
   point.directions.resize(dim, n_free);
   if (point.has_normal)
     point.directions.col(0) = at.normal / free_normal.norm();
   point.directions.rightCols(slips.cols()) = slips;
+  point.held = point.held_now = admissible.held;
+  if (point.has_normal)
+    point.held_now -=
+        at.normal * (free_normal.transpose() * admissible.held) / free_normal.squaredNorm();
+  for (int c = 0; c < dim; ++c)
+    if (!admissible.is_prescribed[c])
+      point.held_now.row(c).setZero();
   return point;
 }
 
@@ -69,19 +105,25 @@ bool is_free(const MultiplierPoint<dim> &point, const Vector<dim> &direction,
 }
 
 template <int dim>
+typename MultiplierPoint<dim>::Directions columns(const std::vector<Vector<dim>> &vectors) {
+  typename MultiplierPoint<dim>::Directions matrix(dim, static_cast<Index>(vectors.size()));
+  for (std::size_t k = 0; k < vectors.size(); ++k)
+    matrix.col(static_cast<Index>(k)) = vectors[k];
+  return matrix;
+}
+
+template <int dim>
 void set_directions(MultiplierPoint<dim> &point, const Vector<dim> &normal,
                     const IsPrescribed &is_prescribed) {
   const auto slips = bilateral<dim>(normal, {}).directions;
-  std::vector<Vector<dim>> kept;
+  std::vector<Vector<dim>> kept, held;
   point.has_normal = is_free(point, normal, is_prescribed);
   if (point.has_normal)
     kept.push_back(normal);
   for (Index k = 0; k < slips.cols(); ++k)
-    if (is_free<dim>(point, slips.col(k), is_prescribed))
-      kept.push_back(slips.col(k));
-  point.directions.resize(dim, static_cast<Index>(kept.size()));
-  for (std::size_t k = 0; k < kept.size(); ++k)
-    point.directions.col(static_cast<Index>(k)) = kept[k];
+    (is_free<dim>(point, slips.col(k), is_prescribed) ? kept : held).push_back(slips.col(k));
+  point.directions = columns<dim>(kept);
+  point.held = point.held_now = columns<dim>(held);
 }
 
 template <int dim>

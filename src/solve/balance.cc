@@ -48,6 +48,7 @@ struct Balance<dim>::Step {
   const body::FieldProducts &products, &products_before;
   std::vector<double> conducted;  // by node [W]
   std::vector<double> contact;    // by unknown [N]
+  std::vector<double> friction;   // the part of it that opposes the slip
   std::vector<double> charges, charges_before;
   std::vector<double> heat_supplied;  // by node, at prescribed temperatures [W]
 
@@ -162,19 +163,27 @@ std::vector<std::pair<body::Node, double>> Balance<dim>::exchange_weights(
   return weights;
 }
 
+// From the entries of the interface nodes.
+template <int dim>
+std::vector<double> Balance<dim>::by_unknown(const Eigen::VectorXd &forces) const {
+  std::vector<double> all(model_.n_unknowns(), 0.);
+  for (std::size_t i = 0; i < model_.interface.size(); ++i)
+    for (int c = 0; c < dim; ++c)
+      all[body::unknown<dim>(model_.interface[i].node, c)] =
+          forces[dim * static_cast<Eigen::Index>(i) + c];
+  return all;
+}
+
 template <int dim>
 typename Balance<dim>::Columns Balance<dim>::step(double time, std::span<const double> loads,
-                                                  const Eigen::VectorXd &contact_forces,
+                                                  const StepOutcome &outcome,
                                                   std::span<const double> state) {
   body::FieldProducts products;
   model_.op.multiply_by_field(state, products);
-  Step step{time, loads, state,    state_, products, products_, model_.op.conducted(state),
-            {},   {},    charges_, {}};
-  step.contact.assign(state.size(), 0.);
-  for (std::size_t i = 0; i < model_.interface.size(); ++i)
-    for (int c = 0; c < dim; ++c)
-      step.contact[body::unknown<dim>(model_.interface[i].node, c)] =
-          contact_forces[dim * static_cast<Eigen::Index>(i) + c];
+  Step step{time, loads, state, state_,   products, products_, model_.op.conducted(state),
+            {},   {},    {},    charges_, {}};
+  step.contact = by_unknown(outcome.contact_forces);
+  step.friction = by_unknown(outcome.friction_forces);
   step.charges.assign(state.size(), 0.);
   for (std::size_t i = Fields<dim>::potential; i < state.size(); i += Fields<dim>::count)
     step.charges[i] = is_prescribed_[i] ? products.sum(i) : loads[i];
@@ -207,11 +216,13 @@ void Balance<dim>::add_energy(const Step &step, Columns &columns) {
   for (std::size_t i = 0; i < step.state.size(); ++i) {
     const int component = static_cast<int>(i % Fields<dim>::count);
     if (component < dim) {
-      // What moves a prescribed displacement does work as a load does.
-      const double moving = is_prescribed_[i] ? step.products.sum(i) : step.loads[i];
-      load += moving * step.change(i);
-      if (!is_prescribed_[i])
-        friction -= step.contact[i] * step.change(i);
+      // What moves a prescribed displacement does work as a load does, and so does the foundation
+      // along the normal: together it is zero where u_nu = 0. Friction is worked against.
+      const double moving =
+          is_prescribed_[i] ? step.products.sum(i) - step.contact[i] : step.loads[i];
+      const double pressing = step.contact[i] - step.friction[i];
+      load += (moving + pressing) * step.change(i);
+      friction -= step.friction[i] * step.change(i);
     } else if (component == Fields<dim>::potential) {
       electric -= step.state[i] * (step.charges[i] - step.charges_before[i]);
     } else {

@@ -25,14 +25,18 @@ void share(StepOutcome &outcome) {
   std::vector<double> numbers{static_cast<double>(outcome.newton_iterations), outcome.residual};
   for (const auto status : outcome.status)
     numbers.push_back(static_cast<double>(status));
-  numbers.insert(numbers.end(), outcome.contact_forces.begin(), outcome.contact_forces.end());
+  for (const VectorXd &forces : {outcome.contact_forces, outcome.friction_forces})
+    numbers.insert(numbers.end(), forces.begin(), forces.end());
   parallel::from_first(std::span<double>(numbers));
   outcome.newton_iterations = static_cast<int>(numbers[0]);
   outcome.residual = numbers[1];
   const double *next = &numbers[2];
   for (auto &status : outcome.status)
     status = static_cast<output::ContactStatus>(*next++);
-  std::copy_n(next, outcome.contact_forces.size(), outcome.contact_forces.begin());
+  for (VectorXd *forces : {&outcome.contact_forces, &outcome.friction_forces}) {
+    std::copy_n(next, forces->size(), forces->begin());
+    next += forces->size();
+  }
 }
 
 template <int dim>
@@ -50,7 +54,11 @@ class CondensedRoute : public Route {
   void condense_onto_slips();
   contact::Admissible<dim> admissible(std::size_t node, std::span<const double> state) const;
   VectorXd contact_displacements(std::span<const double> state) const;
-  VectorXd admissible_base(std::span<const double> state) const;
+  std::vector<contact::Admissible<dim>> admissible(std::span<const double> state) const;
+  void set_laws(double time, const std::vector<contact::Admissible<dim>> &nodes,
+                const VectorXd &before);
+  void share_forces(const std::vector<contact::Admissible<dim>> &nodes,
+                    const InterfaceSolution &solution, StepOutcome &outcome) const;
   void advance_contact(double time, const VectorXd &s, std::span<const double> before,
                        std::span<const double> state, VectorXd &c, StepOutcome &outcome);
   InterfaceSolution solve_contact(double time, const VectorXd &s, const VectorXd &held,
@@ -63,7 +71,6 @@ class CondensedRoute : public Route {
   Eigen::SparseMatrix<double> directions_;  // T: admissible slips of all nodes, block diagonal
   MatrixXd slip_stiffness_;                 // T^T S T
   std::vector<ContactPoint> points_;
-  std::vector<Eigen::MatrixXd> slip_directions_;  // by point, the columns that T has for it
   VectorXd last_increment_;
   double backward_error_ = 0, condense_seconds_ = 0;
   double substitution_seconds_ = 0, contact_seconds_ = 0;
@@ -88,7 +95,6 @@ void CondensedRoute<dim>::condense_onto_slips() {
   for (std::size_t i = 0; i < model_.interface.size(); ++i) {
     const auto directions = admissible(i, zero).directions;
     points_.push_back({n_slips, directions.cols(), model_.interface[i].weight, {}});
-    slip_directions_.push_back(directions);
     for (Index k = 0; k < directions.cols(); ++k)
       for (int c = 0; c < dim; ++c)
         triplets.emplace_back(dim * static_cast<Index>(i) + c, n_slips + k, directions(c, k));
@@ -123,19 +129,27 @@ VectorXd CondensedRoute<dim>::contact_displacements(std::span<const double> stat
 }
 
 template <int dim>
-VectorXd CondensedRoute<dim>::admissible_base(std::span<const double> state) const {
-  VectorXd base(dim * static_cast<Index>(model_.interface.size()));
+std::vector<contact::Admissible<dim>> CondensedRoute<dim>::admissible(
+    std::span<const double> state) const {
+  std::vector<contact::Admissible<dim>> nodes;
   for (std::size_t i = 0; i < model_.interface.size(); ++i)
-    base.segment<dim>(dim * static_cast<Index>(i)) = admissible(i, state).base;
-  return base;
+    nodes.push_back(admissible(i, state));
+  return nodes;
+}
+
+// The laws of this step, each with the slip that is known at its node.
+template <int dim>
+void CondensedRoute<dim>::set_laws(double time, const std::vector<contact::Admissible<dim>> &nodes,
+                                   const VectorXd &before) {
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    points_[i].friction = {model_.friction(contact::contact_place(model_.interface[i].point, time,
+                                                                  nodes[i].tangent())),
+                           nodes[i].held_slip(before.segment<dim>(dim * static_cast<Index>(i)))};
 }
 
 template <int dim>
 InterfaceSolution CondensedRoute<dim>::solve_contact(double time, const VectorXd &s,
                                                      const VectorXd &held, const VectorXd &before) {
-  for (std::size_t i = 0; i < points_.size(); ++i)
-    points_[i].friction = model_.friction(
-        contact::contact_place(model_.interface[i].point, time, slip_directions_[i]));
   const VectorXd slips_before = directions_.transpose() * before;
   const VectorXd stuck = held + directions_ * slips_before;  // the contact if no point slipped
   const VectorXd resisted = condensed_.stiffness() * stuck;
@@ -172,8 +186,12 @@ void CondensedRoute<dim>::advance_contact(double time, const VectorXd &s,
                                           std::span<const double> before,
                                           std::span<const double> state, VectorXd &c,
                                           StepOutcome &outcome) {
-  const VectorXd held = admissible_base(state);
+  const auto nodes = admissible(state);
+  VectorXd held(s.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    held.segment<dim>(dim * static_cast<Index>(i)) = nodes[i].base;
   const VectorXd c_before = contact_displacements(before);
+  set_laws(time, nodes, c_before);
   const InterfaceSolution solution = solve_contact(time, s, held, c_before);
   last_increment_ = solution.increment;
   // Adding the increment to the very values of the last step keeps a sticking point in its place
@@ -181,12 +199,31 @@ void CondensedRoute<dim>::advance_contact(double time, const VectorXd &s,
   const VectorXd slips = directions_.transpose() * c_before + solution.increment;
   c = held + directions_ * slips;
   outcome.contact_forces = condensed_.stiffness() * c - s;
-  // Friction forces are the law's; the rest of q holds the normal and prescribed displacements.
-  outcome.contact_forces -=
-      directions_ * (directions_.transpose() * outcome.contact_forces + solution.force);
+  share_forces(nodes, solution, outcome);
   outcome.status = solution.status;
   outcome.newton_iterations = solution.iterations;
   outcome.residual = solution.residual;
+}
+
+// Of the forces q that hold the contact nodes friction is the law's; of the rest the foundation has
+// what is normal, and supports have what is left in prescribed components.
+template <int dim>
+void CondensedRoute<dim>::share_forces(const std::vector<contact::Admissible<dim>> &nodes,
+                                       const InterfaceSolution &solution,
+                                       StepOutcome &outcome) const {
+  outcome.contact_forces -=
+      directions_ * (directions_.transpose() * outcome.contact_forces + solution.force);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const ContactPoint &p = points_[i];
+    auto q = outcome.contact_forces.segment<dim>(dim * static_cast<Index>(i));
+    const contact::Tangent borne = -nodes[i].held.transpose() * q / p.weight;
+    const contact::Tangent lambda =
+        p.friction.whole_traction(solution.increment.segment(p.offset, p.size),
+                                  solution.force.segment(p.offset, p.size) / p.weight, borne);
+    const Eigen::Matrix<double, dim, 1> friction = -p.weight * nodes[i].tangent() * lambda;
+    outcome.friction_forces.segment<dim>(dim * static_cast<Index>(i)) = friction;
+    q -= nodes[i].support(q, friction);
+  }
 }
 
 template <int dim>
@@ -198,7 +235,7 @@ StepOutcome CondensedRoute<dim>::advance(double time, std::span<const double> ri
   StepOutcome outcome;
   VectorXd c = s;
   if (!model_.interface.empty()) {
-    outcome.contact_forces = VectorXd::Zero(s.size());
+    outcome.contact_forces = outcome.friction_forces = VectorXd::Zero(s.size());
     outcome.status.resize(model_.interface.size());
     parallel::on_first([&] { advance_contact(time, s, before, state, c, outcome); });
     share(outcome);

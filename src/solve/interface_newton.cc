@@ -14,11 +14,9 @@ using Eigen::VectorXd;
 
 constexpr int sweeps_per_iteration = 3;
 
-// Calls `f(law)` with whatever law is in force at the point.
-template <class Function>
-auto with_law(const ContactPoint &point, Function &&f) {
-  return std::visit(std::forward<Function>(f), point.friction);
-}
+// Where a point's slip may have to stop on its way: at the kink of its law, and where a known slip
+// makes a bend of it, at that.
+enum class Turns { kinks, kinks_and_bends };
 
 class Iteration {
  public:
@@ -49,8 +47,8 @@ class Iteration {
   std::vector<std::size_t> smooth_points() const;
   double dissipation(const VectorXd &d) const;
   VectorXd newton_direction(const std::vector<std::size_t> &smooth) const;
-  double length_to_kink(const ContactPoint &p, const VectorXd &direction) const;
-  VectorXd truncated(const VectorXd &direction, double length) const;
+  double length_to_turn(const ContactPoint &p, const VectorXd &direction, Turns turns) const;
+  VectorXd truncated(const VectorXd &direction, double length, Turns turns) const;
   bool descends(const VectorXd &next) const;
 
   const InterfaceProgramme &programme_;
@@ -76,7 +74,7 @@ Tangent Iteration::trial(std::size_t i) const {
 
 Tangent Iteration::friction_force(std::size_t i) const {
   const ContactPoint &p = programme_.points[i];
-  return p.weight * with_law(p, [&](const auto &law) { return law.traction(trial(i)); });
+  return p.weight * p.friction.traction(trial(i), curvature_[i] / p.weight);
 }
 
 // The point's own problem with all others held, its block of A replaced by its largest eigenvalue:
@@ -89,7 +87,7 @@ void Iteration::sweep(bool backwards) {
     if (p.size == 0)
       continue;
     const Tangent x = trial(i);
-    const Tangent lambda = with_law(p, [&](const auto &law) { return law.traction(x); });
+    const Tangent lambda = p.friction.traction(x, curvature_[i] / p.weight);
     const Tangent after = (x - lambda) * (p.weight / curvature_[i]);
     const Tangent change = after - d_.segment(p.offset, p.size);
     if (change.isZero(0))
@@ -104,7 +102,7 @@ std::vector<std::size_t> Iteration::smooth_points() const {
   for (std::size_t i = 0; i < programme_.points.size(); ++i) {
     const ContactPoint &p = programme_.points[i];
     const Tangent d = d_.segment(p.offset, p.size);
-    if (p.size > 0 && with_law(p, [&](const auto &law) { return law.is_smooth_at(d); }))
+    if (p.size > 0 && p.friction.is_smooth_at(d))
       smooth.push_back(i);
   }
   return smooth;
@@ -112,31 +110,30 @@ std::vector<std::size_t> Iteration::smooth_points() const {
 
 double Iteration::dissipation(const VectorXd &d) const {
   double sum = 0;
-  for (const ContactPoint &p : programme_.points) {
-    const Tangent di = d.segment(p.offset, p.size);
-    sum += p.weight * with_law(p, [&](const auto &law) { return law.dissipation(di); });
-  }
+  for (const ContactPoint &p : programme_.points)
+    sum += p.weight * p.friction.dissipation(d.segment(p.offset, p.size));
   return sum;
 }
 
 // The length of `direction` at which a point's slip has no component left along its present one:
-// there, on a line exactly and on a disc nearly, it meets the kink of the law. Infinite where there
-// is no kink.
-double Iteration::length_to_kink(const ContactPoint &p, const VectorXd &direction) const {
+// there, on a line exactly and on a disc nearly, it meets the kink or bend of the law. Infinite
+// where there is none.
+double Iteration::length_to_turn(const ContactPoint &p, const VectorXd &direction,
+                                 Turns turns) const {
   const Tangent d = d_.segment(p.offset, p.size);
   const double backwards = -d.dot(direction.segment(p.offset, p.size));
-  const bool kink =
-      !with_law(p, [&](const auto &law) { return law.is_smooth_at(Tangent::Zero(p.size)); });
-  return kink && backwards > 0 ? d.squaredNorm() / backwards
-                               : std::numeric_limits<double>::infinity();
+  const bool turns_here =
+      backwards > 0 && (p.friction.has_kink(p.size) ||
+                        (turns == Turns::kinks_and_bends && p.friction.has_bend(p.size)));
+  return turns_here ? d.squaredNorm() / backwards : std::numeric_limits<double>::infinity();
 }
 
-// d + length * direction, but a point that comes to its kink stops there, at exactly zero: beyond
+// d + length * direction, but a point that comes to its turn stops there, at exactly zero: beyond
 // it the Newton model does not hold.
-VectorXd Iteration::truncated(const VectorXd &direction, double length) const {
+VectorXd Iteration::truncated(const VectorXd &direction, double length, Turns turns) const {
   VectorXd next = d_ + length * direction;
   for (const ContactPoint &p : programme_.points)
-    if (p.size > 0 && length >= length_to_kink(p, direction))
+    if (p.size > 0 && length >= length_to_turn(p, direction, turns))
       next.segment(p.offset, p.size).setZero();
   return next;
 }
@@ -152,10 +149,8 @@ VectorXd Iteration::newton_direction(const std::vector<std::size_t> &smooth) con
   for (const std::size_t i : smooth) {
     const ContactPoint &p = programme_.points[i];
     const Tangent d = d_.segment(p.offset, p.size);
-    with_law(p, [&](const auto &law) {
-      hessian.block(row, row, p.size, p.size) += p.weight * law.hessian(d);
-      descent.segment(row, p.size) -= p.weight * law.gradient(d);
-    });
+    hessian.block(row, row, p.size, p.size) += p.weight * p.friction.hessian(d);
+    descent.segment(row, p.size) -= p.weight * p.friction.gradient(d);
     row += p.size;
   }
   const VectorXd solved = hessian.llt().solve(descent);
@@ -178,15 +173,17 @@ bool Iteration::newton_step() {
   const std::vector<std::size_t> smooth = smooth_points();
   const VectorXd direction = newton_direction(smooth);
   double length = 1;
-  VectorXd next = truncated(direction, length);
+  VectorXd next = truncated(direction, length, Turns::kinks);
+  if (!descends(next))
+    next = truncated(direction, length, Turns::kinks_and_bends);
   if (!descends(next)) {
-    // Up to the first kink the value falls where points slip on lines; discs need damping as well.
+    // Up to the first turn the value falls where points slip on lines; discs need damping as well.
     for (const ContactPoint &p : programme_.points)
-      length = std::min(length, length_to_kink(p, direction));
-    next = truncated(direction, length);
+      length = std::min(length, length_to_turn(p, direction, Turns::kinks_and_bends));
+    next = truncated(direction, length, Turns::kinks_and_bends);
     while (length > 1e-12 && !descends(next)) {
       length /= 2;
-      next = truncated(direction, length);
+      next = truncated(direction, length, Turns::kinks_and_bends);
     }
     if (!descends(next))
       return false;  // round-off is all that is left of the step
@@ -223,7 +220,7 @@ InterfaceSolution Iteration::solution() const {
   for (std::size_t i = 0; i < programme_.points.size(); ++i) {
     const ContactPoint &p = programme_.points[i];
     solution.force.segment(p.offset, p.size) = friction_force(i);
-    solution.status.push_back(with_law(p, [&](const auto &law) { return law.status(trial(i)); }));
+    solution.status.push_back(p.friction.status(trial(i), curvature_[i] / p.weight));
   }
   solution.residual = largest_residual() / force_size();
   return solution;
@@ -232,7 +229,8 @@ InterfaceSolution Iteration::solution() const {
 // Every point is held in all directions: no unknowns, nothing to solve.
 InterfaceSolution nothing_to_slip(const InterfaceProgramme &programme) {
   InterfaceSolution solution;
-  solution.status.assign(programme.points.size(), output::ContactStatus::stick);
+  for (const ContactPoint &p : programme.points)
+    solution.status.push_back(p.friction.status(Tangent(0), 1));
   solution.converged = true;
   return solution;
 }

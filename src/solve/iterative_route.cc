@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "tourmaline/contact/bilateral.h"
-#include "tourmaline/contact/friction.h"
+#include "tourmaline/contact/point_law.h"
 #include "tourmaline/error.h"
 #include "tourmaline/krylov/body_system.h"
 #include "tourmaline/solve/slip_descent.h"
@@ -27,18 +27,13 @@ using output::ContactStatus;
 template <int dim>
 struct Point {
   contact::Admissible<dim> admissible;
-  contact::Friction friction;
+  contact::PointLaw friction;
   Tangent slip_before;  // of the last step, D^T u [m]
   Tangent slip;         // increment d over this step [m]
   bool slips = false;   // in the active set
 
   bool is_held() const { return admissible.directions.cols() == 0; }
 };
-
-template <class Function>
-auto with_law(const contact::Friction &friction, Function &&f) {
-  return std::visit(std::forward<Function>(f), friction);
-}
 
 template <int dim>
 class IterativeRoute : public Route, private SlipResponse {
@@ -65,6 +60,8 @@ class IterativeRoute : public Route, private SlipResponse {
   Vector nodal_force(std::size_t node) const;
   Tangent slip_force(std::size_t node) const;
   double curvature(std::size_t node) const;
+  Tangent slip(std::size_t node) const;
+  Tangent trial(std::size_t node) const;
   double contact_residual(std::size_t node) const;
   double largest_residual() const;
   double terms_at_contact() const;
@@ -89,7 +86,9 @@ class IterativeRoute : public Route, private SlipResponse {
                             const std::vector<TangentMatrix> &hessian,
                             const Eigen::VectorXd &descent) override;
   double force_size() const override;
+  double accuracy() const override;
 
+  void share_forces(std::size_t node, StepOutcome &outcome) const;
   StepOutcome outcome() const;
   [[noreturn]] void give_up_contact(double time, const InterfaceSolution &solution) const;
   [[noreturn]] void give_up_body() const;
@@ -159,12 +158,14 @@ void IterativeRoute<dim>::begin_step(double time, std::span<const double> right_
   for (std::size_t i = 0; i < points_.size(); ++i) {
     Point<dim> &p = points_[i];
     p.admissible = admissible(i, state);
-    p.friction = model_.friction(
-        contact::contact_place(model_.interface[i].point, time, p.admissible.directions));
+    p.friction = {model_.friction(contact::contact_place(model_.interface[i].point, time,
+                                                         p.admissible.tangent())),
+                  p.admissible.held_slip(displacement(before, i))};
     p.slip_before = p.admissible.directions.transpose() * displacement(before, i);
     p.slip =
         p.admissible.directions.transpose() * (displacement(state, i) - displacement(before, i));
-    p.slips = p.slips && p.slip.norm() > 0;
+    p.slips =
+        !p.is_held() && (!p.friction.has_kink(p.slip.size()) || (p.slips && p.slip.norm() > 0));
   }
   two_before_.assign(before.begin(), before.end());
   iterations_ = 0;
@@ -213,19 +214,25 @@ double IterativeRoute<dim>::curvature(std::size_t node) const {
   return sum;
 }
 
+template <int dim>
+Tangent IterativeRoute<dim>::slip(std::size_t node) const {
+  const Point<dim> &p = points_[node];
+  return p.slips ? p.slip : Tangent(Tangent::Zero(p.slip.size()));
+}
+
+// lambda + r d [N/m^2] with r = curvature / weight.
+template <int dim>
+Tangent IterativeRoute<dim>::trial(std::size_t node) const {
+  return (slip_force(node) + curvature(node) * slip(node)) / model_.interface[node].weight;
+}
+
 // lambda - P(lambda + r d) as a nodal force [N].
 template <int dim>
 double IterativeRoute<dim>::contact_residual(std::size_t node) const {
-  const Point<dim> &p = points_[node];
-  if (p.is_held())
-    return 0;
   const double weight = model_.interface[node].weight;
-  const Tangent lambda = slip_force(node) / weight;
-  const Tangent slip = p.slips ? p.slip : Tangent(Tangent::Zero(p.slip.size()));
-  const Tangent trial = lambda + curvature(node) / weight * slip;
-  return weight * (lambda - with_law(p.friction, [&](const auto &law) {
-                     return law.traction(trial);
-                   })).norm();
+  return (slip_force(node) -
+          weight * points_[node].friction.traction(trial(node), curvature(node) / weight))
+      .norm();
 }
 
 template <int dim>
@@ -253,10 +260,15 @@ double IterativeRoute<dim>::terms_at_contact() const {
 // Size of the contact's forces [N], to which their residual is compared.
 template <int dim>
 double IterativeRoute<dim>::force_size() const {
-  double largest = std::max(terms_at_contact_, 1e-300);
+  double largest = 1e-300;
   for (std::size_t i = 0; i < points_.size(); ++i)
     largest = std::max(largest, nodal_force(i).norm());
   return largest;
+}
+
+template <int dim>
+double IterativeRoute<dim>::accuracy() const {
+  return model_.asked.solver.linear_tolerance * terms_at_contact_;
 }
 
 template <int dim>
@@ -274,8 +286,7 @@ bool IterativeRoute<dim>::change_active_set() {
       continue;
     const double weight = model_.interface[i].weight;
     const Tangent lambda = slip_force(i) / weight;
-    const Tangent beyond =
-        lambda - with_law(p.friction, [&](const auto &law) { return law.traction(lambda); });
+    const Tangent beyond = lambda - p.friction.traction(lambda, curvature(i) / weight);
     if (beyond.norm() <= 1e-12 * lambda.norm())
       continue;
     p.slips = changed = true;
@@ -328,8 +339,7 @@ std::vector<double> IterativeRoute<dim>::newton_residual() const {
     if (!p.slips)
       continue;
     const Vector friction =
-        model_.interface[i].weight * p.admissible.directions *
-        with_law(p.friction, [&](const auto &law) { return law.gradient(p.slip); });
+        model_.interface[i].weight * p.admissible.directions * p.friction.gradient(p.slip);
     for (int c = 0; c < dim; ++c)
       r[unknown<dim>(model_.interface[i].node, c)] -= friction[c];
   }
@@ -382,8 +392,7 @@ std::vector<krylov::NodeTangent<dim>> IterativeRoute<dim>::tangents() const {
     const auto &d = p.admissible.directions;
     tangents[i].projector = d * d.transpose();
     tangents[i].stiffness =
-        model_.interface[i].weight * d *
-        with_law(p.friction, [&](const auto &law) { return law.hessian(p.slip); }) * d.transpose();
+        model_.interface[i].weight * d * p.friction.hessian(p.slip) * d.transpose();
   }
   return tangents;
 }
@@ -403,10 +412,13 @@ bool IterativeRoute<dim>::add_solution(std::span<const double> residual, double 
 
 template <int dim>
 bool IterativeRoute<dim>::newton_step() {
-  constexpr double reduction = 1e-2;  // what is left, the next iteration takes
+  constexpr double reduction = 1e-2;     // what is left, the next iteration takes
+  constexpr std::size_t tiresome = 100;  // linear iterations: friction is stiffer than the body
   system_.set_contact(tangents());
   ++iterations_;
-  return add_solution(newton_residual(), reduction);
+  const std::size_t before = krylov_iterations_;
+  return add_solution(newton_residual(), reduction) &&
+         (points_.empty() || krylov_iterations_ - before <= tiresome);
 }
 
 // Slips as the state has them now; a point whose slip has turned is caught.
@@ -418,9 +430,7 @@ void IterativeRoute<dim>::read_slips() {
       continue;
     const Tangent slip =
         p.admissible.directions.transpose() * displacement(state_, i) - p.slip_before;
-    const bool bounded = with_law(
-        p.friction, [&](const auto &law) { return !law.is_smooth_at(Tangent::Zero(slip.size())); });
-    if (bounded && slip.dot(p.slip) <= 0)
+    if (p.friction.has_kink(slip.size()) && slip.dot(p.slip) <= 0)
       p.slips = false;
     p.slip = slip;
   }
@@ -513,8 +523,7 @@ Eigen::VectorXd IterativeRoute<dim>::force(const Eigen::VectorXd &d) {
     const Eigen::Index size = p.admissible.directions.cols();
     before.segment(next, size) -= p.slip_before;
     p.slip = d.segment(next, size);
-    p.slips =
-        size > 0 && with_law(p.friction, [&](const auto &law) { return law.is_smooth_at(p.slip); });
+    p.slips = size > 0 && p.friction.is_smooth_at(p.slip);
     next += size;
   }
   const Eigen::VectorXd moved = slips_of(increment_);
@@ -539,8 +548,15 @@ Eigen::VectorXd IterativeRoute<dim>::direction(const std::vector<bool> &is_smoot
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const auto &d = points_[i].admissible.directions;
     if (is_smooth[i]) {
-      tangents[i].projector = d * d.transpose();
-      tangents[i].stiffness = d * hessian[i] * d.transpose();
+      // Across a slip that is almost nothing friction is too stiff for the preconditioner.
+      const Eigen::SelfAdjointEigenSolver<TangentMatrix> modes(hessian[i]);
+      for (Eigen::Index k = 0; k < d.cols(); ++k) {
+        if (modes.eigenvalues()[k] > 1e3 * curvature(i))
+          continue;
+        const Vector mode = d * modes.eigenvectors().col(k);
+        tangents[i].projector += mode * mode.transpose();
+        tangents[i].stiffness += modes.eigenvalues()[k] * mode * mode.transpose();
+      }
       const Vector force = d * descent.segment(next, d.cols());
       std::copy(force.begin(), force.end(), &r[unknown<dim>(model_.interface[i].node, 0)]);
     }
@@ -586,7 +602,29 @@ StepOutcome IterativeRoute<dim>::advance(double time, std::span<const double> ri
     find_safely(time);
   backward_error_ =
       std::max(backward_error_, system_.backward_error(newton_residual(), right_side, state));
-  return outcome();
+  StepOutcome done = outcome();
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    points_[i].slips = !points_[i].is_held() && done.status[i] == ContactStatus::slip;
+  return done;
+}
+
+// Of the force q that holds a contact node friction is the law's; of the rest the foundation has
+// what is normal, and supports have what is left in prescribed components.
+template <int dim>
+void IterativeRoute<dim>::share_forces(std::size_t node, StepOutcome &outcome) const {
+  const Point<dim> &p = points_[node];
+  const double weight = model_.interface[node].weight, r = curvature(node) / weight;
+  const auto &d = p.admissible.directions;
+  const Tangent lambda = p.friction.traction(trial(node), r);
+  Vector q = -nodal_force(node);
+  q -= d * (d.transpose() * q + weight * lambda);
+  const Tangent borne = -p.admissible.held.transpose() * q / weight;
+  const Vector friction =
+      -weight * p.admissible.tangent() * p.friction.whole_traction(slip(node), lambda, borne);
+  const auto at = dim * static_cast<Eigen::Index>(node);
+  outcome.contact_forces.segment<dim>(at) = q - p.admissible.support(q, friction);
+  outcome.friction_forces.segment<dim>(at) = friction;
+  outcome.status.push_back(p.friction.status(trial(node), r));
 }
 
 template <int dim>
@@ -594,18 +632,9 @@ StepOutcome IterativeRoute<dim>::outcome() const {
   StepOutcome outcome;
   outcome.newton_iterations = iterations_;
   outcome.contact_forces = Eigen::VectorXd::Zero(dim * static_cast<Eigen::Index>(points_.size()));
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const Point<dim> &p = points_[i];
-    Vector q = -nodal_force(i);
-    if (p.slips && !p.is_held()) {  // the friction is the law's
-      const auto &d = p.admissible.directions;
-      const Tangent lambda =
-          with_law(p.friction, [&](const auto &law) { return law.gradient(p.slip); });
-      q -= d * (d.transpose() * q + model_.interface[i].weight * lambda);
-    }
-    outcome.contact_forces.segment<dim>(dim * static_cast<Eigen::Index>(i)) = q;
-    outcome.status.push_back(p.slips ? ContactStatus::slip : ContactStatus::stick);
-  }
+  outcome.friction_forces = outcome.contact_forces;
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    share_forces(i, outcome);
   outcome.residual = largest_residual() / force_size();
   return outcome;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tourmaline/contact/bilateral.h"
 #include "tourmaline/error.h"
 #include "tourmaline/parallel/ranks.h"
 #include "tourmaline/solve/saddle_newton.h"
@@ -49,11 +50,15 @@ class MonolithicRoute : public Route {
  private:
   using Point = contact::MultiplierPoint<dim>;
 
-  std::vector<AugmentedLagrangian> laws_at(double time) const;
+  std::vector<AugmentedLagrangian> laws_at(double time, std::span<const double> before,
+                                           std::span<const double> state) const;
   SaddlePoint prediction(std::span<const double> before, std::span<const double> state) const;
   std::vector<ContactStatus> status(const StepData &data) const;
   void settle(const StepData &data, const std::vector<ContactStatus> &status);
-  VectorXd contact_forces(const StepData &data) const;
+  VectorXd holding_forces(const StepData &data) const;
+  contact::Tangent whole_friction(const StepData &data, std::size_t p,
+                                  const VectorXd &holding) const;
+  void share_forces(const StepData &data, StepOutcome &outcome) const;
   std::size_t interface_index(body::Node node) const;
   [[noreturn]] void give_up(double time, const SaddleNewton<dim> &newton) const;
 
@@ -82,7 +87,8 @@ MonolithicRoute<dim>::MonolithicRoute(const Model<dim> &model)
 // a slip that turns back in the iteration jumps to the opposite slip, and Newton's method cycles
 // more often.
 template <int dim>
-std::vector<AugmentedLagrangian> MonolithicRoute<dim>::laws_at(double time) const {
+std::vector<AugmentedLagrangian> MonolithicRoute<dim>::laws_at(
+    double time, std::span<const double> before, std::span<const double> state) const {
   const casefile::SolverCase &solver = model_.asked.solver;
   std::vector<AugmentedLagrangian> laws;
   for (std::size_t p = 0; p < system_.points().size(); ++p) {
@@ -92,8 +98,8 @@ std::vector<AugmentedLagrangian> MonolithicRoute<dim>::laws_at(double time) cons
     law.has_normal = point.has_normal;
     law.r_normal = solver.r_normal.value_or(r);
     law.r_slip = solver.r_tangential ? *solver.r_tangential / model_.step : r;
-    const auto tangential = point.directions.rightCols(point.directions.cols() - point.has_normal);
-    law.friction = model_.friction(contact::contact_place(point.place, time, tangential));
+    law.friction = {model_.friction(contact::contact_place(point.place, time, point.tangent())),
+                    point.held_slip(state, before)};
   }
   return laws;
 }
@@ -111,7 +117,7 @@ SaddlePoint MonolithicRoute<dim>::prediction(std::span<const double> before,
 template <int dim>
 StepOutcome MonolithicRoute<dim>::advance(double time, std::span<const double> right_side,
                                           std::span<const double> before, std::span<double> state) {
-  const std::vector<AugmentedLagrangian> laws = laws_at(time);
+  const std::vector<AugmentedLagrangian> laws = laws_at(time, before, state);
   const StepData data{right_side, before, laws};
   SaddleNewton<dim> newton(system_, data, prediction(before, state));
   if (!newton.solve({model_.asked.solver.tolerance, model_.asked.solver.max_iterations}))
@@ -125,7 +131,7 @@ StepOutcome MonolithicRoute<dim>::advance(double time, std::span<const double> r
   outcome.status = status(data);
   if (model_.asked.solver.multiplier == "nodal")
     settle(data, outcome.status);
-  outcome.contact_forces = contact_forces(data);
+  share_forces(data, outcome);
   std::copy(x_.body.begin(), x_.body.end(), state.begin());
   return outcome;
 }
@@ -159,10 +165,10 @@ void MonolithicRoute<dim>::settle(const StepData &data, const std::vector<Contac
   }
 }
 
-// The multipliers as nodal forces, -w (dy/du)^T (lambda_nu, P(lambda_tau + r d)); in prescribed
-// components the reaction, which includes what holds them.
+// Nodal forces that hold the contact nodes: in free components those of the multipliers, -w
+// (dy/du)^T (lambda_nu, P(lambda_tau + r d)), in prescribed ones the reaction.
 template <int dim>
-VectorXd MonolithicRoute<dim>::contact_forces(const StepData &data) const {
+VectorXd MonolithicRoute<dim>::holding_forces(const StepData &data) const {
   VectorXd forces = VectorXd::Zero(dim * static_cast<Index>(model_.interface.size()));
   for (std::size_t p = 0; p < data.laws.size(); ++p) {
     const Point &point = system_.points()[p];
@@ -182,6 +188,54 @@ VectorXd MonolithicRoute<dim>::contact_forces(const StepData &data) const {
             model_.op.row_times(i, model_.step, x_.body) - data.right_side[i];
     }
   return forces;
+}
+
+// The law's lambda at a point in all its components. Along directions that are held at rest the
+// contact would bear, if nothing else held the nodes, the mean of their `holding` forces.
+template <int dim>
+contact::Tangent MonolithicRoute<dim>::whole_friction(const StepData &data, std::size_t p,
+                                                      const VectorXd &holding) const {
+  const Point &point = system_.points()[p];
+  const AugmentedLagrangian &law = data.laws[p];
+  const Local y = system_.displacement(p, x_, data.before), lambda = system_.multiplier(p, x_);
+  contact::Tangent slip = y.tail(y.size() - point.has_normal);
+  if (law.status(y, lambda) == ContactStatus::stick)
+    slip.setZero();
+  typename Point::Vector borne = Point::Vector::Zero();
+  for (const auto &share : point.mean) {
+    const std::size_t n = interface_index(share.node);
+    borne -= share.factor / model_.interface[n].weight *
+             holding.template segment<dim>(dim * static_cast<Index>(n));
+  }
+  return law.friction.whole_traction(slip, law.friction_traction(y, lambda),
+                                     point.held.transpose() * borne);
+}
+
+// As in `CondensedRoute`: friction is the law's, the foundation has what is normal, supports have
+// the rest.
+template <int dim>
+void MonolithicRoute<dim>::share_forces(const StepData &data, StepOutcome &outcome) const {
+  outcome.contact_forces = holding_forces(data);
+  outcome.friction_forces = VectorXd::Zero(outcome.contact_forces.size());
+  for (std::size_t p = 0; p < data.laws.size(); ++p) {
+    const Point &point = system_.points()[p];
+    const typename Point::Vector traction =
+        point.tangent() * whole_friction(data, p, outcome.contact_forces);
+    for (const auto &share : point.mean)
+      outcome.friction_forces.template segment<dim>(
+          dim * static_cast<Index>(interface_index(share.node))) -=
+          point.weight * share.factor * traction;
+  }
+  for (std::size_t n = 0; n < model_.interface.size(); ++n) {
+    std::array<std::optional<double>, dim> prescribed;
+    for (int c = 0; c < dim; ++c)
+      if (!system_.is_free(body::unknown<dim>(model_.interface[n].node, c)))
+        prescribed[c] = 0.;
+    auto q = outcome.contact_forces.template segment<dim>(dim * static_cast<Index>(n));
+    q -=
+        contact::bilateral<dim>(model_.interface[n].normal, prescribed)
+            .support(q, outcome.friction_forces.template segment<dim>(dim * static_cast<Index>(n)));
+  }
 }
 
 template <int dim>

@@ -84,7 +84,7 @@ output::HistoryRow Recorder<dim>::step(int n, const StepOutcome &outcome,
     const std::vector<output::ContactRow> rows = contact_rows(n, outcome, before, state);
     parallel::on_first([&] { folder_.put_contact(n, time, rows); });
   }
-  row.quantities = balance_->step(time, loads, outcome.contact_forces, state);
+  row.quantities = balance_->step(time, loads, outcome, state);
   for (const output::Extreme &e : extremes(state)) {
     row.quantities.emplace_back("min_" + e.field, e.minimum);
     row.quantities.emplace_back("max_" + e.field, e.maximum);

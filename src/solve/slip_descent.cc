@@ -12,11 +12,6 @@ using contact::Tangent;
 using contact::TangentMatrix;
 using Eigen::VectorXd;
 
-template <class Function>
-auto with_law(const ContactPoint &point, Function &&f) {
-  return std::visit(std::forward<Function>(f), point.friction);
-}
-
 class Descent {
  public:
   Descent(const SlipProgramme &programme, SlipResponse &response, VectorXd start)
@@ -26,15 +21,14 @@ class Descent {
         d_(std::move(start)),
         force_(response.force(d_)) {}
 
-  bool converged(double tolerance) const {
-    return largest_residual() <= tolerance * response_.force_size();
-  }
+  double allowed(double tolerance) const { return tolerance * response_.force_size(); }
+  double largest_residual() const;
   /// True when something moved.
   bool proximal_step(double tolerance);
   /// Solves one linear system; true when points came to stick on the way, so that the step after it
   /// is another one.
   bool newton_step(double tolerance);
-  InterfaceSolution solution(double tolerance) const;
+  InterfaceSolution solution(double allowed) const;
 
  private:
   Tangent part(const VectorXd &v, std::size_t i) const {
@@ -45,11 +39,10 @@ class Descent {
   double residual(std::size_t i) const {
     return (part(force_, i) - friction_force(i, programme_.curvature[i])).norm();
   }
-  double largest_residual() const;
   VectorXd proximal_point() const;
   std::vector<bool> smooth_points() const;
   double dissipation(const VectorXd &d) const;
-  double length_to_kink(std::size_t i, const VectorXd &direction) const;
+  double length_to_turn(std::size_t i, const VectorXd &direction) const;
   VectorXd truncated(const VectorXd &direction) const;
   VectorXd along(const VectorXd &direction, double length) const;
   double length_of_descent(const VectorXd &direction, const VectorXd &resisted) const;
@@ -68,8 +61,7 @@ class Descent {
 
 Tangent Descent::friction_force(std::size_t i, double r) const {
   const ContactPoint &p = points_[i];
-  return p.weight *
-         with_law(p, [&](const auto &law) { return law.traction(trial(i, r) / p.weight); });
+  return p.weight * p.friction.traction(trial(i, r) / p.weight, r / p.weight);
 }
 
 double Descent::largest_residual() const {
@@ -104,7 +96,7 @@ bool Descent::proximal_step(double tolerance) {
       assumed += stiffness_factor_ * programme_.curvature[i] * part(change, i).squaredNorm();
     const VectorXd next_force = response_.force(next);
     const double resisted = change.dot(force_ - next_force);
-    const double round_off = tolerance * response_.force_size() * change.lpNorm<1>();
+    const double round_off = allowed(tolerance) * change.lpNorm<1>();
     if (resisted <= assumed + round_off) {
       d_ = next;
       force_ = next_force;
@@ -119,50 +111,48 @@ bool Descent::proximal_step(double tolerance) {
 std::vector<bool> Descent::smooth_points() const {
   std::vector<bool> smooth;
   for (std::size_t i = 0; i < points_.size(); ++i)
-    smooth.push_back(points_[i].size > 0 && with_law(points_[i], [&](const auto &law) {
-                       return law.is_smooth_at(part(d_, i));
-                     }));
+    smooth.push_back(points_[i].size > 0 && points_[i].friction.is_smooth_at(part(d_, i)));
   return smooth;
 }
 
 double Descent::dissipation(const VectorXd &d) const {
   double sum = 0;
   for (std::size_t i = 0; i < points_.size(); ++i)
-    sum += points_[i].weight *
-           with_law(points_[i], [&](const auto &law) { return law.dissipation(part(d, i)); });
+    sum += points_[i].weight * points_[i].friction.dissipation(part(d, i));
   return sum;
 }
 
-double Descent::length_to_kink(std::size_t i, const VectorXd &direction) const {
+// The length at which a point's slip has no component left along its present one: there, on a line
+// exactly and on a disc nearly, it meets the kink of its law, or the bend in its place.
+double Descent::length_to_turn(std::size_t i, const VectorXd &direction) const {
   const ContactPoint &p = points_[i];
   const Tangent d = part(d_, i);
   const double backwards = -d.dot(part(direction, i));
-  const bool kink =
-      !with_law(p, [&](const auto &law) { return law.is_smooth_at(Tangent::Zero(p.size)); });
-  return kink && backwards > 0 ? d.squaredNorm() / backwards
-                               : std::numeric_limits<double>::infinity();
+  const bool turns =
+      p.size > 0 && backwards > 0 && (p.friction.has_kink(p.size) || p.friction.has_bend(p.size));
+  return turns ? d.squaredNorm() / backwards : std::numeric_limits<double>::infinity();
 }
 
 // d + direction, but a point that comes to its kink stops there, at exactly zero.
 VectorXd Descent::truncated(const VectorXd &direction) const {
   VectorXd next = d_ + direction;
   for (std::size_t i = 0; i < points_.size(); ++i)
-    if (length_to_kink(i, direction) <= 1)
+    if (length_to_turn(i, direction) <= 1 && points_[i].friction.has_kink(points_[i].size))
       next.segment(points_[i].offset, points_[i].size).setZero();
   return next;
 }
 
-// On the straight line: where it leads through a kink, the point is at exactly zero.
+// On the straight line: where it leads through zero, the point is there exactly.
 VectorXd Descent::along(const VectorXd &direction, double length) const {
   VectorXd next = d_ + length * direction;
   for (std::size_t i = 0; i < points_.size(); ++i)
-    if (part(next, i).norm() <= 1e-12 * part(d_, i).norm())
+    if (part(next, i).norm() <= 1e-6 * part(d_, i).norm())
       next.segment(points_[i].offset, points_[i].size).setZero();
   return next;
 }
 
 // Where the value is least between 0 and 1. It is convex, so nested intervals find it; where it has
-// its kinks is known better than they can tell.
+// its kinks and bends is known better than they can tell.
 double Descent::length_of_descent(const VectorXd &direction, const VectorXd &resisted) const {
   const double work = force_.dot(direction), stiffness = direction.dot(resisted);
   const auto value = [&](double t) {
@@ -177,9 +167,11 @@ double Descent::length_of_descent(const VectorXd &direction, const VectorXd &res
   const double middle = (low + high) / 2;
   double best = middle, below = 0, above = 1;
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    const double kink = length_to_kink(i, direction);
-    (kink <= middle ? below : above) =
-        kink <= middle ? std::max(below, kink) : std::min(above, kink);
+    const double turn = length_to_turn(i, direction);
+    if (turn <= middle)
+      below = std::max(below, turn);
+    else
+      above = std::min(above, turn);
   }
   for (const double t : {below, above})
     if (value(t) <= value(best))
@@ -195,10 +187,8 @@ VectorXd Descent::newton_direction(const std::vector<bool> &is_smooth) {
       continue;
     const ContactPoint &p = points_[i];
     const Tangent d = part(d_, i);
-    with_law(p, [&](const auto &law) {
-      hessian[i] = p.weight * law.hessian(d);
-      descent.segment(p.offset, p.size) = part(force_, i) - p.weight * law.gradient(d);
-    });
+    hessian[i] = p.weight * p.friction.hessian(d);
+    descent.segment(p.offset, p.size) = part(force_, i) - p.weight * p.friction.gradient(d);
   }
   const VectorXd direction = response_.direction(is_smooth, hessian, descent);
   // An inexact one may lead nowhere.
@@ -209,8 +199,8 @@ VectorXd Descent::newton_direction(const std::vector<bool> &is_smooth) {
 bool Descent::descends(const VectorXd &next, const VectorXd &next_force, double tolerance) const {
   const VectorXd change = next - d_;
   const double work = (force_ + next_force).dot(change) / 2, dissipated = dissipation(d_);
-  const double round_off = 1e-14 * (std::abs(force_.dot(change)) + dissipated) +
-                           tolerance * response_.force_size() * change.lpNorm<1>();
+  const double round_off =
+      1e-14 * (std::abs(force_.dot(change)) + dissipated) + allowed(tolerance) * change.lpNorm<1>();
   return dissipation(next) - dissipated - work <= round_off;
 }
 
@@ -246,7 +236,7 @@ bool Descent::newton_step(double tolerance) {
   return std::count(after.begin(), after.end(), true) < n_smooth;
 }
 
-InterfaceSolution Descent::solution(double tolerance) const {
+InterfaceSolution Descent::solution(double allowed) const {
   InterfaceSolution solution;
   solution.increment = d_;
   solution.force = VectorXd::Zero(d_.size());
@@ -254,9 +244,8 @@ InterfaceSolution Descent::solution(double tolerance) const {
     const ContactPoint &p = points_[i];
     const double r = programme_.curvature[i];
     solution.force.segment(p.offset, p.size) = friction_force(i, r);
-    solution.status.push_back(
-        with_law(p, [&](const auto &law) { return law.status(trial(i, r) / p.weight); }));
-    if (residual(i) > tolerance * response_.force_size())
+    solution.status.push_back(p.friction.status(trial(i, r) / p.weight, r / p.weight));
+    if (!(residual(i) <= allowed))
       solution.unsettled.push_back(i);
   }
   solution.residual = largest_residual() / response_.force_size();
@@ -268,17 +257,25 @@ InterfaceSolution Descent::solution(double tolerance) const {
 
 InterfaceSolution minimise(const SlipProgramme &programme, SlipResponse &response, VectorXd start,
                            const InterfaceSettings &settings) {
+  constexpr int patience = 3;
   Descent descent(programme, response, std::move(start));
-  int solved = 0;
-  while (!descent.converged(settings.tolerance) && solved < settings.max_iterations) {
+  int solved = 0, last_gain = 0;
+  double least = descent.largest_residual(), allowed = descent.allowed(settings.tolerance);
+  while (least > allowed && solved < settings.max_iterations &&
+         (least > response.accuracy() || solved - last_gain < patience)) {
     descent.proximal_step(settings.tolerance);
     bool more = true;
     while (more && solved < settings.max_iterations) {
       more = descent.newton_step(settings.tolerance);
       ++solved;
     }
+    allowed = descent.allowed(settings.tolerance);
+    if (const double now = descent.largest_residual(); now < least) {
+      least = now;
+      last_gain = solved;
+    }
   }
-  InterfaceSolution solution = descent.solution(settings.tolerance);
+  InterfaceSolution solution = descent.solution(std::max(allowed, response.accuracy()));
   solution.iterations = solved;
   return solution;
 }

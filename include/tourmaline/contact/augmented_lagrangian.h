@@ -2,7 +2,7 @@
 
 #include <Eigen/Dense>
 
-#include "tourmaline/contact/friction.h"
+#include "tourmaline/contact/point_law.h"
 
 namespace tourmaline::contact {
 
@@ -27,7 +27,7 @@ struct AugmentedLagrangian {
   bool has_normal = true;
   double r_normal = 0;  ///< r_nu > 0 [N/m^3]
   double r_slip = 0;    ///< r = r_tau / k > 0 [N/m^3]
-  Friction friction;
+  PointLaw friction;
   /// lambda_tau is a parameter, not an unknown: l_tau as a function of d alone, convex and smooth
   /// to first order. Its condition is then 0 and leaves lambda_tau where it is.
   bool friction_held = false;

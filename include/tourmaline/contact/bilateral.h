@@ -4,17 +4,40 @@
 #include <array>
 #include <optional>
 
+#include "tourmaline/contact/tangent.h"
+
 namespace tourmaline::contact {
 
 /// Bilateral contact (9), u_nu = 0, at one node of which some components may be prescribed as well:
-/// the admissible displacements are u = base + directions z with free z.
+/// the admissible displacements are u = base + directions z with free z. What is tangential splits
+/// into the free part and a part that is known, because prescribed components move it, alone or
+/// with u_nu = 0 (a tilted foundation). The slip that friction (9) sees is both.
 template <int dim>
 struct Admissible {
   using Vector = Eigen::Matrix<double, dim, 1>;
+  using Directions = Eigen::Matrix<double, dim, Eigen::Dynamic, 0, dim, dim>;
 
   Vector base;  ///< [m]
   /// orthonormal columns, tangential and orthogonal to the prescribed components
-  Eigen::Matrix<double, dim, Eigen::Dynamic, 0, dim, dim> directions;
+  Directions directions;
+  /// orthonormal columns that complete `directions` to a basis of the tangent plane: along them the
+  /// displacement is that of `base`
+  Directions held;
+  Vector normal;
+  std::array<bool, dim> is_prescribed;
+
+  /// `directions`, then `held`: the columns that a law's components belong to (`PointLaw`).
+  Directions tangent() const;
+
+  /// Slip along `held` [m] over a step from the displacement `before`; exactly zero where it is no
+  /// more than the round-off of the two displacements.
+  Tangent held_slip(const Vector &before) const;
+
+  /// Of the nodal force [N] that holds the node in its place, with `friction` [N] in it, the part
+  /// that the support of the prescribed components bears: 0 in free components. What is left is
+  /// friction and a force along the normal. Where the normal lies in the span of prescribed
+  /// components nothing tells foundation and support apart, and all along it is the foundation's.
+  Vector support(const Vector &force, const Vector &friction) const;
 };
 
 /// `prescribed[c]` [m] where component c is prescribed. Where the normal lies in the span of

@@ -18,7 +18,8 @@ using Friction = std::variant<Tresca, OwnLaw>;
 struct ContactPlace {
   output::Vector point;  ///< [m]
   double time;           ///< [s]
-  /// orthonormal columns, along which the point can slip and which the law's components belong to
+  /// orthonormal columns of the tangent plane, which the law's components belong to: those along
+  /// which the point is free to slip come first
   Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> directions;
 };
 

@@ -13,8 +13,9 @@ namespace tourmaline::contact {
 ///     lambda = P(lambda + r d),   P the projection onto a closed convex set C that holds 0,
 ///
 /// or lambda in the subdifferential of the dissipation j(d) = sup over lambda in C of lambda.d,
-/// which is convex and positively homogeneous. `Tresca`, whose C is a ball, has the same functions
-/// and says more of them.
+/// which is convex and positively homogeneous. Vectors have one component in two dimensions, two in
+/// three: d is the whole tangential slip, also where other conditions move the point. `Tresca`,
+/// whose C is a ball, has the same functions and says more of them.
 class FrictionLaw {
  public:
   virtual ~FrictionLaw() = default;

@@ -26,11 +26,23 @@ struct MultiplierPoint {
   std::vector<Share> mean;
   bool has_normal = false;  ///< whether u_nu = 0 is a condition here, the first of the directions
   Directions directions;    ///< columns: normal, then orthonormal tangential ones
+  /// Orthonormal columns that complete these in the tangent plane: the slip along them is known. It
+  /// follows from prescribed components alone, by the columns of `held_now`: held^T u = held_now^T
+  /// u where u_nu = 0.
+  Directions held, held_now;
 
   Eigen::Index n_multipliers() const { return directions.cols(); }
 
   /// (u_nu, d) from the values of all unknowns now and at the last step.
   Local displacement(std::span<const double> state, std::span<const double> before) const;
+
+  /// The known slip (`Admissible::held_slip`) when `state` holds the prescribed values.
+  Tangent held_slip(std::span<const double> state, std::span<const double> before) const;
+  /// Directions of the tangential multipliers, then `held`: those of a law's components.
+  Directions tangent() const;
+
+ private:
+  Vector mean_of(std::span<const double> values) const;
 };
 
 /// Which unknowns of the body are prescribed; multipliers stand only in directions that are free.

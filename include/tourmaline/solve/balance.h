@@ -8,6 +8,7 @@
 
 #include "tourmaline/output/checkpoint.h"
 #include "tourmaline/solve/model.h"
+#include "tourmaline/solve/route.h"
 
 namespace tourmaline::solve {
 
@@ -31,8 +32,8 @@ class Balance {
   Balance(const Model<dim> &model, std::span<const double> initial);
 
   /// Columns of history.csv for the step that ends at `time` with `state`. `loads` is the
-  /// right-hand side without history, `contact_forces` [N] has dim entries for each interface node.
-  Columns step(double time, std::span<const double> loads, const Eigen::VectorXd &contact_forces,
+  /// right-hand side without history; of the outcome the forces at the contact are used.
+  Columns step(double time, std::span<const double> loads, const StepOutcome &outcome,
                std::span<const double> state);
 
   /// What the next step compares with, besides the state: that of the checkpoint is what the
@@ -44,6 +45,7 @@ class Balance {
   /// One step's numbers, shared by the four balances.
   struct Step;
 
+  std::vector<double> by_unknown(const Eigen::VectorXd &forces) const;
   void add_forces(const Step &step, Columns &columns) const;
   void add_charges(const Step &step, Columns &columns) const;
   void add_electrodes(const Step &step, Columns &columns);

@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "tourmaline/contact/friction.h"
+#include "tourmaline/contact/point_law.h"
 
 namespace tourmaline::solve {
 
@@ -12,15 +12,16 @@ namespace tourmaline::solve {
 struct ContactPoint {
   Eigen::Index offset = 0, size = 0;
   double weight = 0;
-  contact::Friction friction;
+  contact::PointLaw friction;
 };
 
 /// The contact problem of one step in the slip increments d:
 ///
 ///     minimise  d.A d / 2 - f.d + sum_i w_i j_i(d_i)
 ///
-/// with A symmetric positive definite and j_i the convex dissipation of the law at point i. Its
-/// nodal friction forces are f - A d, w_i times an element of the subdifferential of j_i.
+/// with A symmetric positive definite and j_i the convex dissipation of the law at point i, in
+/// which the known part of the slip is (`PointLaw`). Its nodal friction forces are f - A d, w_i
+/// times an element of the subdifferential of j_i.
 struct InterfaceProgramme {
   const Eigen::MatrixXd &stiffness;         ///< A [N/m]
   const Eigen::VectorXd &force;             ///< f [N]

@@ -13,8 +13,10 @@ namespace tourmaline::solve {
 struct StepOutcome {
   int newton_iterations = 0;
   double residual = 0;
-  /// nodal contact forces q on the body, dim entries for each interface node [N]
+  /// nodal contact forces q on the body, dim entries for each interface node [N]: what the
+  /// foundation exerts, without what the supports of prescribed components bear
   Eigen::VectorXd contact_forces;
+  Eigen::VectorXd friction_forces;            ///< the part of them that opposes the slip [N]
   std::vector<output::ContactStatus> status;  ///< by interface node
 };
 

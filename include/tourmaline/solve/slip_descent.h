@@ -25,6 +25,10 @@ class SlipResponse {
 
   /// Size of the forces at the d asked for last [N], to which the tolerance relates.
   virtual double force_size() const = 0;
+
+  /// Error that these forces have at most [N]. A residual that is no larger and falls no more is
+  /// taken for zero.
+  virtual double accuracy() const = 0;
 };
 
 /// The programme of `InterfaceProgramme` with A known by its answers alone.
