@@ -15,6 +15,7 @@
 #include "tourmaline/output/progress.h"
 #include "tourmaline/parallel/ranks.h"
 #include "tourmaline/report/page.h"
+#include "tourmaline/solve/available_memory.h"
 #include "tourmaline/solve/condensed_route.h"
 #include "tourmaline/solve/iterative_route.h"
 #include "tourmaline/solve/memory.h"
@@ -45,6 +46,8 @@ class Simulation {
   void prescribe(double time, std::vector<double> &state) const;
   void sum_loads(double time);
   void step(int n);
+  StepOutcome advance(int n);
+  void go_back_to_direct(int n, const SolveError &error);
   void pause(int n, const Schedule::Pause &pause);
   void save(int n);
   void restore();
@@ -56,7 +59,8 @@ class Simulation {
   std::optional<output::Checkpoint> checkpoint_;  // to start from
   std::string inputs_;                            // of the run, for later checkpoints
   output::Progress progress_;
-  bool iterative_;  // decided once: what is available changes with what is taken
+  bool iterative_;       // decided once: what is available changes with what is taken
+  int direct_from_ = 0;  // the step from which on it is not, after all
   Model<dim> model_;
   std::vector<double> state_;  // of the last step that is done
   std::vector<double> next_, loads_, right_side_;
@@ -148,14 +152,43 @@ void Simulation<dim>::sum_loads(double time) {
 }
 
 template <int dim>
+StepOutcome Simulation<dim>::advance(int n) {
+  next_ = state_;
+  prescribe(model_.time(n), next_);
+  try {
+    return route_->advance(model_.time(n), right_side_, state_, next_);
+  } catch (const SolveError &error) {
+    if (!iterative_ || model_.asked.solver.body != "automatic")
+      throw;
+    go_back_to_direct(n, error);
+    return advance(n);
+  }
+}
+
+// "automatic" took the iterative solution to save memory. Where that fails, a factorisation is
+// worth all the memory that there is.
+template <int dim>
+void Simulation<dim>::go_back_to_direct(int n, const SolveError &error) {
+  route_.reset();
+  const double needed = factorised_memory(model_.asked), available = available_memory().bytes;
+  if (parallel::from_first(needed > available) != 0)
+    throw SolveError(
+        fmt::format("{} A factorisation needs about {:.3g} GiB of memory, and {:.3g} "
+                    "GiB are available",
+                    error.what(), needed / (1 << 30), available / (1 << 30)));
+  iterative_ = false;
+  direct_from_ = n;
+  progress_.stage("factorisation");
+  route_ = make_route(model_, iterative_);
+}
+
+template <int dim>
 void Simulation<dim>::step(int n) {
   Stopwatch watch;
   sum_loads(model_.time(n));
   right_side_ = loads_;
   model_.op.add_history(state_, right_side_);
-  next_ = state_;
-  prescribe(model_.time(n), next_);
-  const StepOutcome outcome = route_->advance(model_.time(n), right_side_, state_, next_);
+  const StepOutcome outcome = advance(n);
   newton_total_ += outcome.newton_iterations;
   newton_max_ = std::max(newton_max_, outcome.newton_iterations);
   if (n == 1)
@@ -216,6 +249,7 @@ void Simulation<dim>::save(int n) {
     output::SavedNumbers &numbers = checkpoint.numbers;
     numbers.put("state", state_);
     numbers.put("iterative", {double(iterative_)});
+    numbers.put("direct from", {double(direct_from_)});
     numbers.put("newton", {double(newton_total_), double(newton_max_), double(newton_first_)});
     numbers.put("seconds", {step_seconds_, seconds_before_ + process_age()});
     route_->save(numbers);
@@ -228,6 +262,7 @@ template <int dim>
 void Simulation<dim>::restore() {
   const output::SavedNumbers &numbers = checkpoint_->numbers;
   numbers.fill("state", state_);
+  direct_from_ = static_cast<int>(numbers.get("direct from", 1)[0]);
   const auto newton = numbers.get("newton", 3);
   newton_total_ = static_cast<int>(newton[0]);
   newton_max_ = static_cast<int>(newton[1]);
@@ -290,6 +325,7 @@ output::Summary Simulation<dim>::summary() const {
     summary.iterations["krylov_total"] = static_cast<std::int64_t>(report.krylov_iterations);
     summary.iterations["krylov_max"] = report.krylov_largest;
     summary.iterations["preconditioners"] = report.preconditioners;
+    summary.iterations["safe_steps"] = report.safe_steps;
   }
   summary.factorisations = report.factorisations;
   if (report.negative_pivots >= 0)
@@ -311,6 +347,11 @@ output::Summary Simulation<dim>::summary() const {
         "solver.body = \"automatic\": the body's equations were solved iteratively, because a "
         "factorisation needs about {:.3g} GiB, more than half of what is available",
         factorised_memory(model_.asked) / (1 << 30)));
+  if (direct_from_ > 0)
+    summary.warnings.push_back(
+        fmt::format("solver.body = \"automatic\": the iterative solution of the body's equations, "
+                    "taken to save memory, failed in step {}; from there on they were factorised",
+                    direct_from_));
   summary.peak_memory_bytes = parallel::sum(peak_memory());
   return summary;
 }

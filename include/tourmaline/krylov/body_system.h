@@ -23,6 +23,12 @@ struct NodeTangent {
   bool operator==(const NodeTangent &) const = default;
 };
 
+/// What a linear solve took, and whether it came as far as it was asked to.
+struct Solved {
+  int iterations = 0;
+  bool converged = false;
+};
+
 /// The operator K of a step without a factorisation, for bodies too large for one: solves
 ///
 ///     Q (K + C) Q x = Q r,   x in the range of Q
@@ -48,8 +54,8 @@ class BodySystem {
   void refresh();
 
   /// Solves for a projected right-hand side r until the residual is `reduction` times r, in scaled
-  /// unknowns. Returns the iterations. Throws SolveError when they do not converge.
-  int solve(std::span<const double> right_side, double reduction, std::span<double> solution);
+  /// unknowns. The solution is in the range of Q: exactly zero in prescribed unknowns.
+  Solved solve(std::span<const double> right_side, double reduction, std::span<double> solution);
 
   /// Q r.
   void project(std::span<double> vector) const;

@@ -32,6 +32,7 @@ struct RouteReport {
   std::size_t krylov_iterations = 0;  ///< over all linear systems; 0: solved by substitution
   int krylov_largest = 0;             ///< of one linear system
   int preconditioners = 0;            ///< made in the run
+  int safe_steps = -1;  ///< in which a safe stage followed the fast one; -1: not of this route
   double backward_error = 0;          ///< largest over the steps in which it was measured
 };
 
