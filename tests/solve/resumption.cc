@@ -57,13 +57,13 @@ TEST_F(Resuming, TheSameCaseGoesOn) {
   const Resumption found = resumption(asked_, folder_);
   ASSERT_TRUE(found.checkpoint);
   EXPECT_EQ(found.checkpoint->step, 3u);
-  EXPECT_FALSE(found.is_complete);
+  EXPECT_FALSE(found.is_complete());
 }
 
 TEST_F(Resuming, AFolderWithoutCheckpointAndSummaryHoldsNothing) {
   const Resumption found = resumption(asked_, folder_ / "later");
   EXPECT_FALSE(found.checkpoint);
-  EXPECT_FALSE(found.is_complete);
+  EXPECT_FALSE(found.is_complete());
 }
 
 TEST_F(Resuming, AMeshThatHasChangedBehindItsNameIsAnotherCase) {
@@ -105,7 +105,7 @@ TEST_F(Resuming, AnotherVersionOfTheProgramDoesNotGoOn) {
 TEST_F(Resuming, ACompleteRunOfTheSameCaseHasNothingToDo) {
   put("summary.json", "{}");
   put("resolved.toml", casefile::resolved(asked_));
-  EXPECT_TRUE(resumption(asked_, folder_).is_complete);
+  EXPECT_TRUE(resumption(asked_, folder_).is_complete());
   asked_.title = "another";
   EXPECT_THAT(asking(), ThrowsMessage<CaseError>(HasSubstr("title was")));
 }

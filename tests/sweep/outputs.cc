@@ -103,7 +103,7 @@ TEST(ChosenOutputs, AMisspeltNameIsAnsweredWithTheNearest) {
 
 TEST(ReadOutputs, WhatARunLacksIsNoNumber) {
   const output::TemporaryFolder folder;
-  std::ofstream(folder / "history.csv") << "step,slip\n1,3\n2,5\n";
+  std::ofstream(folder / "history.csv") << "step,time,slip\n1,0.5,3\n2,1,5\n";
   std::ofstream(folder / "summary.json")
       << R"({"extremes": [{"field": "potential", "at_minimum": [1, 2], "at_maximum": [3, 4]}]})";
   const auto values =
