@@ -82,11 +82,11 @@ FolderLock::FolderLock(const std::filesystem::path &directory) : path_(directory
 // A run that ends removes its file, and the folder where it is empty. Whoever has opened the file
 // before and locks it after holds a file without a name, and must try again.
 void FolderLock::take() {
-  while (true) {
+  for (int attempt = 0;; ++attempt) {
     for (std::filesystem::path &folder : make(path_.parent_path()))
       made_.push_back(std::move(folder));
     descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (descriptor_ < 0 && errno == ENOENT)
+    if (descriptor_ < 0 && errno == ENOENT && attempt < 100)
       continue;
     if (descriptor_ < 0)
       throw MachineError(fmt::format("cannot write {}: {}", path_.string(), std::strerror(errno)));
