@@ -20,7 +20,7 @@
 
 namespace {
 
-constexpr rlim_t room = rlim_t{400} << 20;       // address space for OpenBLAS and Open MPI [bytes]
+constexpr rlim_t room = rlim_t{480} << 20;       // address space for OpenBLAS and Open MPI [bytes]
 constexpr rlim_t per_thread = rlim_t{12} << 20;  // of OpenBLAS: stack and what belongs to it
 constexpr rlim_t least_stack = rlim_t{1} << 20;  // MUMPS and METIS have arrays there
 constexpr int files = 24;                        // that are open at once, with some to spare
@@ -147,7 +147,7 @@ void look_at_limits(int, char **, char **environment) {
         environment);
   if (!has_address_space(n_threads))
     refuse(
-        "tourmaline: not enough memory to start: OpenBLAS and Open MPI need 400 MiB of address "
+        "tourmaline: not enough memory to start: OpenBLAS and Open MPI need 480 MiB of address "
         "space beside the program's own; raise the limit (ulimit -v)\n",
         environment);
   if (!has_processes(n_threads))

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <iostream>
-#include <new>
 
 #include "tourmaline/case/electrodes.h"
 #include "tourmaline/case/interval.h"
@@ -46,14 +45,14 @@ class Simulation {
                    std::unique_ptr<output::FolderLock> lock);
   int begin();
   void march(int first, Schedule &schedule);
-  void march_or_tell_what_is_left(int first, Schedule &schedule);
+  output::Summary take_steps(int first, Schedule &schedule);
   void prescribe(double time, std::vector<double> &state) const;
   void sum_loads(double time);
   void step(int n);
   void pause(int n, const Schedule::Pause &pause);
   void save(int n);
   void restore();
-  void finish(Schedule &schedule);
+  output::Summary close_tables(Schedule &schedule);
   void put_report();
   void keep_what_there_is();
   std::string what_is_left() const;
@@ -220,32 +219,37 @@ template <int dim>
 void Simulation<dim>::run() {
   const int first = begin();
   Schedule schedule(casefile::interval(model_.asked.output.checkpoint));
-  march_or_tell_what_is_left(first, schedule);
-  finish(schedule);
+  const output::Summary done = take_steps(first, schedule);
+  // From here on only the page may be missing, which `--resume` makes.
+  parallel::on_first([&] { put_report(); });
+  progress_.done();
+  tell(done, schedule.received());
 }
 
 // The error that ends the steps also says where those before it are.
 template <int dim>
-void Simulation<dim>::march_or_tell_what_is_left(int first, Schedule &schedule) {
+output::Summary Simulation<dim>::take_steps(int first, Schedule &schedule) {
   try {
-    try {
-      march(first, schedule);
-    } catch (...) {
-      keep_what_there_is();
-      throw;
-    }
+    march(first, schedule);
+    return close_tables(schedule);
   } catch (const CaseError &error) {
+    keep_what_there_is();
     throw CaseError(error.what() + what_is_left());
   } catch (const SolveError &error) {
+    keep_what_there_is();
     throw SolveError(error.what() + what_is_left());
   } catch (const MachineError &error) {
+    keep_what_there_is();
     throw MachineError(
         error.what() + what_is_left() +
         (saved_step_ > 0 ? fmt::format("; --resume goes on after step {}", saved_step_) : ""));
-  } catch (const std::bad_alloc &) {
-    if (parallel::n_ranks() > 1)
-      throw;  // the others know nothing of it
-    throw MachineError("not enough memory" + what_is_left());
+  } catch (const Stopped &) {
+    keep_what_there_is();
+    throw;
+  } catch (const std::exception &) {
+    if (parallel::n_ranks() == 1)  // otherwise the others know nothing of it
+      keep_what_there_is();
+    throw;
   }
 }
 
@@ -258,10 +262,9 @@ std::string Simulation<dim>::what_is_left() const {
                      model_.asked.time.steps, folder_->directory().string());
 }
 
-// From the summary on only the page may be missing, which `--resume` makes. A signal lets it be
-// finished: it is nearly done.
+// From now on a signal lets the run be finished: it is nearly done.
 template <int dim>
-void Simulation<dim>::finish(Schedule &schedule) {
+output::Summary Simulation<dim>::close_tables(Schedule &schedule) {
   if (parallel::is_first())
     schedule.answer(
         "tourmaline: all steps are done; the results are being finished (a second signal ends "
@@ -269,9 +272,7 @@ void Simulation<dim>::finish(Schedule &schedule) {
   recorder_->finish(state_);
   const output::Summary done = summary();
   parallel::on_first([&] { folder_->put_summary(done); });
-  parallel::on_first([&] { put_report(); });
-  progress_.done();
-  tell(done, schedule.received());
+  return done;
 }
 
 template <int dim>
@@ -341,7 +342,7 @@ void Simulation<dim>::keep_what_there_is() {
   try {
     recorder_->finish(state_);
     parallel::on_first([&] { put_report(); });
-  } catch (const std::runtime_error &) {
+  } catch (const std::exception &) {
   }
   progress_.done();
 }
