@@ -88,13 +88,8 @@ std::string words(const casefile::Change &change) {
   return fmt::format("{} was {}, is {}", change.key, value(change.then), value(change.now));
 }
 
-// How often checkpoints are saved changes no result.
 void require_same(const std::string &then, const std::string &now, const fs::path &directory) {
-  std::string list;
-  for (const casefile::Change &change : casefile::changes(then, now))
-    if (change.key != "output.checkpoint")
-      list += (list.empty() ? "" : "; ") + words(change);
-  if (!list.empty())
+  if (const std::string list = differences(then, now); !list.empty())
     throw CaseError(fmt::format(
         "{} holds a run of another case, which --resume cannot go on with: {}. Give the same case, "
         "choose another folder with -o, or start again without --resume, which removes that run",
@@ -119,6 +114,15 @@ void require_same_program(const output::Checkpoint &checkpoint, const fs::path &
 }
 
 }  // namespace
+
+// How often checkpoints are saved changes no result.
+std::string differences(const std::string &then, const std::string &now) {
+  std::string list;
+  for (const casefile::Change &change : casefile::changes(then, now))
+    if (change.key != "output.checkpoint")
+      list += (list.empty() ? "" : "; ") + words(change);
+  return list;
+}
 
 std::map<std::string, std::string> contents_of(const casefile::Case &asked) {
   std::map<std::string, std::string> digests;

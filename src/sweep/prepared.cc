@@ -80,20 +80,32 @@ Found found_behind(const solve::Resumption &resumption) {
   return {goes_on ? Found::State::interrupted : Found::State::nothing, ""};
 }
 
-// Without the advice, which is for one run.
-std::string first_part(const std::string &text) {
-  return text.substr(0, text.find_first_of(';'));
+// Why --resume would refuse, without its advice.
+std::string obstacle(const fs::path &checkpoint, const Prepared &member,
+                     const std::string &refusal) {
+  try {
+    const std::string changed = solve::differences(output::read_checkpoint(checkpoint).inputs,
+                                                   solve::inputs_of(member.asked));
+    if (!changed.empty())
+      return changed;
+  } catch (const MachineError &) {
+    // The refusal says so.
+  }
+  return refusal.substr(0, refusal.find(';'));
 }
 
 }  // namespace
 
 Found found_in(const fs::path &folder, const Prepared &member) {
-  const bool has_checkpoint = fs::exists(folder / output::checkpoint_name);
+  const fs::path checkpoint = folder / output::checkpoint_name;
+  std::error_code error;
+  const bool was_interrupted = fs::exists(checkpoint, error);
   try {
     return found_behind(solve::resumption(member.asked, folder));
-  } catch (const std::exception &error) {
-    // Of a complete run of another case nothing goes on that one would ask about.
-    return {Found::State::nothing, has_checkpoint ? first_part(error.what()) : ""};
+  } catch (const std::exception &refusal) {
+    // A complete run of another case makes room without a word, as that of a run does.
+    return {Found::State::nothing,
+            was_interrupted ? obstacle(checkpoint, member, refusal.what()) : ""};
   }
 }
 

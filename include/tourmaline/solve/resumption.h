@@ -18,6 +18,9 @@ std::map<std::string, std::string> contents_of(const casefile::Case &asked);
 /// [contents] those digests.
 std::string inputs_of(const casefile::Case &asked);
 
+/// How two of these differ, in words; "" where a run of the one can go on as the other.
+std::string differences(const std::string &then, const std::string &now);
+
 /// What an earlier run of this case left in a folder to go on with.
 struct Resumption {
   bool has_all_steps = false;                    ///< at most the page is missing
