@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -23,14 +24,14 @@ struct Ended {
 };
 
 // 124 when it did not end within a minute. What it says goes through a pipe, as the limits hold for
-// files.
+// files, and is joined before the limit holds for the shell.
 Ended run_under(const std::string &limit, const std::string &overrides) {
   const TemporaryFolder folder;
   const auto errors = folder.path() / "stderr", status = folder.path() / "status";
   const std::string command =
       "{ ( " + limit + "; exec timeout 60 " + TOURMALINE_BINARY + " run " + TOURMALINE_SOURCE_DIR +
       "/cases/ouafik-2020/conductive.toml -q -o " + (folder.path() / "out").string() + " " +
-      overrides + " 2>&1 ); echo $? > " + status.string() + "; } | cat > " + errors.string();
+      overrides + " ) 2>&1; echo $? > " + status.string() + "; } | cat > " + errors.string();
   [[maybe_unused]] const int ended = std::system(command.c_str());
   return {std::stoi(content_of(status)), content_of(errors)};
 }
@@ -81,10 +82,14 @@ TEST_F(MemoryLimit, BelowWhatTheLibrariesNeedItEndsAtOnce) {
 }
 
 struct Limit {
-  char option;
+  char option;  // of ulimit
   const char *name;
   std::vector<int> values;
 };
+
+void PrintTo(const Limit &limit, std::ostream *out) {
+  *out << "ulimit -" << limit.option;
+}
 
 class ProcessLimit : public MemoryLimit, public ::testing::WithParamInterface<Limit> {};
 
@@ -108,13 +113,12 @@ TEST_P(ProcessLimit, EndsItInOneSentenceOrNotAtAll) {
   EXPECT_GT(failed, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Limits, ProcessLimit,
-    ::testing::Values(Limit{'n', "(ulimit -n)", {5, 8, 10, 12, 16, 24, 40}},
-                      Limit{'f', "File too large", {0, 1, 8, 100}},
-                      Limit{'s', "(ulimit -s)", {64, 256, 1000, 1100}},
-                      Limit{'t', "(ulimit -t)", {1, 2}}),
-    [](const auto &of) { return std::string(1, of.param.option); });
+INSTANTIATE_TEST_SUITE_P(Limits, ProcessLimit,
+                         ::testing::Values(Limit{'n', "(ulimit -n)", {5, 8, 10, 12, 16, 24, 40}},
+                                           Limit{'f', "File too large", {0, 1, 8, 100}},
+                                           Limit{'s', "(ulimit -s)", {64, 256, 1000, 1100}},
+                                           Limit{'t', "(ulimit -t)", {1, 2}}),
+                         [](const auto &of) { return std::string(1, of.param.option); });
 
 }  // namespace
 }  // namespace tourmaline::output
