@@ -132,7 +132,9 @@ ResultFolder::ResultFolder(fs::path directory, int dimension, Piece piece,
     return;
   if (!lock_)
     lock_ = std::make_unique<FolderLock>(directory_);
-  remove_checkpoint();  // first: it counts on the others
+  // First: they count on the others.
+  remove_if_there(directory_ / "summary.json");
+  remove_checkpoint();
   // Files of an earlier run, mixed with those of this one, would be read as one series.
   remove_files(directory_, is_ours);
 }
@@ -149,6 +151,7 @@ ResultFolder::ResultFolder(fs::path directory, int dimension, Piece piece,
   if (!lock_)
     lock_ = std::make_unique<FolderLock>(directory_);
   require_position(directory_, position);
+  remove_if_there(directory_ / "summary.json");  // first: it counts on the others
   if (position.contact_bytes > 0)
     contact_ = std::make_unique<AtomicFile>(directory_ / "contact.csv", position.contact_bytes);
   if (position.history_bytes > 0)
@@ -216,19 +219,25 @@ void ResultFolder::put_nodes(const std::vector<Vector> &points, const PointField
 }
 
 void ResultFolder::put_summary(const Summary &summary) {
+  std::error_code error;
+  const bool replaces_checkpoint = fs::exists(directory_ / checkpoint_name, error);
   const fs::path file = directory_ / "summary.json";
+  if (replaces_checkpoint)
+    sync_results();
   remove_if_there(directory_ / "report.html");  // of the steps so far, made by `tourmaline report`
   write_file(file, summary_text(dimension_, summary));
-  if (std::error_code error; !fs::exists(directory_ / checkpoint_name, error))
+  if (!replaces_checkpoint)
     return;
-  // What the checkpoint stood for is on the disk itself before it goes.
+  sync_path(file);
+  sync_path(directory_);
+  remove_checkpoint();
+}
+
+void ResultFolder::sync_results() {
   sync_fields();
   for (const char *name : {"contact.csv", "history.csv", "nodes.csv"})
     if (std::error_code error; fs::exists(directory_ / name, error))
       sync_path(directory_ / name);
-  sync_path(file);
-  sync_path(directory_);
-  remove_checkpoint();
 }
 
 void ResultFolder::sync_fields() {

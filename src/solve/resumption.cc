@@ -144,18 +144,19 @@ std::string inputs_of(const casefile::Case &asked) {
 
 Resumption resumption(const casefile::Case &asked, const fs::path &directory) {
   Resumption found;
-  if (const fs::path file = directory / output::checkpoint_name; fs::exists(file)) {
+  // The summary says that all steps are done, also where a run was killed before it could take its
+  // checkpoint away.
+  if (const fs::path summary = directory / "summary.json"; fs::exists(summary)) {
+    require_same(inputs(text_in(directory / "resolved.toml"), contents_in(summary)),
+                 inputs_of(asked), directory);
+    found.has_all_steps = true;
+    found.has_report = !asked.output.report || fs::exists(directory / "report.html");
+  } else if (const fs::path file = directory / output::checkpoint_name; fs::exists(file)) {
     found.checkpoint = output::read_checkpoint(file);
     require_same_program(*found.checkpoint, directory);
     require_same(found.checkpoint->inputs, inputs_of(asked), directory);
     require_same_ranks(*found.checkpoint, directory);
     output::require_position(directory, found.checkpoint->position);
-  } else if (fs::exists(directory / "summary.json")) {
-    require_same(
-        inputs(text_in(directory / "resolved.toml"), contents_in(directory / "summary.json")),
-        inputs_of(asked), directory);
-    found.has_all_steps = true;
-    found.has_report = !asked.output.report || fs::exists(directory / "report.html");
   }
   return found;
 }

@@ -476,8 +476,12 @@ void simulate(const casefile::Case &asked, const std::filesystem::path &director
   if (options.start == Start::checkpoint)
     tell_start(from, asked, directory.string(), options.quiet);
   if (from.has_all_steps) {
-    if (!from.has_report)
-      parallel::on_first([&] { put_report_in(directory); });
+    parallel::on_first([&] {
+      std::error_code ignored;  // of a folder that cannot be written to
+      std::filesystem::remove(directory / output::checkpoint_name, ignored);
+      if (!from.has_report)
+        put_report_in(directory);
+    });
     if (!options.quiet && parallel::is_first())
       std::cout << places_text(directory) << std::flush;
     return;

@@ -177,8 +177,11 @@ class Interrupted : public Program {
     expect_same_results(here() / "one/results", here() / "other/results");
   }
 
-  /// Leaves a killed run with its checkpoint in `results`.
-  void interrupt_a_run() { ASSERT_TRUE(kill_behind_a_checkpoint(slow + " -q -o ", "results")); }
+  /// Leaves a killed run with its checkpoint in `results`. Its lock goes with whoever looks there.
+  void interrupt_a_run() {
+    ASSERT_TRUE(kill_behind_a_checkpoint(slow + " -q -o ", "results"));
+    fs::remove(here() / "results/run.lock");
+  }
 
   const std::string paper = std::string(TOURMALINE_SOURCE_DIR) +
                             "/cases/ouafik-2020/conductive.toml --set mesh.box.cells=[12,12]";

@@ -140,6 +140,12 @@ TEST_F(Complete, WithoutItsPageTheStepsAreDone) {
   EXPECT_TRUE(resumption(asked_, folder_).is_complete());
 }
 
+TEST_F(Complete, ACheckpointThatIsStillThereSaysNothing) {
+  save();
+  EXPECT_TRUE(resumption(asked_, folder_).is_complete());
+  EXPECT_FALSE(resumption(asked_, folder_).checkpoint);
+}
+
 TEST_F(Resuming, AMissingFileOnWhichTheCheckpointCountsIsNamed) {
   output::Checkpoint checkpoint;
   checkpoint.program = program_version();

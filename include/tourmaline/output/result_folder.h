@@ -86,6 +86,7 @@ class ResultFolder {
 
  private:
   void sync_fields();
+  void sync_results();
   void remove_checkpoint();
 
   std::filesystem::path directory_;
