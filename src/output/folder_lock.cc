@@ -47,7 +47,7 @@ std::vector<std::filesystem::path> make(const std::filesystem::path &directory) 
   create_directories(directory, error);
   if (error)
     throw MachineError(
-        fmt::format("cannot make the result folder {}: {}", directory.string(), error.message()));
+        fmt::format("cannot make the folder {}: {}", directory.string(), error.message()));
   return missing;
 }
 
