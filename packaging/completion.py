@@ -5,16 +5,17 @@ import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 
 Option = collections.namedtuple("Option", "names takes_value repeats about")
 Command = collections.namedtuple("Command", "name about positionals options")
 Key = collections.namedtuple("Key", "path choices")
 
 # What stands after an option, or for a positional: a `case` file, a `folder`, a `file`, a `setting` (KEY=VALUE),
-# a `format`, a `material`, or free text.
+# a `format`, a `material`, a `number` of a run, or free text.
 kinds = {"CASE": "case", "DIR": "folder", "NAME": "material", "--set": "setting", "--vary": "setting",
          "--folder": "folder", "--format": "format", "--file": "case"}
-outputs = {"report": "file", "sweep": "text"}
+outputs = {"report": "file", "sweep": "number"}
 
 
 def kind(command, name):
@@ -73,6 +74,26 @@ def keys(reference):
     return found
 
 
+# What an unknown --output is answered with, for a body that has all of it.
+block = """mesh.box = { min = [0, 0, 0], max = [1, 1, 1], cells = [1, 1, 1], cell = "hexahedron" }
+material.library = "BaTiO3-Liu2014"
+time = { end = 1, steps = 1 }
+boundary = [{ on = "right", displacement = [0, 0, 0], potential = 0, temperature = 0 }]
+contact = { on = "left", friction = { law = "tresca", bound = 1 } }
+"""
+
+
+def numbers(program):
+    """Columns of history.csv and places of extremes, without those that name a boundary."""
+    with tempfile.TemporaryDirectory() as folder:
+        case = pathlib.Path(folder, "block.toml")
+        case.write_text(block)
+        answer = subprocess.run([program, "sweep", case, "--vary", "time.steps=1", "--output", "?", "-o", folder],
+                                capture_output=True, text=True).stderr
+    columns, places = re.search(r"allowed: (.*), each also as .*, and (.*)$", answer.strip()).groups()
+    return [name for name in (columns + ", " + places).split(", ") if not re.match("charge_right|heat_right", name)]
+
+
 def quoted(text):
     return "'" + text.replace("'", "'\\''") + "'"
 
@@ -127,7 +148,7 @@ def main(shell, program, out):
     materials = [line.split()[0] for line in said(program, "materials").splitlines()]
     values = [f"{quoted(key.path)}) values=({words(key.choices)}) ;;" for key in case_keys if key.choices]
     parts = {"COMMANDS": words(each.name for each in listed), "KEYS": words(key.path for key in case_keys),
-             "VALUES": values, "MATERIALS": words(materials)}
+             "VALUES": values, "MATERIALS": words(materials), "NUMBERS": words(numbers(program))}
     if shell == "bash":
         parts |= {"KINDS": bash_kinds(listed), "OPTIONS": bash_options(listed)}
     else:

@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -16,6 +17,7 @@
 #include "tourmaline/error.h"
 #include "tourmaline/material/description.h"
 #include "tourmaline/mesh/gmsh.h"
+#include "tourmaline/output/folder_lock.h"
 #include "tourmaline/parallel/ranks.h"
 #include "tourmaline/report/figures.h"
 #include "tourmaline/report/page.h"
@@ -76,6 +78,8 @@ void report_page(const Asked &asked) {
   const std::filesystem::path file = !asked.file.empty()         ? asked.file
                                      : asked.folders.size() == 1 ? asked.folders[0] / "report.html"
                                                                  : "report.html";
+  // A run that is at work there makes its page itself.
+  tourmaline::output::require_unused(file.has_parent_path() ? file.parent_path() : ".");
   tourmaline::report::write_page(asked.folders, file);
   std::cout << file.string() << '\n';
 }
@@ -106,7 +110,7 @@ void add_run(CLI::App &app, Asked &asked) {
   command->add_option(
       "-o,--output", asked.directory,
       "folder of the results, made when missing; results/<name of the case> if not given");
-  command->add_flag("-q,--quiet", asked.quiet, "print nothing but errors");
+  command->add_flag("-q,--quiet", asked.quiet, "print nothing but warnings and errors");
   command->add_flag("--resume", asked.resume,
                     "go on with the interrupted run of this case in that folder; without a "
                     "checkpoint there, from the beginning");
@@ -256,6 +260,15 @@ int report(int status, const std::string &text) {
   return status;
 }
 
+// OpenBLAS, started halfway, would wait for its threads for ever at an ordered end.
+void require_room_or_end() {
+  try {
+    tourmaline::solve::require_room_to_start();
+  } catch (const tourmaline::MachineError &error) {
+    std::_Exit(report(machine_failed, error.what()));
+  }
+}
+
 }  // namespace
 
 int main(int argc, char **argv) {
@@ -263,7 +276,7 @@ int main(int argc, char **argv) {
   // has spoken would take it along.
   std::optional<tourmaline::solve::Process> process;
   try {
-    tourmaline::solve::require_room_to_start();
+    require_room_or_end();
     if (tourmaline::parallel::is_launched())
       process.emplace(1);
     return obey(argc, argv);

@@ -18,6 +18,10 @@ using tourmaline::sweep::Request;
 void tell(const Outcome &outcome, bool quiet) {
   for (const auto &failure : outcome.failures)
     std::cerr << "tourmaline: " << failure.member << " failed: " << failure.reason << '\n';
+  for (const auto &[warning, members] : outcome.warnings)
+    std::cerr << fmt::format(
+        "tourmaline: warning in {}{}: {}\n", members.front(),
+        members.size() > 1 ? fmt::format(" and {} more", members.size() - 1) : "", warning);
   if (outcome.signal != 0)
     std::cerr << fmt::format(
         "tourmaline: stopped; {} of {} cases have not run to their end, and run when the same "
@@ -64,8 +68,9 @@ void add_sweep(CLI::App &app, int &status) {
       ->allow_extra_args(false);
   command
       ->add_option("--output", request->outputs,
-                   "what sweep.csv and sweep.svg show: columns of history.csv, at the end; "
-                   "at_max_FIELD_x, ...: places of extremes. NAME,NAME,...")
+                   "what sweep.csv and sweep.svg show: columns of history.csv, NAME at the end, "
+                   "min:NAME, max:NAME, mean:NAME, rms:NAME over all steps, NAME@TIME at a time "
+                   "[s]; at_max_FIELD_x, ...: places of extremes. NAME,NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false);
   command->add_option("-o,--folder", request->folder,
@@ -76,6 +81,6 @@ void add_sweep(CLI::App &app, int &status) {
                    "cases that run side by side; if not given as many as cores (over "
                    "solver.threads) and memory allow")
       ->check(CLI::Range(1, 1024));
-  command->add_flag("-q,--quiet", request->quiet, "print nothing but errors");
+  command->add_flag("-q,--quiet", request->quiet, "print nothing but warnings and errors");
   command->callback([request, &status] { status = sweep(*request); });
 }

@@ -8,8 +8,12 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <string>
+#include <system_error>
+#include <thread>
+#include <utility>
 
 #include "tourmaline/error.h"
 
@@ -17,8 +21,34 @@ namespace tourmaline::output {
 namespace {
 
 /// False when another process has it. Where the file system knows no locks, everybody has it.
-bool lock(int descriptor) {
-  return ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+bool lock(int descriptor, int kind = LOCK_EX) {
+  return ::flock(descriptor, kind | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+}
+
+/// Who only asks whether the folder is in use holds the lock for a moment, which is no reason to
+/// refuse a run.
+bool lock_patiently(int descriptor) {
+  for (int attempt = 0; attempt < 20; ++attempt) {
+    if (lock(descriptor))
+      return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return false;
+}
+
+/// Makes the folder; which folders that were, the innermost first.
+std::vector<std::filesystem::path> make(const std::filesystem::path &directory) {
+  std::vector<std::filesystem::path> missing;
+  std::error_code error;
+  for (std::filesystem::path at = directory; !at.empty() && !exists(at, error);
+       at = at.parent_path())
+    if (at.has_filename())  // "a/" names the same folder as "a"
+      missing.push_back(at);
+  create_directories(directory, error);
+  if (error)
+    throw MachineError(
+        fmt::format("cannot make the folder {}: {}", directory.string(), error.message()));
+  return missing;
 }
 
 /// The number that the process wrote which has the lock.
@@ -39,20 +69,33 @@ std::string process_in(int descriptor) {
 
 }  // namespace
 
-// A run that ends removes its file. Whoever has opened it before and locks it after holds a file
-// without a name, and must try again.
 FolderLock::FolderLock(const std::filesystem::path &directory) : path_(directory / lock_name) {
-  while (true) {
-    descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (descriptor_ < 0)
-      throw MachineError(fmt::format("cannot write {}: {}", path_.string(), std::strerror(errno)));
-    if (!lock(descriptor_))
-      refuse(path_, descriptor_);
-    if (is_in_place())
-      break;
-    ::close(descriptor_);
+  try {
+    take();
+  } catch (const MachineError &) {
+    remove_empty_folders();
+    throw;
   }
   note_process();
+}
+
+// A run that ends removes its file, and the folder where it is empty. Whoever has opened the file
+// before and locks it after holds a file without a name, and must try again.
+void FolderLock::take() {
+  for (int attempt = 0;; ++attempt) {
+    for (std::filesystem::path &folder : make(path_.parent_path()))
+      made_.push_back(std::move(folder));
+    descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (descriptor_ < 0 && errno == ENOENT && attempt < 100)
+      continue;
+    if (descriptor_ < 0)
+      throw MachineError(fmt::format("cannot write {}: {}", path_.string(), std::strerror(errno)));
+    if (!lock_patiently(descriptor_))
+      refuse(path_, descriptor_);
+    if (is_in_place())
+      return;
+    ::close(descriptor_);
+  }
 }
 
 bool FolderLock::is_in_place() const {
@@ -70,9 +113,16 @@ void FolderLock::note_process() const {
     return;
 }
 
+void FolderLock::remove_empty_folders() const {
+  for (const std::filesystem::path &folder : made_)
+    if (::rmdir(folder.c_str()) != 0)
+      return;
+}
+
 FolderLock::~FolderLock() {
   ::unlink(path_.c_str());
   ::close(descriptor_);
+  remove_empty_folders();
 }
 
 void require_unused(const std::filesystem::path &directory) {
@@ -80,18 +130,8 @@ void require_unused(const std::filesystem::path &directory) {
   const int descriptor = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
   if (descriptor < 0)
     return;
-  if (!lock(descriptor))
+  if (!lock(descriptor, LOCK_SH))
     refuse(path, descriptor);
-  ::close(descriptor);
-}
-
-void remove_stale_lock(const std::filesystem::path &directory) {
-  const std::filesystem::path path = directory / lock_name;
-  const int descriptor = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
-  if (descriptor < 0)
-    return;
-  if (lock(descriptor))
-    ::unlink(path.c_str());
   ::close(descriptor);
 }
 

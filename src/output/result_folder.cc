@@ -20,20 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void make(const fs::path &directory) {
-  std::error_code error;
-  fs::create_directories(directory, error);
-  if (error)
-    throw MachineError(
-        fmt::format("cannot make the result folder {}: {}", directory.string(), error.message()));
-}
-
-/// Opening a file is the only sure test of permissions and read-only file systems; it leaves
-/// nothing.
-void check_writable(const fs::path &directory) {
-  AtomicFile probe(directory / "tourmaline-probe");
-}
-
 std::string piece_name(int step, int piece, int pieces) {
   return pieces == 1 ? fmt::format("result_{:04}.vtu", step)
                      : fmt::format("result_{:04}_{}.vtu", step, piece);
@@ -70,6 +56,11 @@ void remove_file(const fs::path &file) {
                                    error.message()));
 }
 
+void remove_if_there(const fs::path &file) {
+  if (std::error_code error; fs::exists(file, error))
+    remove_file(file);
+}
+
 template <class Which>
 void remove_files(const fs::path &directory, const Which &which) {
   std::error_code error;
@@ -93,11 +84,26 @@ bool is_later(const std::string &name, std::uint64_t step) {
          name == "report.html" || name == "summary.json";
 }
 
-void require(const fs::path &file) {
-  if (std::error_code error; !fs::exists(file, error))
+void require(const fs::path &file, std::uint64_t bytes = 0) {
+  std::error_code error;
+  const std::uint64_t size = fs::file_size(file, error);
+  if (error)
     throw MachineError(
         fmt::format("{}, on which the checkpoint counts, is missing; start again without --resume",
                     file.string()));
+  if (size < bytes)
+    throw MachineError(
+        fmt::format("{} is shorter than the {} bytes that the checkpoint counts on; start again "
+                    "without --resume",
+                    file.string(), bytes));
+}
+
+/// A table grows as its `.part`; an ordered end has moved it into place.
+void require_table(const fs::path &file, std::uint64_t bytes) {
+  const fs::path growing = file.string() + std::string(part);
+  std::error_code error;
+  if (bytes > 0)
+    require(fs::exists(growing, error) ? growing : file, bytes);
 }
 
 /// A table that has at least its header, also when the disk is full.
@@ -109,27 +115,43 @@ std::unique_ptr<AtomicFile> begin_table(const fs::path &path, const std::string 
 
 }  // namespace
 
-ResultFolder::ResultFolder(fs::path directory, int dimension, Piece piece)
-    : directory_(std::move(directory)), dimension_(dimension), piece_(piece) {
+void require_position(const fs::path &directory, const FolderPosition &position) {
+  for (const PvdEntry &entry : position.series)
+    require(directory / entry.file);
+  require_table(directory / "contact.csv", position.contact_bytes);
+  require_table(directory / "history.csv", position.history_bytes);
+}
+
+ResultFolder::ResultFolder(fs::path directory, int dimension, Piece piece,
+                           std::unique_ptr<FolderLock> lock)
+    : directory_(std::move(directory)),
+      lock_(std::move(lock)),
+      dimension_(dimension),
+      piece_(piece) {
   if (piece.number > 0)
     return;
-  make(directory_);
-  check_writable(directory_);
-  lock_.emplace(directory_);
-  remove_checkpoint();  // first: it counts on the others
+  if (!lock_)
+    lock_ = std::make_unique<FolderLock>(directory_);
+  // First: they count on the others.
+  remove_if_there(directory_ / "summary.json");
+  remove_checkpoint();
   // Files of an earlier run, mixed with those of this one, would be read as one series.
   remove_files(directory_, is_ours);
 }
 
 ResultFolder::ResultFolder(fs::path directory, int dimension, Piece piece,
-                           const Checkpoint &checkpoint)
-    : directory_(std::move(directory)), dimension_(dimension), piece_(piece) {
+                           const Checkpoint &checkpoint, std::unique_ptr<FolderLock> lock)
+    : directory_(std::move(directory)),
+      lock_(std::move(lock)),
+      dimension_(dimension),
+      piece_(piece) {
   if (piece.number > 0)
     return;
   const FolderPosition &position = checkpoint.position;
-  lock_.emplace(directory_);
-  for (const PvdEntry &entry : position.series)
-    require(directory_ / entry.file);
+  if (!lock_)
+    lock_ = std::make_unique<FolderLock>(directory_);
+  require_position(directory_, position);
+  remove_if_there(directory_ / "summary.json");  // first: it counts on the others
   if (position.contact_bytes > 0)
     contact_ = std::make_unique<AtomicFile>(directory_ / "contact.csv", position.contact_bytes);
   if (position.history_bytes > 0)
@@ -197,7 +219,25 @@ void ResultFolder::put_nodes(const std::vector<Vector> &points, const PointField
 }
 
 void ResultFolder::put_summary(const Summary &summary) {
-  write_file(directory_ / "summary.json", summary_text(dimension_, summary));
+  std::error_code error;
+  const bool replaces_checkpoint = fs::exists(directory_ / checkpoint_name, error);
+  const fs::path file = directory_ / "summary.json";
+  if (replaces_checkpoint)
+    sync_results();
+  remove_if_there(directory_ / "report.html");  // of the steps so far, made by `tourmaline report`
+  write_file(file, summary_text(dimension_, summary));
+  if (!replaces_checkpoint)
+    return;
+  sync_path(file);
+  sync_path(directory_);
+  remove_checkpoint();
+}
+
+void ResultFolder::sync_results() {
+  sync_fields();
+  for (const char *name : {"contact.csv", "history.csv", "nodes.csv"})
+    if (std::error_code error; fs::exists(directory_ / name, error))
+      sync_path(directory_ / name);
 }
 
 void ResultFolder::sync_fields() {
@@ -216,9 +256,7 @@ void ResultFolder::put_checkpoint(Checkpoint checkpoint) {
 }
 
 void ResultFolder::remove_checkpoint() {
-  const fs::path file = directory_ / checkpoint_name;
-  if (std::error_code error; fs::exists(file, error))
-    remove_file(file);
+  remove_if_there(directory_ / checkpoint_name);
 }
 
 void ResultFolder::finish() {

@@ -62,6 +62,7 @@ std::string summary_text(int dimension, const Summary &summary) {
   Json json;
   json["case"] = summary.title;
   json["versions"] = versions(summary);
+  json["inputs"] = summary.inputs;
   json["sizes"] = summary.sizes;
   json["iterations"] = summary.iterations;
   json["factorisations"] = summary.factorisations;

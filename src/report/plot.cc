@@ -53,7 +53,9 @@ class Axis {
   double part(double value) const { return (scaled(value) - low_) / (high_ - low_); }
 
   std::vector<double> ticks() const {
-    return logarithmic_ ? logarithmic_ticks(std::pow(10, low_), std::pow(10, high_))
+    // The room at the ends may reach where no numbers are.
+    return logarithmic_ ? logarithmic_ticks(std::pow(10, std::max(low_, -307.)),
+                                            std::pow(10, std::min(high_, 308.)))
                         : report::ticks(low_, high_);
   }
   /// The power of ten by which the ticks' numbers are shown.

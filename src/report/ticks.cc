@@ -30,7 +30,11 @@ std::vector<double> logarithmic_ticks(double low, double high) {
           values.push_back(value);
     return values;
   };
-  const std::vector<double> powers = multiples({1});
+  constexpr std::size_t most = 12;
+  const std::vector<double> all = multiples({1});
+  std::vector<double> powers;
+  for (std::size_t i = 0; i < all.size(); i += (all.size() + most - 1) / most)
+    powers.push_back(all[i]);
   return powers.size() < 2 ? multiples({1, 2, 5}) : powers;
 }
 

@@ -92,7 +92,7 @@ void require_room_to_start() {
   if (trial == MAP_FAILED)
     throw MachineError(
         "not enough memory to start: OpenBLAS and Open MPI need 320 MiB of address space beside "
-        "the program's own; raise the limit (ulimit -v)");
+        "the program's own; raise the limit (ulimit -v, or -d)");
   munmap(trial, room);
   const int n = 1;
   const double one = 1;

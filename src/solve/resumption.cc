@@ -4,11 +4,13 @@
 
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <span>
 
 #include "tourmaline/case/changes.h"
 #include "tourmaline/case/resolved.h"
 #include "tourmaline/error.h"
+#include "tourmaline/output/result_folder.h"
 #include "tourmaline/parallel/ranks.h"
 #include "tourmaline/solve/versions.h"
 
@@ -60,6 +62,23 @@ std::string digest_of_file(const fs::path &file) {
   return digest.text();
 }
 
+// The digests that a run which is over has left; none in a damaged summary.
+std::map<std::string, std::string> contents_in(const fs::path &summary) {
+  const auto json = nlohmann::json::parse(text_in(summary), nullptr, false);
+  std::map<std::string, std::string> digests;
+  if (json.is_object() && json.contains("inputs") && json["inputs"].is_object())
+    for (const auto &[file, digest] : json["inputs"].items())
+      digests[file] = digest.is_string() ? digest.get<std::string>() : "";
+  return digests;
+}
+
+std::string inputs(const std::string &resolved, const std::map<std::string, std::string> &digests) {
+  std::string text = resolved + "\n[contents]\n";
+  for (const auto &[file, digest] : digests)
+    text += fmt::format("{} = {}\n", file, digest);
+  return text;
+}
+
 constexpr std::string_view contents = "contents.";  // of keys that are files
 
 std::string words(const casefile::Change &change) {
@@ -69,13 +88,8 @@ std::string words(const casefile::Change &change) {
   return fmt::format("{} was {}, is {}", change.key, value(change.then), value(change.now));
 }
 
-// How often checkpoints are saved changes no result.
 void require_same(const std::string &then, const std::string &now, const fs::path &directory) {
-  std::string list;
-  for (const casefile::Change &change : casefile::changes(then, now))
-    if (change.key != "output.checkpoint")
-      list += (list.empty() ? "" : "; ") + words(change);
-  if (!list.empty())
+  if (const std::string list = differences(then, now); !list.empty())
     throw CaseError(fmt::format(
         "{} holds a run of another case, which --resume cannot go on with: {}. Give the same case, "
         "choose another folder with -o, or start again without --resume, which removes that run",
@@ -101,30 +115,48 @@ void require_same_program(const output::Checkpoint &checkpoint, const fs::path &
 
 }  // namespace
 
-std::string inputs_of(const casefile::Case &asked) {
-  std::string text = casefile::resolved(asked) + "\n[contents]\n";
+// How often checkpoints are saved changes no result.
+std::string differences(const std::string &then, const std::string &now) {
+  std::string list;
+  for (const casefile::Change &change : casefile::changes(then, now))
+    if (change.key != "output.checkpoint")
+      list += (list.empty() ? "" : "; ") + words(change);
+  return list;
+}
+
+std::map<std::string, std::string> contents_of(const casefile::Case &asked) {
+  std::map<std::string, std::string> digests;
   if (asked.mesh.content)
-    text += fmt::format("{} = {}\n", *asked.mesh.file, digest(*asked.mesh.content));
+    digests[*asked.mesh.file] = digest(*asked.mesh.content);
   const auto add = [&](const casefile::MaterialCase &material) {
     if (material.file)
-      text += fmt::format("{} = {}\n", *material.file, digest_of_file(*material.file));
+      digests[*material.file] = digest_of_file(*material.file);
   };
   add(asked.material);
   for (const casefile::RegionCase &region : asked.regions)
     add(region.material);
-  return text;
+  return digests;
+}
+
+std::string inputs_of(const casefile::Case &asked) {
+  return inputs(casefile::resolved(asked), contents_of(asked));
 }
 
 Resumption resumption(const casefile::Case &asked, const fs::path &directory) {
   Resumption found;
-  if (const fs::path file = directory / output::checkpoint_name; fs::exists(file)) {
+  // The summary says that all steps are done, also where a run was killed before it could take its
+  // checkpoint away.
+  if (const fs::path summary = directory / "summary.json"; fs::exists(summary)) {
+    require_same(inputs(text_in(directory / "resolved.toml"), contents_in(summary)),
+                 inputs_of(asked), directory);
+    found.has_all_steps = true;
+    found.has_report = !asked.output.report || fs::exists(directory / "report.html");
+  } else if (const fs::path file = directory / output::checkpoint_name; fs::exists(file)) {
     found.checkpoint = output::read_checkpoint(file);
     require_same_program(*found.checkpoint, directory);
     require_same(found.checkpoint->inputs, inputs_of(asked), directory);
     require_same_ranks(*found.checkpoint, directory);
-  } else if (fs::exists(directory / "summary.json")) {
-    require_same(text_in(directory / "resolved.toml"), casefile::resolved(asked), directory);
-    found.is_complete = true;
+    output::require_position(directory, found.checkpoint->position);
   }
   return found;
 }

@@ -17,6 +17,7 @@
 #include "tourmaline/report/page.h"
 #include "tourmaline/solve/available_memory.h"
 #include "tourmaline/solve/condensed_route.h"
+#include "tourmaline/solve/ending.h"
 #include "tourmaline/solve/iterative_route.h"
 #include "tourmaline/solve/memory.h"
 #include "tourmaline/solve/monolithic_route.h"
@@ -36,13 +37,16 @@ class Simulation {
  public:
   /// Starts behind the checkpoint, if there is one.
   Simulation(const casefile::Case &asked, const std::filesystem::path &directory,
-             const RunOptions &options, std::optional<output::Checkpoint> checkpoint);
+             const RunOptions &options, std::optional<output::Checkpoint> checkpoint,
+             std::unique_ptr<output::FolderLock> lock);
   void run();
 
  private:
-  void open_folder(const std::filesystem::path &directory);
+  void open_folder(const std::filesystem::path &directory,
+                   std::unique_ptr<output::FolderLock> lock);
   int begin();
-  void march(int first);
+  void march(int first, Schedule &schedule);
+  output::Summary take_steps(int first, Schedule &schedule);
   void prescribe(double time, std::vector<double> &state) const;
   void sum_loads(double time);
   void step(int n);
@@ -51,13 +55,18 @@ class Simulation {
   void pause(int n, const Schedule::Pause &pause);
   void save(int n);
   void restore();
+  output::Summary close_tables(Schedule &schedule);
   void put_report();
   void keep_what_there_is();
+  std::string what_is_left() const;
+  void tell(const output::Summary &done, int signal) const;
   output::Summary summary() const;
 
   double start_seconds_ = process_age();
   std::optional<output::Checkpoint> checkpoint_;  // to start from
   std::string inputs_;                            // of the run, for later checkpoints
+  std::map<std::string, std::string> contents_;   // of the files it reads: digests
+  bool quiet_;
   output::Progress progress_;
   bool iterative_;       // decided once: what is available changes with what is taken
   int direct_from_ = 0;  // the step from which on it is not, after all
@@ -67,6 +76,9 @@ class Simulation {
   std::optional<output::ResultFolder> folder_;
   std::optional<Recorder<dim>> recorder_;
   std::unique_ptr<Route> route_;
+  int done_ = 0;        // steps
+  int saved_step_ = 0;  // of the checkpoint that is there; 0: none
+  Highlights highlights_;
   int newton_total_ = 0, newton_max_ = 0, newton_first_ = 0;
   double step_seconds_ = 0, seconds_before_ = 0;  // before: of the processes that it goes on from
 };
@@ -82,14 +94,27 @@ std::unique_ptr<Route> make_route(const Model<dim> &model, bool iterative) {
   return condensed_route(model);
 }
 
+// The steps are done: what is missing then is only the page.
+void put_report_in(const std::filesystem::path &directory) {
+  try {
+    report::write_page({directory}, directory / "report.html");
+  } catch (const MachineError &error) {
+    throw MachineError(fmt::format("{}; all other results are in {}, and --resume makes the page",
+                                   error.what(), directory.string()));
+  }
+}
+
 // Evaluates the case's formulas once before anything is written: a formula that is undefined
 // somewhere should not leave a folder behind. Then opens the folder, which may fail, before the
 // factorisation.
 template <int dim>
 Simulation<dim>::Simulation(const casefile::Case &asked, const std::filesystem::path &directory,
-                            const RunOptions &options, std::optional<output::Checkpoint> checkpoint)
+                            const RunOptions &options, std::optional<output::Checkpoint> checkpoint,
+                            std::unique_ptr<output::FolderLock> lock)
     : checkpoint_(std::move(checkpoint)),
       inputs_(parallel::is_first() ? inputs_of(asked) : ""),
+      contents_(parallel::is_first() ? contents_of(asked) : decltype(contents_){}),
+      quiet_(options.quiet),
       progress_(asked.time.steps, options.quiet || !parallel::is_first()),
       iterative_(checkpoint_ ? checkpoint_->numbers.get("iterative", 1)[0] != 0
                              : solves_iteratively(asked)),
@@ -103,20 +128,21 @@ Simulation<dim>::Simulation(const casefile::Case &asked, const std::filesystem::
         contact::contact_place(node.point, model_.time(1), Eigen::Matrix<double, dim, 0>{}));
   if (options.friction)
     model_.friction = options.friction;
-  open_folder(directory);
+  open_folder(directory, std::move(lock));
   recorder_.emplace(model_, *folder_);
   progress_.stage(iterative_ ? "preconditioner" : "factorisation");
   route_ = make_route(model_, iterative_);
 }
 
 template <int dim>
-void Simulation<dim>::open_folder(const std::filesystem::path &directory) {
+void Simulation<dim>::open_folder(const std::filesystem::path &directory,
+                                  std::unique_ptr<output::FolderLock> lock) {
   const output::Piece piece{parallel::rank(), parallel::n_ranks()};
   const auto open = [&] {
     if (checkpoint_)
-      folder_.emplace(directory, dim, piece, *checkpoint_);
+      folder_.emplace(directory, dim, piece, *checkpoint_, std::move(lock));
     else
-      folder_.emplace(directory, dim, piece);
+      folder_.emplace(directory, dim, piece, std::move(lock));
   };
   parallel::on_first([&] {
     open();
@@ -134,9 +160,9 @@ int Simulation<dim>::begin() {
     return 1;
   }
   restore();
-  const int done = static_cast<int>(checkpoint_->step);
+  done_ = saved_step_ = static_cast<int>(checkpoint_->step);
   checkpoint_.reset();
-  return done + 1;
+  return done_ + 1;
 }
 
 template <int dim>
@@ -194,13 +220,15 @@ void Simulation<dim>::step(int n) {
   if (n == 1)
     newton_first_ = outcome.newton_iterations;
   step_seconds_ += watch.lap();
-  progress_.step(recorder_->step(n, outcome, loads_, state_, next_));
+  const output::HistoryRow row = recorder_->step(n, outcome, loads_, state_, next_);
+  highlights_.see(row);
+  progress_.step(row);
   std::swap(state_, next_);
+  done_ = n;
 }
 
 template <int dim>
-void Simulation<dim>::march(int first) {
-  Schedule schedule(casefile::interval(model_.asked.output.checkpoint));
+void Simulation<dim>::march(int first, Schedule &schedule) {
   for (int n = first; n <= model_.asked.time.steps; ++n) {
     step(n);
     if (n < model_.asked.time.steps)
@@ -223,18 +251,75 @@ void Simulation<dim>::pause(int n, const Schedule::Pause &pause) {
 template <int dim>
 void Simulation<dim>::run() {
   const int first = begin();
+  Schedule schedule(casefile::interval(model_.asked.output.checkpoint));
+  const output::Summary done = take_steps(first, schedule);
+  // From here on only the page may be missing, which `--resume` makes.
+  parallel::on_first([&] { put_report(); });
+  progress_.done();
+  tell(done, schedule.received());
+}
+
+// The error that ends the steps also says where those before it are.
+template <int dim>
+output::Summary Simulation<dim>::take_steps(int first, Schedule &schedule) {
   try {
-    march(first);
-  } catch (...) {
+    march(first, schedule);
+    return close_tables(schedule);
+  } catch (const CaseError &error) {
+    keep_what_there_is();
+    throw CaseError(error.what() + what_is_left());
+  } catch (const SolveError &error) {
+    keep_what_there_is();
+    throw SolveError(error.what() + what_is_left());
+  } catch (const MachineError &error) {
+    keep_what_there_is();
+    throw MachineError(
+        error.what() + what_is_left() +
+        (saved_step_ > 0 ? fmt::format("; --resume goes on after step {}", saved_step_) : ""));
+  } catch (const Stopped &) {
     keep_what_there_is();
     throw;
+  } catch (const std::exception &) {
+    if (parallel::n_ranks() == 1)  // otherwise the others know nothing of it
+      keep_what_there_is();
+    throw;
   }
+}
+
+template <int dim>
+std::string Simulation<dim>::what_is_left() const {
+  if (done_ == 0)
+    return "; no step has been computed";
+  return fmt::format("; the results of {} of {} are in {}",
+                     done_ == 1 ? "step 1" : fmt::format("steps 1 to {}", done_),
+                     model_.asked.time.steps, folder_->directory().string());
+}
+
+// From now on a signal lets the run be finished: it is nearly done.
+template <int dim>
+output::Summary Simulation<dim>::close_tables(Schedule &schedule) {
+  if (parallel::is_first())
+    schedule.answer(
+        "tourmaline: all steps are done; the results are being finished (a second signal ends "
+        "this at once)\n");
   recorder_->finish(state_);
   const output::Summary done = summary();
   parallel::on_first([&] { folder_->put_summary(done); });
-  put_report();
-  parallel::on_first([&] { folder_->remove_checkpoint(); });
-  progress_.done();
+  return done;
+}
+
+template <int dim>
+void Simulation<dim>::tell(const output::Summary &done, int signal) const {
+  if (!parallel::is_first())
+    return;
+  for (const std::string &warning : done.warnings)
+    std::cerr << "tourmaline: warning: " << warning << '\n';
+  if (signal != 0)
+    std::cerr << fmt::format("tourmaline: {} came when all steps were done; the run is complete\n",
+                             signal_name(signal));
+  if (!quiet_)
+    std::cout << ending_text(dim, highlights_, done.extremes) << places_text(folder_->directory())
+              << std::flush;
 }
 
 // Everything that later steps, or what is told of the run at its end, depend on.
@@ -254,8 +339,10 @@ void Simulation<dim>::save(int n) {
     numbers.put("seconds", {step_seconds_, seconds_before_ + process_age()});
     route_->save(numbers);
     recorder_->save(numbers);
+    highlights_.save(numbers);
     folder_->put_checkpoint(std::move(checkpoint));
   });
+  saved_step_ = n;
 }
 
 template <int dim>
@@ -272,6 +359,7 @@ void Simulation<dim>::restore() {
   seconds_before_ = seconds[1];
   route_->restore(numbers);
   recorder_->restore(state_, numbers);
+  highlights_.restore(numbers);
 }
 
 template <int dim>
@@ -279,8 +367,7 @@ void Simulation<dim>::put_report() {
   if (!model_.asked.output.report)
     return;
   progress_.stage("report");
-  parallel::on_first(
-      [&] { report::write_page({folder_->directory()}, folder_->directory() / "report.html"); });
+  put_report_in(folder_->directory());
 }
 
 // The error that ended the steps is the one to tell of.
@@ -289,8 +376,8 @@ void Simulation<dim>::keep_what_there_is() {
   progress_.done();
   try {
     recorder_->finish(state_);
-    put_report();
-  } catch (const std::runtime_error &) {
+    parallel::on_first([&] { put_report(); });
+  } catch (const std::exception &) {
   }
   progress_.done();
 }
@@ -308,6 +395,7 @@ output::Summary Simulation<dim>::summary() const {
   summary.title = model_.asked.title;
   summary.version = program_version();
   summary.components = component_versions();
+  summary.inputs = contents_;
   summary.sizes = {{"dimension", dim},
                    {"nodes", model_.body.n_nodes()},
                    {"cells", model_.body.n_cells()},
@@ -373,25 +461,49 @@ void say(const std::string &text, bool quiet) {
     std::cerr << "tourmaline: " << text << '\n';
 }
 
-// All ranks see the same folder.
-Resumption start_in(const std::filesystem::path &directory, const casefile::Case &asked,
-                    const RunOptions &options) {
-  parallel::on_first([&] { output::require_unused(directory); });
+// A complete run in a folder that cannot be written to needs no lock to be seen.
+Resumption complete_run_in(const std::filesystem::path &directory, const casefile::Case &asked,
+                           const MachineError &no_lock) {
+  output::require_unused(directory);
+  const Resumption found = resumption(asked, directory);
+  if (!found.is_complete())
+    throw no_lock;
+  return found;
+}
+
+// What the folder holds is looked at behind the lock, or another run might change it meanwhile. All
+// ranks see the same folder.
+Resumption find_in(const std::filesystem::path &directory, const casefile::Case &asked,
+                   const RunOptions &options, std::unique_ptr<output::FolderLock> &lock) {
   Resumption found;
-  if (options.start == Start::beginning)
-    return found;
-  parallel::together([&] { found = resumption(asked, directory); });
-  const std::string name = directory.string();
-  if (found.is_complete) {
-    parallel::on_first([&] { output::remove_stale_lock(directory); });
-    say("the run in " + name + " is complete; there is nothing to go on with", options.quiet);
-  } else if (found.checkpoint)
+  const bool resumes = options.start == Start::checkpoint;
+  parallel::on_first([&] {
+    try {
+      lock = std::make_unique<output::FolderLock>(directory);
+    } catch (const MachineError &error) {
+      if (!resumes)
+        throw;
+      found = complete_run_in(directory, asked, error);
+    }
+  });
+  found.has_all_steps = found.has_report = parallel::from_first(found.is_complete()) != 0;
+  if (resumes && !found.is_complete())
+    parallel::together([&] { found = resumption(asked, directory); });
+  return found;
+}
+
+void tell_start(const Resumption &found, const casefile::Case &asked, const std::string &name,
+                bool quiet) {
+  if (found.is_complete())
+    say("the run in " + name + " is complete; there is nothing to go on with", quiet);
+  else if (found.has_all_steps)
+    say("all steps of the run in " + name + " are done; making its page, which is missing", quiet);
+  else if (found.checkpoint)
     say(fmt::format("going on in {} after step {} of {}", name, found.checkpoint->step,
                     asked.time.steps),
-        options.quiet);
+        quiet);
   else
-    say("there is no checkpoint in " + name + "; starting from the beginning", options.quiet);
-  return found;
+    say("there is no checkpoint in " + name + "; starting from the beginning", quiet);
 }
 
 }  // namespace
@@ -400,14 +512,26 @@ void simulate(const casefile::Case &asked, const std::filesystem::path &director
               const RunOptions &options) {
   const Process process(asked.solver.threads);
   check(asked);
-  Resumption from = start_in(directory, asked, options);
-  if (from.is_complete)
+  std::unique_ptr<output::FolderLock> lock;  // of the first rank
+  Resumption from = find_in(directory, asked, options, lock);
+  if (options.start == Start::checkpoint)
+    tell_start(from, asked, directory.string(), options.quiet);
+  if (from.has_all_steps) {
+    parallel::on_first([&] {
+      std::error_code ignored;  // of a folder that cannot be written to
+      std::filesystem::remove(directory / output::checkpoint_name, ignored);
+      if (!from.has_report)
+        put_report_in(directory);
+    });
+    if (!options.quiet && parallel::is_first())
+      std::cout << places_text(directory) << std::flush;
     return;
+  }
   try {
     if (asked.dimension == 2)
-      Simulation<2>(asked, directory, options, std::move(from.checkpoint)).run();
+      Simulation<2>(asked, directory, options, std::move(from.checkpoint), std::move(lock)).run();
     else
-      Simulation<3>(asked, directory, options, std::move(from.checkpoint)).run();
+      Simulation<3>(asked, directory, options, std::move(from.checkpoint), std::move(lock)).run();
   } catch (const Error &) {
     throw;  // is that of all ranks
   } catch (const std::exception &error) {

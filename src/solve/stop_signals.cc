@@ -1,6 +1,11 @@
 #include "tourmaline/solve/stop_signals.h"
 
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
 #include <csignal>
+#include <cstring>
 #include <iterator>
 
 namespace tourmaline::solve {
@@ -9,6 +14,7 @@ namespace {
 
 constexpr int stopping[] = {SIGINT, SIGTERM};
 volatile std::sig_atomic_t noted = 0;
+std::atomic<const char *> answer_text = nullptr;  // free of locks, so that a handler may read it
 struct sigaction previous[std::size(stopping)];
 
 void restore() {
@@ -18,14 +24,19 @@ void restore() {
 
 // The second signal, of either kind, meets what stood there before: the end.
 void note(int signal) {
+  const int error_number = errno;
   noted = signal;
   restore();
+  if (const char *text = answer_text) [[maybe_unused]]
+    const ssize_t written = ::write(STDERR_FILENO, text, std::strlen(text));
+  errno = error_number;
 }
 
 }  // namespace
 
 StopSignals::StopSignals() {
   noted = 0;
+  answer_text = nullptr;
   struct sigaction action {};
   action.sa_handler = note;
   action.sa_flags = SA_RESTART;
@@ -42,6 +53,10 @@ StopSignals::StopSignals() {
 
 StopSignals::~StopSignals() {
   restore();
+}
+
+void StopSignals::answer(const char *text) {
+  answer_text = text;
 }
 
 int StopSignals::received() const {

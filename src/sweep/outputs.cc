@@ -1,9 +1,15 @@
 #include "tourmaline/sweep/outputs.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <charconv>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
 
 #include "tourmaline/case/nearest.h"
 #include "tourmaline/case/toml_text.h"
@@ -107,22 +113,115 @@ std::vector<Output> possible_outputs(const std::vector<casefile::Case> &cases) {
 
 }  // namespace
 
+namespace {
+
+constexpr std::string_view of_place = "at_";  // how the names of places begin, and no column's
+
+std::string joined(const std::vector<std::string> &names, bool places) {
+  std::string text;
+  for (const std::string &name : names)
+    if (name.starts_with(of_place) == places)
+      text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+/// Reads what stands after `--output`.
+class Chooser {
+ public:
+  Chooser(std::vector<Output> possible, double end) : possible_(std::move(possible)), end_(end) {
+    for (const Output &output : possible_)
+      names_.push_back(output.name);
+  }
+
+  Output choose(const std::string &name) const {
+    if (const Output *output = find(name))  // first, as names of boundaries may have colons
+      return *output;
+    if (const auto at = name.rfind('@'); at != std::string::npos)
+      return at_time(name, at);
+    if (const auto colon = name.find(':'); colon != std::string::npos)
+      return reduced_column(name, colon);
+    fail_unknown(name, "", name, "");
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string &name, const std::string &reason) const {
+    throw CaseError("--output " + casefile::shortened(name) + ": " + reason);
+  }
+
+  [[noreturn]] void fail_unknown(const std::string &name, const std::string &before,
+                                 const std::string &column, const std::string &behind) const {
+    const auto meant = casefile::nearest(column, names_);
+    fail(name,
+         "no column of history.csv and no place of an extreme is called so" +
+             (meant ? "; did you mean \"" + before + *meant + behind + "\"?" : "") +
+             "; allowed: " + joined(names_, false) +
+             ", each also as min:NAME, max:NAME, mean:NAME, rms:NAME, last:NAME or NAME@TIME" +
+             ", and " + joined(names_, true));
+  }
+
+  const Output *find(const std::string &name) const {
+    const auto found = std::find(names_.begin(), names_.end(), name);
+    return found == names_.end() ? nullptr : &possible_[found - names_.begin()];
+  }
+
+  Output made_of(const std::string &name, const std::string &before, const std::string &column,
+                 const std::string &behind, const Reduction &reduction) const {
+    const Output *output = find(column);
+    if (!output)
+      fail_unknown(name, before, column, behind);
+    if (column.starts_with(of_place))
+      fail(name, column + " is a place, which a run has at its end only; write " + column);
+    return {name, output->unit, column, reduction};
+  }
+
+  Output reduced_column(const std::string &name, std::size_t colon) const {
+    const std::string word = name.substr(0, colon);
+    const auto reduction = reduction_named(word);
+    if (!reduction)
+      fail(name, "\"" + word + "\" is nothing that can be made of a column" +
+                     casefile::did_you_mean(word, reduction_words()) +
+                     "; allowed: last:NAME, min:NAME, max:NAME, mean:NAME, rms:NAME, NAME@TIME");
+    return made_of(name, name.substr(0, colon + 1), name.substr(colon + 1), "", *reduction);
+  }
+
+  Output at_time(const std::string &name, std::size_t at) const {
+    const std::string text = name.substr(at + 1);
+    double time = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), time);
+    if (error != std::errc() || end != text.data() + text.size() || !(time > 0 && time <= end_))
+      fail(name, fmt::format("the time behind @ must be a number of seconds, above 0 and at most "
+                             "{}, the end of the runs; write NAME@TIME",
+                             end_));
+    return made_of(name, "", name.substr(0, at), name.substr(at),
+                   {.kind = Reduction::Kind::at, .time = time});
+  }
+
+  std::vector<Output> possible_;
+  std::vector<std::string> names_;
+  double end_;  // of the longest run [s]
+};
+
+bool is_same(const Output &one, const Output &other) {
+  const auto column = [](const Output &o) { return o.column.empty() ? o.name : o.column; };
+  return column(one) == column(other) && one.reduction.kind == other.reduction.kind &&
+         one.reduction.time == other.reduction.time;
+}
+
+}  // namespace
+
 std::vector<Output> chosen_outputs(const std::vector<std::string> &names,
                                    const std::vector<casefile::Case> &cases) {
-  const std::vector<Output> possible = possible_outputs(cases);
-  std::vector<std::string> all(possible.size());
-  std::transform(possible.begin(), possible.end(), all.begin(),
-                 [](const Output &output) { return output.name; });
+  double end = 0;
+  for (const casefile::Case &one : cases)
+    end = std::max(end, one.time.end);
+  const Chooser chooser(possible_outputs(cases), end);
   std::vector<Output> chosen;
   for (const std::string &name : names.empty() ? usual_names(cases) : names) {
-    const auto found = std::find(all.begin(), all.end(), name);
-    if (found == all.end())
-      throw CaseError("--output " + casefile::shortened(name) +
-                      ": no column of history.csv and no place of an extreme is called so" +
-                      casefile::did_you_mean(name, all));
-    if (std::any_of(chosen.begin(), chosen.end(), [&](const auto &o) { return o.name == name; }))
+    Output output = chooser.choose(name);
+    if (std::any_of(chosen.begin(), chosen.end(),
+                    [&](const Output &before) { return is_same(before, output); }))
       throw CaseError("--output " + name + ": is asked for twice");
-    chosen.push_back(possible[static_cast<std::size_t>(found - all.begin())]);
+    chosen.push_back(std::move(output));
   }
   return chosen;
 }
@@ -132,16 +231,18 @@ namespace {
 // by name, the coordinates of the extremes
 std::map<std::string, double> places_in(const std::filesystem::path &file) {
   std::map<std::string, double> places;
-  const auto summary = nlohmann::json::parse(report::read_text_file(file), nullptr, false);
-  if (!summary.is_object() || !summary.contains("extremes"))
+  try {
+    const auto summary = nlohmann::json::parse(report::read_text_file(file));
+    for (const auto &extreme : summary.at("extremes"))
+      for (const char *which : {"minimum", "maximum"}) {
+        const auto &point = extreme.at(std::string("at_") + which);
+        for (std::size_t c = 0; c < std::min(point.size(), std::size(axes)); ++c)
+          places[std::string(of_place) + std::string(which).substr(0, 3) + "_" +
+                 extreme.at("field").get<std::string>() + "_" + axes[c]] = point[c].get<double>();
+      }
+  } catch (const nlohmann::json::exception &) {
     throw CaseError(file.string() + ": is no summary of a run");
-  for (const auto &extreme : summary["extremes"])
-    for (const char *which : {"minimum", "maximum"}) {
-      const auto &place = extreme.at(std::string("at_") + which);
-      for (std::size_t c = 0; c < place.size(); ++c)
-        places["at_" + std::string(which).substr(0, 3) + "_" +
-               extreme.at("field").get<std::string>() + "_" + axes[c]] = place[c].get<double>();
-    }
+  }
   return places;
 }
 
@@ -152,12 +253,16 @@ std::vector<double> read_outputs(const std::filesystem::path &folder,
   const report::Table history = report::read_table(folder / "history.csv");
   const std::map<std::string, double> places = places_in(folder / "summary.json");
   std::vector<double> values;
+  const std::vector<double> *times = history.find("time");
+  if (!times)
+    throw CaseError((folder / "history.csv").string() + ": is no history of a run");
   for (const Output &output : outputs) {
-    const std::vector<double> *column = history.find(output.name);
+    const std::vector<double> *column =
+        history.find(output.column.empty() ? output.name : output.column);
     const auto place = places.find(output.name);
-    values.push_back(column && !column->empty() ? column->back()
-                     : place != places.end()    ? place->second
-                                                : std::numeric_limits<double>::quiet_NaN());
+    values.push_back(column                  ? reduced(output.reduction, *times, *column)
+                     : place != places.end() ? place->second
+                                             : std::numeric_limits<double>::quiet_NaN());
   }
   return values;
 }

@@ -1,17 +1,18 @@
 #include "prepared.h"
 
 #include <algorithm>
+#include <exception>
 #include <map>
 #include <thread>
 #include <tuple>
 
 #include "tourmaline/case/reader.h"
-#include "tourmaline/case/resolved.h"
 #include "tourmaline/error.h"
 #include "tourmaline/mesh/gmsh.h"
-#include "tourmaline/report/text_file.h"
+#include "tourmaline/output/checkpoint.h"
 #include "tourmaline/solve/available_memory.h"
 #include "tourmaline/solve/memory.h"
+#include "tourmaline/solve/resumption.h"
 #include "tourmaline/solve/simulation.h"
 
 namespace tourmaline::sweep {
@@ -36,19 +37,6 @@ class Meshes {
       known_;
 };
 
-std::vector<fs::path> files_named_in(const casefile::Case &asked) {
-  std::vector<fs::path> files;
-  const auto add = [&](const std::optional<std::string> &file) {
-    if (file)
-      files.emplace_back(*file);
-  };
-  add(asked.mesh.file);
-  add(asked.material.file);
-  for (const casefile::RegionCase &region : asked.regions)
-    add(region.material.file);
-  return files;
-}
-
 double memory_of(const casefile::Case &asked) {
   return solve::solves_iteratively(asked) ? solve::iterative_memory(asked)
                                           : solve::factorised_memory(asked);
@@ -69,8 +57,7 @@ std::vector<Prepared> prepared(const Request &request, const std::vector<Variati
           casefile::read_file(request.file, overrides,
                               [&](const casefile::MeshCase &mesh) { return meshes.read(mesh); });
       solve::check(asked);
-      std::string resolved = casefile::resolved(asked);
-      all.push_back({std::move(asked), std::move(resolved)});
+      all.push_back({std::move(asked)});
     } catch (const CaseError &error) {
       const std::string text = error.what();
       // What is wrong in the first one, and is no value of a study's, is wrong in the case file.
@@ -83,24 +70,43 @@ std::vector<Prepared> prepared(const Request &request, const std::vector<Variati
   return all;
 }
 
-bool is_done(const fs::path &folder, const Prepared &member) {
-  std::error_code error;
-  const fs::path summary = folder / "summary.json", resolved = folder / "resolved.toml";
-  const auto finished = fs::last_write_time(summary, error);
-  if (error || !fs::exists(folder / "history.csv", error) || !fs::exists(resolved, error) ||
-      report::read_text_file(resolved) != member.resolved)
-    return false;
-  const std::vector<fs::path> files = files_named_in(member.asked);
-  return std::none_of(files.begin(), files.end(), [&](const fs::path &file) {
-    return fs::last_write_time(file, error) > finished;
-  });
+namespace {
+
+// What --resume would be refused for; with it the run itself would look the same way.
+Found found_behind(const solve::Resumption &resumption) {
+  if (resumption.is_complete())
+    return {Found::State::done, ""};
+  const bool goes_on = resumption.has_all_steps || resumption.checkpoint;
+  return {goes_on ? Found::State::interrupted : Found::State::nothing, ""};
 }
 
-bool was_interrupted(const fs::path &folder, const Prepared &member) {
+// Why --resume would refuse, without its advice.
+std::string obstacle(const fs::path &checkpoint, const Prepared &member,
+                     const std::string &refusal) {
+  try {
+    const std::string changed = solve::differences(output::read_checkpoint(checkpoint).inputs,
+                                                   solve::inputs_of(member.asked));
+    if (!changed.empty())
+      return changed;
+  } catch (const MachineError &) {
+    // The refusal says so.
+  }
+  return refusal.substr(0, refusal.find(';'));
+}
+
+}  // namespace
+
+Found found_in(const fs::path &folder, const Prepared &member) {
+  const fs::path checkpoint = folder / output::checkpoint_name;
   std::error_code error;
-  return fs::exists(folder / "checkpoint.bin", error) &&
-         fs::exists(folder / "resolved.toml", error) &&
-         report::read_text_file(folder / "resolved.toml") == member.resolved;
+  const bool was_interrupted = fs::exists(checkpoint, error);
+  try {
+    return found_behind(solve::resumption(member.asked, folder));
+  } catch (const std::exception &refusal) {
+    // A complete run of another case makes room without a word, as that of a run does.
+    return {Found::State::nothing,
+            was_interrupted ? obstacle(checkpoint, member, refusal.what()) : ""};
+  }
 }
 
 std::size_t jobs_for(const std::vector<Prepared> &members) {

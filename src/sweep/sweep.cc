@@ -6,15 +6,17 @@
 #include <algorithm>
 #include <csignal>
 #include <cstring>
+#include <fstream>
+#include <iostream>
 #include <limits>
-#include <sstream>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "prepared.h"
 #include "tourmaline/error.h"
 #include "tourmaline/output/atomic_file.h"
+#include "tourmaline/output/folder_lock.h"
 #include "tourmaline/output/status_line.h"
-#include "tourmaline/report/text_file.h"
 #include "tourmaline/stopwatch.h"
 #include "tourmaline/sweep/processes.h"
 #include "tourmaline/sweep/results.h"
@@ -35,14 +37,27 @@ void make(const fs::path &folder) {
         fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
 }
 
-// The paragraph that the run ended with, on one line and without the program's name.
+// What the run said, on one line and without the program's name; nothing when somebody has taken
+// the file away.
 std::string said(const fs::path &log) {
-  std::istringstream words(report::read_text_file(log));
+  std::ifstream words(log);
   std::string text;
   for (std::string word; words >> word;)
     text += (text.empty() ? "" : " ") + word;
   constexpr std::string_view name = "tourmaline: ";
   return text.starts_with(name) ? text.substr(name.size()) : text;
+}
+
+// That of summary.json, where it can be read.
+std::vector<std::string> warnings_in(const fs::path &folder) {
+  std::ifstream in(folder / "summary.json");
+  const auto summary = nlohmann::json::parse(in, nullptr, false);
+  std::vector<std::string> warnings;
+  if (summary.is_object() && summary.contains("warnings"))
+    for (const auto &warning : summary["warnings"])
+      if (warning.is_string())
+        warnings.push_back(warning.get<std::string>());
+  return warnings;
 }
 
 std::string reason_of(int status, const fs::path &log) {
@@ -65,6 +80,7 @@ class Study {
       : request_(request),
         results_(results),
         cases_(cases),
+        found_(cases.size()),
         jobs_(request.jobs > 0 ? static_cast<std::size_t>(request.jobs) : jobs_for(cases)) {
     outcome_.members = results.members.size();
   }
@@ -95,12 +111,14 @@ class Study {
 
   // Whether the member is done already; a folder that cannot be read is none.
   bool keep(std::size_t i) {
+    found_[i] = found_in(folder_of(i), cases_[i]);
+    if (found_[i].state != Found::State::done)
+      return false;
     try {
-      if (!is_done(folder_of(i), cases_[i]))
-        return false;
-      results_.rows[i] = {"done", read_outputs(folder_of(i), results_.outputs)};
+      take_results(i);
       return true;
     } catch (const CaseError &) {
+      found_[i] = {};
       return false;
     }
   }
@@ -123,37 +141,52 @@ class Study {
       add(override);
     try {
       make(folder_of(i));
-      if (was_interrupted(folder_of(i), cases_[i]))
+      if (found_[i].state == Found::State::interrupted)
         command.emplace_back("--resume");
+      if (!found_[i].obstacle.empty() && !request_.quiet)
+        say(
+            fmt::format("tourmaline: {} starts from the beginning, as its interrupted run cannot "
+                        "go on: {}\n",
+                        results_.members[i].name, found_[i].obstacle));
       processes_.start(i, command, log_of(i));
     } catch (const MachineError &error) {
+      ++finished_;
       fail(i, machine_failed, error.what());
     }
   }
 
   void finish(const Processes::End &end) {
     const std::size_t i = end.number;
-    if (end.status != 0 && outcome_.signal == 0)
+    if (end.status != 0 && outcome_.signal == 0) {
+      ++finished_;
       return fail(i, failure_status(end.status), reason_of(end.status, log_of(i)));
+    }
     std::error_code ignored;
     fs::remove(log_of(i), ignored);
-    if (end.status == 0)
-      take_results(i);
-  }
-
-  void take_results(std::size_t i) {
+    if (end.status != 0)
+      return;
+    ++finished_;
     try {
-      results_.rows[i] = {"done", read_outputs(folder_of(i), results_.outputs)};
-      ++finished_;
+      take_results(i);
     } catch (const CaseError &error) {
       fail(i, machine_failed, error.what());
     }
   }
 
+  void take_results(std::size_t i) {
+    results_.rows[i] = {"done", read_outputs(folder_of(i), results_.outputs)};
+    for (const std::string &warning : warnings_in(folder_of(i)))
+      outcome_.warnings[warning].push_back(results_.members[i].name);
+  }
+
   void fail(std::size_t i, int status, const std::string &reason) {
     results_.rows[i].status = "failed";
     outcome_.failures.push_back({results_.members[i].name, reason, status});
-    ++finished_;
+  }
+
+  void say(const std::string &text) {
+    line_.clear();
+    std::cerr << text;
   }
 
   // The first signal asks the runs to end, the second does not ask.
@@ -186,6 +219,7 @@ class Study {
   const Request &request_;
   Results &results_;
   const std::vector<Prepared> &cases_;
+  std::vector<Found> found_;
   std::size_t jobs_;
   std::vector<std::size_t> waiting_;  // members to be run
   std::size_t started_ = 0, finished_ = 0;
@@ -230,7 +264,7 @@ Outcome run(const Request &request) {
   results.outputs = chosen_outputs(request.outputs, asked);
   const std::vector<double> none(results.outputs.size(), std::numeric_limits<double>::quiet_NaN());
   results.rows.assign(results.members.size(), {"stopped", none});
-  make(request.folder);
+  const output::FolderLock lock(request.folder);  // before anything there is looked at
   Outcome outcome = Study(request, results, cases).run();
   outcome.files = write_results(results, request.folder);
   return outcome;

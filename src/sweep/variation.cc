@@ -76,16 +76,27 @@ std::string text_of(double number) {
   return fmt::format("{:.15g}", number == 0 ? 0 : number);
 }
 
+// The ends are what was written, to the last bit.
+std::string exact_text(double number) {
+  const std::string rounded = text_of(number);
+  return number_in(rounded) == number ? rounded : fmt::format("{:.17g}", number);
+}
+
 struct Spacing {
   bool logarithmic;
   double first, last;
   int n;
 
-  double value(int i) const {
+  std::string text(int i) const {
     if (i == 0 || i == n - 1)
-      return i == 0 ? first : last;
-    const double part = static_cast<double>(i) / (n - 1);
-    return logarithmic ? first * std::pow(last / first, part) : first + (last - first) * part;
+      return exact_text(i == 0 ? first : last);
+    // Neither difference nor ratio of the ends need be a number; the logarithms have the digits
+    // that their sizes cost.
+    const long double part = static_cast<long double>(i) / (n - 1);
+    return text_of(static_cast<double>(
+        logarithmic ? std::exp((1 - part) * std::log(static_cast<long double>(first)) +
+                               part * std::log(static_cast<long double>(last)))
+                    : (1 - part) * static_cast<long double>(first) + part * last));
   }
 };
 
@@ -116,6 +127,12 @@ std::string spacing_word(const std::string &text) {
   return letters && text.find(':') != std::string::npos ? word : "";
 }
 
+// 15 and 1.5e1 are one number: two runs of one case.
+bool is_same(const std::string &one, const std::string &other) {
+  const std::optional<double> number = number_in(one);
+  return one == other || (number && number == number_in(other));
+}
+
 void check_values(const std::string &assignment, const std::vector<std::string> &values) {
   if (std::find(values.begin(), values.end(), "") != values.end())
     fail(assignment, "a value is missing; write key.path=value,value,...");
@@ -123,8 +140,12 @@ void check_values(const std::string &assignment, const std::vector<std::string> 
     fail(assignment,
          fmt::format("has {} values; at most {} are possible", values.size(), most_values));
   for (std::size_t i = 0; i < values.size(); ++i)
-    if (std::count(values.begin(), values.end(), values[i]) > 1)
-      fail(assignment, "gives " + casefile::shortened(values[i]) + " twice");
+    for (std::size_t j = 0; j < i; ++j)
+      if (is_same(values[i], values[j]))
+        fail(assignment, "gives " + casefile::shortened(values[j]) + " twice" +
+                             (values[i] == values[j]
+                                  ? std::string()
+                                  : ", the second time as " + casefile::shortened(values[i])));
 }
 
 }  // namespace
@@ -141,7 +162,7 @@ Variation read_variation(const std::string &assignment) {
   if (word == "lin" || word == "log") {
     const Spacing spacing = read_spacing(assignment, split(text, ':'));
     for (int i = 0; i < spacing.n; ++i)
-      read.values.push_back(text_of(spacing.value(i)));
+      read.values.push_back(spacing.text(i));
     read.logarithmic = spacing.logarithmic;
   } else if (!word.empty()) {
     fail(assignment, "no spacing is called \"" + casefile::shortened(word) +

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -149,9 +150,74 @@ TEST_F(Sweep, AChangedMeshFileIsNoticed) {
   ASSERT_EQ(run(study), 0) << complained_;
   ASSERT_EQ(run(study), 0);
   EXPECT_THAT(said_, HasSubstr("2 cases: 2 done before"));
-  std::ofstream(here() / "square.geo") << square << "// another\n";
+  std::ofstream(here() / "square.geo") << square << "// a comment changes no mesh\n";
   ASSERT_EQ(run(study), 0);
+  EXPECT_THAT(said_, HasSubstr("2 cases: 2 done before"));
+  // However old the file is: the content counts.
+  std::string wider = square;
+  for (auto at = wider.find("0.1,"); at != std::string::npos; at = wider.find("0.1,", at))
+    wider.replace(at, 4, "0.2,");
+  std::ofstream(here() / "square.geo") << wider;
+  last_write_time(here() / "square.geo",
+                  std::filesystem::file_time_type::clock::now() - std::chrono::hours(1000));
+  ASSERT_EQ(run(study), 0) << complained_;
   EXPECT_THAT(said_, HasSubstr("2 cases: 0 done before"));
+}
+
+TEST_F(Sweep, AChangedIncludedFileOrFileOfMaterialsIsNoticed) {
+  const std::filesystem::path here_are = std::string(TOURMALINE_SOURCE_DIR) + "/tests/cli";
+  copy_file(here_are / "own_material.toml", here() / "own.toml");
+  copy_file(here_are / "materials.toml", here() / "materials.toml");
+  const std::string study = "sweep own.toml --vary contact.friction.bound=15,30 -o study";
+  ASSERT_EQ(run(study), 0) << complained_;
+  std::string text = content_of(here() / "materials.toml");
+  std::ofstream(here() / "materials.toml") << text.replace(text.find("1e9"), 3, "2e9");
+  last_write_time(here() / "materials.toml",
+                  std::filesystem::file_time_type::clock::now() - std::chrono::hours(1000));
+  ASSERT_EQ(run(study), 0) << complained_;
+  EXPECT_THAT(said_, HasSubstr("2 cases: 0 done before"));
+}
+
+TEST_F(Sweep, AMemberWithoutItsPageIsNotDone) {
+  const std::string study =
+      "sweep small.toml --vary contact.friction.bound=15,30 --set output.report=true -o study";
+  ASSERT_EQ(run(study), 0);
+  const auto first = ends("study");
+  remove(here() / "study/bound=15/report.html");
+  ASSERT_EQ(run(study), 0) << complained_;
+  EXPECT_THAT(said_, HasSubstr("2 cases: 1 done before"));
+  EXPECT_TRUE(exists(here() / "study/bound=15/report.html"));
+  EXPECT_EQ(ends("study"), first) << "no step was computed again";
+}
+
+TEST_F(Sweep, WhatIsTakenOfAColumnIsWhatItsHistoryHolds) {
+  ASSERT_EQ(run("sweep small.toml --vary contact.friction.bound=5,15 --output "
+                "slip,max:slip,min:friction_dissipation,mean:friction_dissipation,"
+                "rms:friction_dissipation,friction_dissipation@0.5,friction_dissipation@0.625 "
+                "-o study"),
+            0)
+      << complained_;
+  const auto table = table_in(here() / "study/sweep.csv"),
+             history = table_in(here() / "study/bound=5/history.csv");
+  std::vector<double> loss, slip;
+  for (std::size_t row = 1; row <= 4; ++row) {
+    loss.push_back(std::stod(cell_under("friction_dissipation", history, row)));
+    slip.push_back(std::stod(cell_under("slip", history, row)));
+  }
+  const auto value = [&](const char *name) { return std::stod(cell_under(name, table, 1)); };
+  EXPECT_GT(loss[3], 0);
+  EXPECT_EQ(value("slip"), slip[3]);
+  EXPECT_EQ(value("max:slip"), *std::max_element(slip.begin(), slip.end()));
+  EXPECT_EQ(value("min:friction_dissipation"), *std::min_element(loss.begin(), loss.end()));
+  EXPECT_NEAR(value("mean:friction_dissipation"), (loss[0] + loss[1] + loss[2] + loss[3]) / 4,
+              1e-14 * loss[3]);
+  EXPECT_NEAR(
+      value("rms:friction_dissipation"),
+      std::sqrt((loss[0] * loss[0] + loss[1] * loss[1] + loss[2] * loss[2] + loss[3] * loss[3]) /
+                4),
+      1e-14 * loss[3]);
+  EXPECT_EQ(value("friction_dissipation@0.5"), loss[1]);
+  EXPECT_NEAR(value("friction_dissipation@0.625"), (loss[1] + loss[2]) / 2, 1e-14 * loss[3]);
 }
 
 TEST_F(Sweep, MembersThatFailDoNotStopTheOthers) {
@@ -211,6 +277,14 @@ const BadStudy bad_studies[] = {
      "(in the case cell=hexahedron_bound=1 of the study"},
     {"UnknownMaterial", "--vary material.library=BaTiO3-Liu2014,BaTiO3-Liu2015", "BaTiO3-Liu2015"},
     {"UnknownOutput", "--vary contact.friction.bound=5 --output slop", "did you mean \"slip\"?"},
+    {"UnknownOutputIsAnsweredWithTheList", "--vary contact.friction.bound=5 --output max:slop",
+     "did you mean \"max:slip\"?; allowed: step, time, newton_iterations, "},
+    {"UnknownReduction", "--vary contact.friction.bound=5 --output maks:slip",
+     "did you mean \"max\"?"},
+    {"TimeBehindTheEnd", "--vary contact.friction.bound=5 --output slip@2",
+     "above 0 and at most 1, the end of the runs"},
+    {"OneNumberInTwoForms", "--vary contact.friction.bound=15,1.5e1",
+     "gives 15 twice, the second time as 1.5e1"},
     {"WrongSet", "--vary contact.friction.bound=5 --set time.steps=0", "steps = 0: must be >= 1"},
     {"NoJobs", "--vary contact.friction.bound=5 --jobs 0", "--jobs"},
 };
@@ -299,6 +373,95 @@ TEST_F(StoppedSweep, AStoppedRunGoesOnWhereItWas) {
   EXPECT_EQ(run(all), 0) << complained_;
   EXPECT_EQ(last_write_time(member / "result_0000.vtu"), begun) << "it started again";
   EXPECT_EQ(cell_under("status", table_in(study() / "sweep.csv"), 1), "done");
+}
+
+// Interrupts a study of one member, with these files, behind a checkpoint.
+class InterruptedSweep : public StoppedSweep {
+ protected:
+  void interrupt() {
+    std::ofstream(here() / "square.msh")
+        << content_of(std::string(TOURMALINE_SOURCE_DIR) + "/tests/cli/square.msh");
+    std::string text = small_case;
+    text.replace(0, text.find('\n'), "mesh.file = \"square.msh\"");
+    std::ofstream(here() / "small.toml") << text;
+    std::thread sender([&] {
+      EXPECT_TRUE(happens([&] { return exists(member() / "checkpoint.bin"); }));
+      ::kill(std::stoi(content_of(folder_ / "pid")), SIGTERM);
+    });
+    EXPECT_EQ(run(all(), "echo $$ > ../pid; exec"), 128 + SIGTERM) << complained_;
+    sender.join();
+  }
+  void expect_new_start(const std::string &reason) {
+    EXPECT_EQ(run(all()), 0) << complained_;
+    EXPECT_THAT(complained_, AllOf(HasSubstr("bound=5 starts from the beginning, as its "
+                                             "interrupted run cannot go on: "),
+                                   HasSubstr(reason), Not(HasSubstr("--resume"))));
+    EXPECT_THAT(said_, HasSubstr("1 cases: 0 done before, 0 failed"));
+  }
+  std::filesystem::path member() const { return study() / "bound=5"; }
+  std::string all() const {
+    return "sweep small.toml --vary contact.friction.bound=5 --set time.steps=3000 "
+           "--set 'output.checkpoint=\"5 steps\"' -o '" +
+           study().string() + "'";
+  }
+};
+
+TEST_F(InterruptedSweep, StartsAnewWhereItsMeshHasChanged) {
+  interrupt();
+  std::string mesh = content_of(here() / "square.msh");
+  const auto at = mesh.find("0.5 0.5 0");
+  ASSERT_NE(at, std::string::npos);
+  std::ofstream(here() / "square.msh") << mesh.replace(at, 9, "0.5 0.6 0");
+  expect_new_start("the content of");
+}
+
+TEST_F(InterruptedSweep, StartsAnewWhereItsCheckpointIsDamaged) {
+  interrupt();
+  std::ofstream(member() / "checkpoint.bin", std::ios::binary | std::ios::in | std::ios::out)
+      .seekp(100)
+      .write("damaged", 7);
+  expect_new_start("is damaged");
+}
+
+TEST_F(InterruptedSweep, StartsAnewWhereATableIsMissing) {
+  interrupt();
+  remove(member() / "history.csv");
+  expect_new_start("history.csv, on which the checkpoint counts, is missing");
+}
+
+TEST_F(StoppedSweep, ASecondStudyInTheFolderIsRefused) {
+  std::string second;
+  int status = -1;
+  std::thread other([&] {
+    EXPECT_TRUE(happens([&] { return exists(study() / "steps=200000000/resolved.toml"); }));
+    const std::string command = "cd '" + here().string() + "' && '" + binary() +
+                                "' sweep small.toml --vary time.steps=2,3 -o '" + study().string() +
+                                "' > ../second 2>&1";
+    const int end = std::system(command.c_str());
+    status = WIFEXITED(end) ? WEXITSTATUS(end) : -1;
+    second = content_of(folder_ / "second");
+    ::kill(std::stoi(content_of(folder_ / "pid")), SIGTERM);
+  });
+  run("sweep small.toml --vary time.steps=200000000 --jobs 1 -o '" + study().string() + "'",
+      "echo $$ > ../pid; exec");
+  other.join();
+  EXPECT_EQ(status, 4);
+  EXPECT_THAT(second, AllOf(HasSubstr("another run (process "), HasSubstr("study;")));
+  EXPECT_FALSE(exists(study() / "steps=2"));
+}
+
+TEST_F(StoppedSweep, ALogThatSomebodyRemovesCostsNoCase) {
+  std::thread remover([&] {
+    EXPECT_TRUE(happens([&] { return exists(study() / "steps=200000000/resolved.toml"); }));
+    remove(study() / "steps=200000000/error.txt");
+    ::kill(std::stoi(content_of(study() / "steps=200000000/run.lock")), SIGKILL);
+  });
+  EXPECT_EQ(
+      run("sweep small.toml --vary time.steps=200000000,2 --jobs 1 -o '" + study().string() + "'"),
+      4);
+  remover.join();
+  EXPECT_THAT(complained_, HasSubstr("steps=200000000 failed: was killed by the signal 9"));
+  EXPECT_THAT(said_, HasSubstr("2 cases: 0 done before, 1 failed"));
 }
 
 TEST_F(StoppedSweep, RunsEndWithItWhateverEndsIt) {

@@ -12,6 +12,7 @@ Summary whole_summary() {
   summary.title = "Insulated \"foundation\"";
   summary.version = "0.1.0";
   summary.components = {{"dealii", "9.4.1"}};
+  summary.inputs = {{"body.msh", "00000000000000ff"}};
   summary.sizes = {{"nodes", 4}, {"cells", 2}};
   summary.iterations = {{"newton_total", 20}, {"newton_max", 2}};
   summary.factorisations = 1;
@@ -31,6 +32,9 @@ TEST(SummaryText, ItHasTheKeysOfTheContractInTheirOrder) {
   "versions": {
     "tourmaline": "0.1.0",
     "dealii": "9.4.1"
+  },
+  "inputs": {
+    "body.msh": "00000000000000ff"
   },
   "sizes": {
     "cells": 2,

@@ -30,6 +30,13 @@ TEST(Ticks, LogarithmicOnesArePowersOfTen) {
   EXPECT_THAT(logarithmic_ticks(0.09, 150), ElementsAre(0.1, 1, 10, 100));
 }
 
+TEST(Ticks, OfManyDecadesSomeAreShown) {
+  const std::vector<double> few = logarithmic_ticks(1e-300, 1e300);
+  EXPECT_GE(few.size(), 8u);
+  EXPECT_LE(few.size(), 12u);
+  EXPECT_DOUBLE_EQ(few[1] / few[0], few[3] / few[2]);
+}
+
 TEST(Ticks, WithinOneDecadeMultiplesOfThemHelp) {
   EXPECT_THAT(logarithmic_ticks(1.5, 9), ElementsAre(DoubleEq(2), DoubleEq(5)));
 }
@@ -125,6 +132,12 @@ TEST_F(PlotFile, OnePointIsAMarkAndNoPointNone) {
     plot.panels[0].lines = {{value}, {value}};
     EXPECT_EQ(marks(written(FigureFormat::svg), colour), (std::isnan(value) ? 0 : 1) + 1) << value;
   }
+}
+
+TEST_F(PlotFile, LogarithmsSpanAllNumbers) {
+  plot.logarithmic = true;
+  plot.abscissae = {1e-300, 1, 1e300};
+  EXPECT_THAT(written(FigureFormat::svg), StartsWith("<?xml"));
 }
 
 TEST_F(PlotFile, ManyLinesHaveAsManyColours) {

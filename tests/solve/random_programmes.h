@@ -25,7 +25,7 @@ struct Problem {
 // What a point's slip z and force f lack of f = b (z, o) / |(z, o)|, o the known slip [N]: as a
 // force, or, where the bend at z = 0 is sharp, as the distance to the slip that has this force,
 // times the stiffness.
-double lack(const VectorXd &z, const VectorXd &o, const VectorXd &f, double bound,
+inline double lack(const VectorXd &z, const VectorXd &o, const VectorXd &f, double bound,
             double stiffness) {
   const double size = std::hypot(z.norm(), o.norm());
   if (size == 0)

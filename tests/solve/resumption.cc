@@ -7,6 +7,7 @@
 
 #include "tourmaline/case/resolved.h"
 #include "tourmaline/error.h"
+#include "tourmaline/output/summary.h"
 #include "tourmaline/solve/versions.h"
 
 namespace tourmaline::solve {
@@ -57,13 +58,13 @@ TEST_F(Resuming, TheSameCaseGoesOn) {
   const Resumption found = resumption(asked_, folder_);
   ASSERT_TRUE(found.checkpoint);
   EXPECT_EQ(found.checkpoint->step, 3u);
-  EXPECT_FALSE(found.is_complete);
+  EXPECT_FALSE(found.is_complete());
 }
 
 TEST_F(Resuming, AFolderWithoutCheckpointAndSummaryHoldsNothing) {
   const Resumption found = resumption(asked_, folder_ / "later");
   EXPECT_FALSE(found.checkpoint);
-  EXPECT_FALSE(found.is_complete);
+  EXPECT_FALSE(found.is_complete());
 }
 
 TEST_F(Resuming, AMeshThatHasChangedBehindItsNameIsAnotherCase) {
@@ -102,12 +103,61 @@ TEST_F(Resuming, AnotherVersionOfTheProgramDoesNotGoOn) {
                             AllOf(HasSubstr("Tourmaline 0.0.1"), HasSubstr(program_version()))));
 }
 
-TEST_F(Resuming, ACompleteRunOfTheSameCaseHasNothingToDo) {
-  put("summary.json", "{}");
-  put("resolved.toml", casefile::resolved(asked_));
-  EXPECT_TRUE(resumption(asked_, folder_).is_complete);
+class Complete : public Resuming {
+ protected:
+  Complete() {
+    output::Summary summary;
+    summary.inputs = contents_of(asked_);
+    put("summary.json", output::summary_text(2, summary));
+    put("resolved.toml", casefile::resolved(asked_));
+    put("report.html", "");
+  }
+};
+
+TEST_F(Complete, OfTheSameCaseHasNothingToDo) {
+  EXPECT_TRUE(resumption(asked_, folder_).is_complete());
   asked_.title = "another";
   EXPECT_THAT(asking(), ThrowsMessage<CaseError>(HasSubstr("title was")));
+}
+
+TEST_F(Complete, ItsFilesAreComparedToo) {
+  mesh_->points[1][0] = 1.0000000001;
+  EXPECT_THAT(asking(),
+              ThrowsMessage<CaseError>(HasSubstr("the content of /body.msh has changed")));
+  mesh_->points[1][0] = 1;
+  put("materials.toml", "[two]\n");
+  EXPECT_THAT(asking(), ThrowsMessage<CaseError>(HasSubstr("materials.toml has changed")));
+  put("materials.toml", "[one]\n");
+  EXPECT_TRUE(resumption(asked_, folder_).is_complete());
+}
+
+TEST_F(Complete, WithoutItsPageTheStepsAreDone) {
+  std::filesystem::remove(folder_ / "report.html");
+  EXPECT_TRUE(resumption(asked_, folder_).has_all_steps);
+  EXPECT_FALSE(resumption(asked_, folder_).is_complete());
+  asked_.output.report = false;
+  put("resolved.toml", casefile::resolved(asked_));
+  EXPECT_TRUE(resumption(asked_, folder_).is_complete());
+}
+
+TEST_F(Complete, ACheckpointThatIsStillThereSaysNothing) {
+  save();
+  EXPECT_TRUE(resumption(asked_, folder_).is_complete());
+  EXPECT_FALSE(resumption(asked_, folder_).checkpoint);
+}
+
+TEST_F(Resuming, AMissingFileOnWhichTheCheckpointCountsIsNamed) {
+  output::Checkpoint checkpoint;
+  checkpoint.program = program_version();
+  checkpoint.inputs = inputs_of(asked_);
+  checkpoint.position = {0, 10, {{0., "result_0000.vtu"}}};
+  output::write_checkpoint(folder_ / output::checkpoint_name, checkpoint);
+  EXPECT_THAT(asking(), ThrowsMessage<MachineError>(HasSubstr("result_0000.vtu, on which")));
+  put("result_0000.vtu", "");
+  put("history.csv.part", "123456789");
+  EXPECT_THAT(asking(), ThrowsMessage<MachineError>(HasSubstr("history.csv.part is shorter")));
+  put("history.csv.part", "1234567890");
+  EXPECT_NO_THROW(asking()());
 }
 
 }  // namespace

@@ -101,9 +101,71 @@ TEST(ChosenOutputs, AMisspeltNameIsAnsweredWithTheNearest) {
       ThrowsMessage<CaseError>(HasSubstr("asked for twice")));
 }
 
+TEST(ChosenOutputs, AColumnIsTakenAsItsNameSays) {
+  const auto chosen =
+      chosen_outputs({"slip", "max:slip", "rms:elastic_energy", "slip@0.1"}, paper());
+  using Kind = Reduction::Kind;
+  EXPECT_EQ(chosen[0].reduction.kind, Kind::last);
+  EXPECT_EQ(chosen[1].reduction.kind, Kind::max);
+  EXPECT_EQ(chosen[1].column, "slip");
+  EXPECT_EQ(chosen[2].unit, "J");
+  EXPECT_EQ(chosen[3].reduction.kind, Kind::at);
+  EXPECT_EQ(chosen[3].reduction.time, 0.1);
+  EXPECT_EQ(chosen[3].name, "slip@0.1");
+}
+
+struct WrongOutput {
+  const char *name, *reason;
+};
+
+class WrongOutputs : public testing::TestWithParam<WrongOutput> {};
+
+TEST_P(WrongOutputs, AreAnsweredWithWhatIsAllowed) {
+  EXPECT_THAT([] { chosen_outputs({GetParam().name}, paper()); },
+              ThrowsMessage<CaseError>(HasSubstr(GetParam().reason)));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Grammar, WrongOutputs,
+    testing::Values(WrongOutput{"slop", "did you mean \"slip\"?; allowed: step, time, "},
+                    WrongOutput{"slop", ", and at_min_displacement_x"},
+                    WrongOutput{"max:slop", "did you mean \"max:slip\"?"},
+                    WrongOutput{"slop@0.1", "did you mean \"slip@0.1\"?"},
+                    WrongOutput{"max:", "no column of history.csv"},
+                    WrongOutput{":slip", "allowed: last:NAME"},
+                    WrongOutput{"average:slip", "allowed: last:NAME, min:NAME"},
+                    WrongOutput{"slip@", "write NAME@TIME"}, WrongOutput{"slip@0", "above 0"},
+                    WrongOutput{"slip@nan", "above 0"}, WrongOutput{"slip@0.3", "at most 0.2"},
+                    WrongOutput{"max:slip@0.1", "no column of history.csv"},
+                    WrongOutput{"max:at_max_potential_x", "is a place"},
+                    WrongOutput{"at_max_potential_x@0.1", "is a place"}));
+
+TEST(ChosenOutputs, LastIsWhatANameAloneSays) {
+  EXPECT_THAT(
+      [] {
+        chosen_outputs({"slip", "last:slip"}, paper());
+      },
+      ThrowsMessage<CaseError>(HasSubstr("asked for twice")));
+}
+
+TEST(ReadOutputs, ADamagedSummaryIsToldByItsName) {
+  const output::TemporaryFolder folder;
+  std::ofstream(folder / "history.csv") << "step,time,slip\n1,0.5,3\n";
+  for (const char *text : {"", "{}", "[]", R"({"extremes": [{"field": 3}]})",
+                           R"({"extremes": [{"field": "potential", "at_minimum": ["x"]}]})"}) {
+    std::ofstream(folder / "summary.json") << text;
+    EXPECT_THAT(
+        [&] {
+          read_outputs(folder.path(), {{"slip", ""}});
+        },
+        ThrowsMessage<CaseError>(HasSubstr("is no summary")))
+        << text;
+  }
+}
+
 TEST(ReadOutputs, WhatARunLacksIsNoNumber) {
   const output::TemporaryFolder folder;
-  std::ofstream(folder / "history.csv") << "step,slip\n1,3\n2,5\n";
+  std::ofstream(folder / "history.csv") << "step,time,slip\n1,0.5,3\n2,1,5\n";
   std::ofstream(folder / "summary.json")
       << R"({"extremes": [{"field": "potential", "at_minimum": [1, 2], "at_maximum": [3, 4]}]})";
   const auto values =

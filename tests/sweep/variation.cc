@@ -46,6 +46,18 @@ TEST(Variation, LogarithmicValuesHaveTheSameRatio) {
   EXPECT_THAT(values_in("a=log:1e3:1e-3:3"), ElementsAre("1000", "1", "0.001"));
 }
 
+TEST(Variation, NeitherRatioNorDifferenceOfTheEndsNeedBeANumber) {
+  EXPECT_THAT(values_in("a=log:1e-300:1e300:3"), ElementsAre("1e-300", "1", "1e+300"));
+  EXPECT_THAT(values_in("a=log:1e300:1e-300:5"),
+              ElementsAre("1e+300", "1e+150", "1", "1e-150", "1e-300"));
+  EXPECT_THAT(values_in("a=lin:-1.5e308:1.5e308:3"), ElementsAre("-1.5e+308", "0", "1.5e+308"));
+}
+
+TEST(Variation, TheEndsAreWhatWasWritten) {
+  EXPECT_THAT(values_in("a=lin:0.12345678901234567:1.0000000000000002:2"),
+              ElementsAre("0.12345678901234566", "1.0000000000000002"));
+}
+
 TEST(Variation, AFormulaWithAColonIsAValue) {
   EXPECT_THAT(values_in("a='x > 0 ? 1 : 2','x < 0 ? 1 : 2'"),
               ElementsAre("'x > 0 ? 1 : 2'", "'x < 0 ? 1 : 2'"));
@@ -69,6 +81,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"a", "has no \"=\""}, Wrong{"=1,2", "names no key"},
         Wrong{"a=", "a value is missing"}, Wrong{"a=1,,2", "a value is missing"},
         Wrong{"a=1,2,", "a value is missing"}, Wrong{"a=1,2,1", "gives 1 twice"},
+        Wrong{"a=1,2,1.0", "gives 1 twice, the second time as 1.0"},
         Wrong{"a=lin:1:2", "write lin:A:B:N"}, Wrong{"a=log:1:2:3:4", "write log:A:B:N"},
         Wrong{"a=lin:one:2:3", "must be numbers"}, Wrong{"a=lin:0:inf:3", "must be numbers"},
         Wrong{"a=lin:1:2:1", "N must be an integer from 2 to 1000"},

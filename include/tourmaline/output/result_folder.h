@@ -22,6 +22,9 @@ struct Piece {
   int number = 0, count = 1;
 };
 
+/// Throws MachineError where files are missing, or too short, on which a checkpoint there counts.
+void require_position(const std::filesystem::path &directory, const FolderPosition &position);
+
 /// The folder that a run leaves behind, and has for itself meanwhile. Every file in it is whole at
 /// every moment: one that is being written is called NAME.part. Whatever fails to be written is a
 /// MachineError with the file's name and the reason. In a parallel run every rank has one, in turn:
@@ -30,13 +33,15 @@ class ResultFolder {
  public:
   /// Makes the folder, with its parents, checks that it can be written to, and removes the files
   /// that an earlier run left there (by the names that this program gives them, and no others).
-  /// Of several pieces only number 0 does so; the folder of the others must be there.
-  ResultFolder(std::filesystem::path directory, int dimension, Piece piece = {});
+  /// Of several pieces only number 0 does so; the folder of the others must be there. Whoever has
+  /// the folder's lock already passes it on.
+  ResultFolder(std::filesystem::path directory, int dimension, Piece piece = {},
+               std::unique_ptr<FolderLock> lock = nullptr);
 
   /// Goes on in the folder of an interrupted run as it was at the checkpoint: what was written
   /// after it is taken away.
   ResultFolder(std::filesystem::path directory, int dimension, Piece piece,
-               const Checkpoint &checkpoint);
+               const Checkpoint &checkpoint, std::unique_ptr<FolderLock> lock = nullptr);
 
   /// resolved.toml: the case with every default filled in.
   void put_case(const std::string &resolved_toml);
@@ -65,15 +70,13 @@ class ResultFolder {
   /// nodes.csv; rows in the order of the points.
   void put_nodes(const std::vector<Vector> &points, const PointFields &fields);
 
-  /// summary.json
+  /// summary.json, when all steps and their files are there: only the page may be missing from now
+  /// on. So the checkpoint goes, and a page that somebody has made of the steps so far.
   void put_summary(const Summary &summary);
 
   /// checkpoint.bin, to which it adds how far the files have come; they are on the disk itself
   /// then.
   void put_checkpoint(Checkpoint checkpoint);
-
-  /// When the run is complete.
-  void remove_checkpoint();
 
   /// Moves contact.csv and history.csv into place; after a failed solve too, so that the steps that
   /// were computed are kept. Without it they are discarded. Idempotent; no rows can follow.
@@ -83,9 +86,11 @@ class ResultFolder {
 
  private:
   void sync_fields();
+  void sync_results();
+  void remove_checkpoint();
 
   std::filesystem::path directory_;
-  std::optional<FolderLock> lock_;
+  std::unique_ptr<FolderLock> lock_;
   int dimension_;
   Piece piece_;
   std::optional<VtuWriter> vtu_;

@@ -20,6 +20,10 @@ class Schedule {
 
   Pause after(int step);
 
+  /// As StopSignals has them: behind the last step nothing pauses any more.
+  void answer(const char *text) { signals_.answer(text); }
+  int received() const { return signals_.received(); }
+
  private:
   using Clock = std::chrono::steady_clock;
 

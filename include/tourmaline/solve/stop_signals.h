@@ -11,6 +11,9 @@ class StopSignals {
   StopSignals &operator=(const StopSignals &) = delete;
   ~StopSignals();
 
+  /// From now on the first signal is answered with this text on stderr, at once.
+  void answer(const char *text);
+
   /// The signal that came; 0: none.
   int received() const;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct Outcome {
   std::size_t missing = 0;  ///< were not run to their end because of the signal
   int signal = 0;           ///< SIGINT or SIGTERM when one stopped it
   std::vector<Failure> failures;
+  std::map<std::string, std::vector<std::string>> warnings;  ///< and the members that have them
   std::vector<std::filesystem::path> files;  ///< the table, and the plot when a member is done
 
   /// Of the command: 128 + signal; the greatest of the failures; 0.
@@ -38,10 +40,11 @@ struct Outcome {
 };
 
 /// Runs the members of a study, each as a process of its own in a folder of its own, and leaves
-/// sweep.csv and sweep.svg. A member whose folder holds the finished run of the same case is not
-/// run again. Every member is read and checked before the first runs. A failed one does not stop
-/// the others. SIGINT and SIGTERM end those that run, what is done stays. Throws CaseError,
-/// MachineError.
+/// sweep.csv and sweep.svg. A member whose folder holds the finished run of the same case, of files
+/// with the same content, is not run again; one that was interrupted goes on, or starts from the
+/// beginning where it cannot. Every member is read and checked before the first runs. A failed one
+/// does not stop the others. SIGINT and SIGTERM end those that run, what is done stays. Throws
+/// CaseError, MachineError.
 Outcome run(const Request &request);
 
 }  // namespace tourmaline::sweep
