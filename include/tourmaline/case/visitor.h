@@ -1,32 +1,16 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "tourmaline/case/case.h"
+#include "tourmaline/case/range.h"
 
 /// What may be said of a key of the case file, and the visitors that it is said to.
 namespace tourmaline::casefile {
-
-/// The values that a number may have.
-struct Range {
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();
-  bool low_allowed = true, high_allowed = true;
-
-  bool contains(double number) const;
-  /// "> 0", "from 1 to 2"; empty when every finite number is allowed.
-  std::string words() const;
-};
-
-Range positive();
-Range not_negative();
-Range at_least(double low);
-Range from_to(double low, double high);
 
 /// The numbers of entries that a list may have.
 struct Length {
