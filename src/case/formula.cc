@@ -200,10 +200,10 @@ double Formula::value(const std::array<double, 3> &point, double time) const {
       std::abs(found.value) <= expression_->range.sense.most)
     return found.value;
   const Range &range = expression_->range;
-  const std::string reason =
-      found.trouble ? complaint_about(found)
-                    : fmt::format("is {:g}, but {}", found.value,
-                                  complaint(range, found.value, expression_->unit));
+  const std::string reason = found.trouble
+                                 ? complaint_about(found)
+                                 : fmt::format("is {:g}, but {}", found.value,
+                                               complaint(range, found.value, expression_->unit));
   fail(where_, expression_->text,
        fmt::format("{}, at x = {}, y = {}, z = {} m, t = {} s", reason, point[0], point[1],
                    point[2], time));

@@ -73,7 +73,7 @@ class Table : public Visitor {
   }
 
   void key(const Key &key, Value value) override {
-    add(key, key.used ? schema_of_key(key, value) : Json(false));
+    add(key, key.used.holds ? schema_of_key(key, value) : Json(false));
     if (const auto text = std::get_if<std::string *>(&value); text && !key.choices.empty())
       choose(key, **text);
   }
@@ -126,7 +126,7 @@ class Table : public Visitor {
 
   void add(const Key &key, const Json &schema) {
     properties_[key.name] = schema;
-    if (key.required && key.used)
+    if (key.required && key.used.holds)
       required_.push_back(key.name);
   }
 

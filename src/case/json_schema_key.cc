@@ -107,8 +107,8 @@ std::string description_of(const Key &key, const Value &value) {
     text += "; " + range;
   if (key.constant_in_time)
     text += "; must not depend on t";
-  if (!key.used_with.empty())
-    text += "; only with " + key.used_with;
+  if (!key.used.words.empty())
+    text += "; only with " + key.used.words;
   if (!key.foreseen.empty())
     text += fmt::format("; not available in this version: {}", fmt::join(key.foreseen, ", "));
   return key.default_words.empty() ? text : text + "; default: " + key.default_words;

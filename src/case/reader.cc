@@ -99,9 +99,9 @@ class Reader : public Visitor {
 
   void key(const Key &key, Value value) override {
     const toml::node *node = table_.get(key.name);
-    if (!key.used) {
+    if (!key.used.holds) {
       if (node)
-        fail(item(*node, key), "is only used with " + key.used_with);
+        fail(item(*node, key), "is only used with " + key.used.words);
       return;
     }
     if (node)

@@ -123,8 +123,8 @@ class Page : public Visitor {
       text += "; " + range;
     if (key.constant_in_time)
       text += "; must not depend on t";
-    if (!key.used_with.empty())
-      text += "; only with `" + key.used_with + "`";
+    if (!key.used.words.empty())
+      text += "; only with `" + key.used.words + "`";
     return text;
   }
 

@@ -1,4 +1,5 @@
 #include "schema_parts.h"
+#include "sense.h"
 
 namespace tourmaline::casefile {
 
@@ -15,9 +16,8 @@ void declare(Visitor &v, FrictionCase &friction) {
          .description = "friction bound S of Tresca's law (9)",
          .unit = "N/m^2",
          .required = true,
-         .range = not_negative(),
-         .used = friction.law == "tresca",
-         .used_with = "law = \"tresca\""},
+         .range = not_negative(sense::traction),
+         .used = with("law", friction.law, {"tresca"})},
         &friction.bound);
 }
 
@@ -27,24 +27,22 @@ void declare(Visitor &v, HeatExchangeCase &heat) {
          .choices = {"insulated", "exchange"},
          .foreseen = {"pressure_dependent", "frictional_heating"}},
         &heat.law);
-  const bool exchange = heat.law == "exchange";
-  const std::string used_with = "law = \"exchange\"";
+  const Use exchange = with("law", heat.law, {"exchange"});
   v.key({.name = "coefficient",
          .description = "coefficient of heat exchange k_c (13)",
          .unit = "W/(K m^2)",
          .required = true,
-         .range = not_negative(),
+         .range = not_negative(sense::heat_exchange),
          .constant_in_time = true,
-         .used = exchange,
-         .used_with = used_with},
+         .used = exchange},
         &heat.coefficient);
   v.key({.name = "foundation_temperature",
          .description = "temperature theta_f of the foundation (13), difference to the reference "
                         "temperature",
          .unit = "K",
          .required = true,
-         .used = exchange,
-         .used_with = used_with},
+         .range = any(sense::temperature),
+         .used = exchange},
         &heat.foundation_temperature);
 }
 

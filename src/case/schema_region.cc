@@ -25,8 +25,7 @@ void declare(Visitor &v, RegionCase &region, const MeshCase &mesh) {
       .choices = mesh.content ? mesh.content->regions.names : std::vector<std::string>{},
       .choices_words = "the names of a mesh file",
       .default_words = "none",
-      .used = !mesh.box && !mesh.annulus,
-      .used_with = "mesh.file"};
+      .used = with("mesh.file", !mesh.box && !mesh.annulus)};
   v.key(on, &region.on);
   v.optional({.name = "where",
               .description = "formula: a cell belongs to the region when this is not 0 at its "

@@ -13,8 +13,9 @@ namespace tourmaline::casefile {
 ///
 /// Besides muParser's own operators and functions it knows `if(c, a, b)` and `pi`. Of `if`, `?:`,
 /// `&&` and `||` only what decides is evaluated. Where any value that is evaluated on the way is
-/// infinite or not a number, a comparison or a `max` could hide it from the result: that is an error
-/// like a result that is not finite. `value` throws CaseError with `where()`, the text and the point.
+/// infinite or not a number, a comparison or a `max` could hide it from the result: that is an
+/// error like a result that is not finite. `value` throws CaseError with `where()`, the text and
+/// the point.
 class Formula {
  public:
   Formula() : Formula(0.0) {}

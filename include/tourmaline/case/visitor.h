@@ -21,6 +21,18 @@ struct Length {
 
 Length one_each_axis(int dimension);
 
+/// Whether the rest of its table gives a key a meaning, and what the rest must say for that.
+struct Use {
+  bool holds = true;
+  std::string words = {};
+};
+
+/// Used where the key `name`, whose value is `actual`, has one of these values.
+Use with(const std::string &name, const std::string &actual,
+         const std::vector<std::string> &values);
+/// Used where that key or table is given.
+Use with(const std::string &name, bool is_given);
+
 struct Key {
   std::string name;
   std::string description;  ///< a phrase without capital and full stop; of a table a sentence
@@ -34,8 +46,7 @@ struct Key {
   int rows = 0;                            ///< of a matrix
   bool constant_in_time = false;           ///< of a formula
   std::string default_words = {};          ///< the default where the value does not say it
-  bool used = true;            ///< whether the rest of the table gives the key a meaning
-  std::string used_with = {};  ///< what the rest must say for that
+  Use used = {};
   bool optional = false;       ///< not giving it differs from giving any value
 };
 
