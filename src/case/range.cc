@@ -41,12 +41,13 @@ std::string Range::words() const {
   return std::isfinite(low) ? lower : std::isfinite(high) ? upper : "";
 }
 
-std::string Range::sense_words() const {
-  if (sense.least > 0 && std::isfinite(sense.most))
-    return fmt::format("between {:g} and {:g} in size", sense.least, sense.most);
-  if (sense.least > 0)
-    return fmt::format("at least {:g} in size", sense.least);
-  return std::isfinite(sense.most) ? fmt::format("at most {:g} in size", sense.most) : "";
+std::string Range::sense_words(const std::string &unit) const {
+  const std::string in_unit = unit.empty() ? "" : " " + unit;
+  if (!std::isfinite(sense.most))
+    return "";
+  return sense.least > 0
+             ? fmt::format("from {:g} to {:g}{} in size", sense.least, sense.most, in_unit)
+             : fmt::format("at most {:g}{} in size", sense.most, in_unit);
 }
 
 Range positive(const Sense &sense) {
@@ -72,8 +73,7 @@ std::string complaint(const Range &range, double number, const std::string &unit
   if (!range.contains(number))
     return "must be " + range.words() + with_unit;
   if (!range.makes_sense(number))
-    return fmt::format("cannot be meant; a value other than 0 is {}{}", range.sense_words(),
-                       with_unit);
+    return "cannot be meant; it must be " + range.sense_words(unit);
   return "";
 }
 

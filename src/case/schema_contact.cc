@@ -6,6 +6,10 @@ namespace tourmaline::casefile {
 namespace {
 
 void declare(Visitor &v, FrictionCase &friction) {
+  for (const char *name : {"coefficient", "cohesion", "limit"})
+    v.refuse(name,
+             "belongs to Coulomb's law, which is not available in this version; law = \"tresca\" "
+             "has `bound`");
   v.key({.name = "law",
          .description = "none: the foundation is slippery; tresca: the tangential traction stays "
                         "below a given bound, and slip is opposed by it (9)",
@@ -54,9 +58,13 @@ void declare(Visitor &v, ContactCase &contact, const MeshCase &mesh) {
   v.key({.name = "normal",
          .description = "bilateral: contact is never lost, u_nu = 0 (9)",
          .choices = {"bilateral"},
-         .foreseen = {"signorini", "normal_compliance", "damped_response"}},
+         .foreseen = {"unilateral", "signorini", "compliance", "normal_compliance", "damped",
+                      "damped_response"}},
         &contact.normal);
   v.refuse("charge", "not available in this version; no charge crosses the contact boundary");
+  v.refuse("electric", "not available in this version; no charge crosses the contact boundary");
+  v.refuse("gap", "not available in this version; body and foundation touch at the time 0");
+  v.refuse("foundation_displacement", "not available in this version; the foundation rests");
   v.table({.name = "friction", .description = "The tangential contact law"},
           [&](Visitor &inner) { declare(inner, contact.friction); });
   v.table({.name = "heat", .description = "The heat flow between body and foundation"},

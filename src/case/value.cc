@@ -94,7 +94,13 @@ void check_choice(const Item &item, const std::string &text) {
     return;
   if (among(key.foreseen))
     fail(item, "not available in this version; allowed: " + listed(key.choices));
-  fail(item, "is not allowed; allowed: " + listed(key.choices) + did_you_mean(text, key.choices));
+  std::vector<std::string> known = key.choices;
+  known.insert(known.end(), key.foreseen.begin(), key.foreseen.end());
+  const std::optional<std::string> meant = nearest(text, known);
+  const bool is_foreseen =
+      meant && std::find(key.foreseen.begin(), key.foreseen.end(), *meant) != key.foreseen.end();
+  fail(item, "is not allowed; allowed: " + listed(key.choices) + did_you_mean(text, known) +
+                 (is_foreseen ? " That is not available in this version" : ""));
 }
 
 const toml::array &entries_of(const Item &item, const std::string &wanted) {
@@ -157,7 +163,8 @@ void read_into(const Item &item, double &value) {
 void read_into(const Item &item, std::string &value) {
   const auto given = item.node.value_exact<std::string>();
   if (!given)
-    fail_type(item, "a text");
+    fail_type(item,
+              item.key.choices.empty() ? "a text" : "a text, one of " + listed(item.key.choices));
   if (given->find('\0') != std::string::npos)
     fail(item, "has the character \\u0000, which no text can hold");
   check_choice(item, *given);

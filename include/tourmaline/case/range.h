@@ -26,8 +26,8 @@ struct Range {
   Range narrowed() const;
   /// "> 0", "from 1 to 2"; empty when every finite number is allowed.
   std::string words() const;
-  /// "between 1e-12 and 1e+09 in size"; empty when every size makes sense.
-  std::string sense_words() const;
+  /// "from 1e-12 to 1e+09 m in size"; empty when every size makes sense.
+  std::string sense_words(const std::string &unit) const;
 };
 
 Range positive(const Sense &sense = {});

@@ -47,7 +47,7 @@ struct Key {
   bool constant_in_time = false;           ///< of a formula
   std::string default_words = {};          ///< the default where the value does not say it
   Use used = {};
-  bool optional = false;       ///< not giving it differs from giving any value
+  bool optional = false;  ///< not giving it differs from giving any value
 };
 
 /// One entry for each component; empty where the component is free.
