@@ -150,7 +150,9 @@ std::string misreading(const std::string &text) {
     return "not a formula: it has a control character";
   if (has_assignment(text))
     return "not a formula: a single \"=\"; two values are compared with \"==\"";
-  constexpr int deepest = 200;
+  constexpr int deepest = 200, most_conditions = 1000;
+  if (std::count(text.begin(), text.end(), '?') > most_conditions)
+    return fmt::format("not a formula: more than {} conditions", most_conditions);
   if (nesting(text) > deepest)
     return fmt::format("not a formula: more than {} parentheses inside each other", deepest);
   return "";

@@ -74,8 +74,9 @@ bool take_if(std::string &text) {
 
 std::string lazy(Text text);
 
+// Its parts need no parentheses: `?:` binds weakest, and inside of them it comes from here.
 std::string branch(const std::string &condition, const std::string &yes, const std::string &no) {
-  return "((" + condition + ") ? (" + yes + ") : (" + no + "))";
+  return "(" + condition + "?" + yes + ":" + no + ")";
 }
 
 std::string lazy_arguments(Text text) {
@@ -132,7 +133,8 @@ std::string lazy(Text text) {
 }  // namespace
 
 std::string with_branches(const std::string &text) {
-  return lazy(text);
+  const auto has = [&](const char *operation) { return text.find(operation) != std::string::npos; };
+  return has("if") || has("&&") || has("||") ? lazy(text) : text;
 }
 
 int nesting(const std::string &text) {

@@ -16,6 +16,9 @@ std::string corners_complaint(const Box &box) {
   for (std::size_t i = 0; i < box.max.size(); ++i) {
     if (!(box.max[i] > box.min[i]))
       return fmt::format("entry {} must be greater than that of min, which is {}", i, box.min[i]);
+    if (box.max[i] - box.min[i] < sense::length.least)
+      return fmt::format("entry {} and that of min, {}, make a side shorter than {:g} m", i,
+                         box.min[i], sense::length.least);
     // Below this the corners of a cell are the same numbers.
     const double size = (box.max[i] - box.min[i]) / box.cells[i];
     const double far = std::max(std::abs(box.min[i]), std::abs(box.max[i]));

@@ -129,6 +129,18 @@ TEST(Formula, ControlCharactersAreRefused) {
 TEST(Formula, ThatIsNestedTooDeeplyIsRefused) {
   const std::string deep = std::string(5000, '(') + "x" + std::string(5000, ')');
   EXPECT_THAT(error_of(deep), HasSubstr("parentheses"));
+  std::string chain = "0";
+  for (int i = 0; i < 900; ++i)
+    chain = "x==" + std::to_string(i) + "?" + std::to_string(i + 1) + ":" + chain;
+  EXPECT_EQ(Formula(chain).value({500, 0, 0}, 0), 501);
+  for (int i = 0; i < 200; ++i)
+    chain = "1?1:" + chain;
+  EXPECT_THAT(error_of(chain), HasSubstr("conditions"));
+  std::string either = "x==0";
+  for (int i = 1; i < 1000; ++i)
+    either += "||x==" + std::to_string(i);
+  EXPECT_EQ(Formula(either).value({999, 0, 0}, 0), 1);
+  EXPECT_EQ(Formula(either).value({1000, 0, 0}, 0), 0);
 }
 
 TEST(Formula, ValuesOutsideOfTheRangeSayWhereAndWhen) {

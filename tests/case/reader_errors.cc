@@ -115,6 +115,7 @@ const Mistake numbers[] = {
     {"cells = [64, 64]", "cells = [64, 0]", {"cells[1] = 0", "must be >= 1"}},
     {"cells = [64, 64]", "cells = [200000, 200000]", {"[mesh.box] cells", "unknowns"}},
     {"max = [0.1, 0.1]", "max = [0.1, 0]", {"[mesh.box] max", "entry 1 must be greater"}},
+    {"max = [0.1, 0.1]", "max = [0.1, 1e-200]", {"entry 1", "a side shorter than 1e-12 m"}},
     {"max = [0.1, 0.1]", "max = [0.1, 1e-400]", {"entry 1 must be greater"}},
     {"min = [0, 0], max = [0.1, 0.1]",
      "min = [1e8, 0], max = [1.00000000001e8, 0.1]",
