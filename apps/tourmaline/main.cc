@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "printable_output.h"
 #include "sweep_command.h"
 #include "tourmaline/case/json_schema.h"
 #include "tourmaline/case/nearest.h"
@@ -36,7 +37,7 @@ struct Asked {
   std::vector<std::filesystem::path> folders;
   std::vector<std::string> overrides;
   std::string material, materials_file;
-  bool quiet = false, resume = false;
+  bool quiet = false, resume = false, json = false;
   std::string format = "svg";
   std::vector<std::string> fields;
   std::optional<double> time;
@@ -62,15 +63,17 @@ void check(const Asked &asked) {
 }
 
 void materials(const Asked &asked) {
+  using namespace tourmaline::material;
   if (asked.material.empty()) {
-    std::cout << tourmaline::material::describe_library(asked.materials_file);
+    std::cout << (asked.json ? library_json(asked.materials_file)
+                             : describe_library(asked.materials_file));
     return;
   }
   tourmaline::casefile::MaterialCase material;
   material.library = asked.material;
   if (!asked.materials_file.empty())
     material.file = asked.materials_file;
-  std::cout << tourmaline::material::describe(material);
+  std::cout << (asked.json ? entry_json(material) : describe(material));
 }
 
 // Two folders are no part of each other, so their page stands beside them, where one stands now.
@@ -155,6 +158,8 @@ void add_materials(CLI::App &app, Asked &asked) {
   CLI::App *command = app.add_subcommand("materials", "list the built-in materials, or show one");
   command->add_option("NAME", asked.material, "the material to show");
   command->add_option("--file", asked.materials_file, "a file of materials instead of the library");
+  command->add_flag("--json", asked.json,
+                    "print it as JSON, for programs: constants, and what a case must add");
   command->callback([&asked] { materials(asked); });
 }
 
@@ -272,6 +277,7 @@ void require_room_or_end() {
 }  // namespace
 
 int main(int argc, char **argv) {
+  const PrintableOutput said(std::cout), complained(std::cerr);
   // On several ranks MPI runs until an error has been told: a rank that ended before the first one
   // has spoken would take it along.
   std::optional<tourmaline::solve::Process> process;

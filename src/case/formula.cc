@@ -4,10 +4,13 @@
 #include <muParser.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cfenv>
 #include <cmath>
 #include <mutex>
 #include <utility>
 
+#include "formula_branches.h"
 #include "tourmaline/case/nearest.h"
 #include "tourmaline/case/toml_text.h"
 #include "tourmaline/error.h"
@@ -16,11 +19,8 @@ namespace tourmaline::casefile {
 
 namespace {
 
-// muParser's own `c ? a : b`, in the form that the case files use. A condition that is not a number
-// must not pass for true.
+// Only for its name and its number of arguments: `with_branches` writes it as `c ? a : b`.
 double choose(double condition, double yes, double no) {
-  if (std::isnan(condition))
-    return condition;
   return condition != 0 ? yes : no;
 }
 
@@ -87,17 +87,51 @@ std::string reason_of(const mu::Parser::exception_type &error) {
 
 }  // namespace
 
+namespace {
+
+/// What one evaluation found.
+struct Evaluated {
+  double value;
+  const char *trouble;  ///< what a value on the way was that is no finite number, or nullptr
+};
+
+// A comparison, a condition or a `max` drops what is not a number, and 1/inf is 0; the processor
+// remembers for the thread that such a value arose.
+template <class Evaluate>
+Evaluated watched(const Evaluate &evaluate) {
+  constexpr int troubles = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
+  if (std::fetestexcept(troubles) != 0)
+    std::feclearexcept(troubles);
+  const double value = evaluate();
+  const int found = std::fetestexcept(troubles);
+  if (found != 0)
+    std::feclearexcept(troubles);
+  if (std::isnan(value) || (found & FE_INVALID) != 0)
+    return {value, "nan"};
+  return {value, found != 0 || std::isinf(value) ? "inf" : nullptr};
+}
+
+std::string complaint_about(const Evaluated &found) {
+  return fmt::format("{} not a finite number ({})",
+                     std::isfinite(found.value) ? "uses a value on the way that is" : "is",
+                     found.trouble);
+}
+
+}  // namespace
+
 /// muParser reads its variables from fixed addresses, so that one evaluation at a time is possible.
 struct Formula::Expression {
   std::string text;
+  Range range;
+  std::string unit;
   mutable std::mutex one_at_a_time;
   mutable std::array<double, 4> variables{};
   mu::Parser parser;
 
-  double evaluate(const std::array<double, 3> &point, double time) const {
+  Evaluated evaluate(const std::array<double, 3> &point, double time) const {
     const std::lock_guard lock(one_at_a_time);
     variables = {point[0], point[1], point[2], time};
-    return parser.Eval();
+    return watched([&] { return parser.Eval(); });
   }
 };
 
@@ -107,38 +141,74 @@ Formula::Formula(double number, std::string where) : number_(number), where_(std
         fmt::format("{}{}: is not a finite number", where_.empty() ? "" : where_ + " = ", number));
 }
 
-Formula::Formula(const std::string &text, std::string where) : where_(std::move(where)) {
+namespace {
+
+// What would be read otherwise than it is meant.
+std::string misreading(const std::string &text) {
+  const auto is_control = [](unsigned char c) { return std::iscntrl(c) != 0 && !std::isspace(c); };
+  if (std::any_of(text.begin(), text.end(), is_control))
+    return "not a formula: it has a control character";
+  if (has_assignment(text))
+    return "not a formula: a single \"=\"; two values are compared with \"==\"";
+  constexpr int deepest = 200, most_conditions = 1000;
+  if (std::count(text.begin(), text.end(), '?') > most_conditions)
+    return fmt::format("not a formula: more than {} conditions", most_conditions);
+  if (nesting(text) > deepest)
+    return fmt::format("not a formula: more than {} parentheses inside each other", deepest);
+  return "";
+}
+
+}  // namespace
+
+Formula::Formula(const std::string &text, std::string where, const Range &range, std::string unit)
+    : where_(std::move(where)) {
+  if (const std::string reason = misreading(text); !reason.empty())
+    fail(where_, text, reason);
   auto expression = std::make_shared<Expression>();
   expression->text = text;
-  if (has_assignment(text))
-    fail(where_, text, "not a formula: a single \"=\"; two values are compared with \"==\"");
+  expression->range = range;
+  expression->unit = std::move(unit);
+  mu::Parser &parser = expression->parser;
   try {
-    define_names(expression->parser, expression->variables);
-    expression->parser.SetExpr(text);
-    // The first evaluation is the one that parses.
-    number_ = expression->parser.Eval();
-    if (expression->parser.GetNumResults() != 1)
+    // A constant part must be computed, and watched, whenever it decides: 1/0 in "t < 1/0".
+    parser.EnableOptimizer(false);
+    define_names(parser, expression->variables);
+    parser.SetExpr(text);
+    parser.Eval();  // the first evaluation is the one that parses
+    if (parser.GetNumResults() != 1)
       fail(where_, text, "not a formula: a comma outside of a function; decimals take a point");
-    for (const auto &[name, address] : expression->parser.GetUsedVar())
+    for (const auto &[name, address] : parser.GetUsedVar())
       (name == "t" ? uses_time_ : uses_place_) = true;
+    parser.SetExpr(with_branches(text));
+    parser.Eval();
   } catch (const mu::Parser::exception_type &error) {
     fail(where_, text, reason_of(error));
   }
-  if (uses_time_ || uses_place_)
+  if (uses_time_ || uses_place_) {
     expression_ = std::move(expression);
-  else if (!std::isfinite(number_))
-    fail(where_, text, fmt::format("is not a finite number ({})", std::abs(number_)));
+    return;
+  }
+  const Evaluated found = expression->evaluate({}, 0);
+  if (found.trouble)
+    fail(where_, text, complaint_about(found));
+  number_ = found.value;
 }
 
 double Formula::value(const std::array<double, 3> &point, double time) const {
   if (!expression_)
     return number_;
-  const double value = expression_->evaluate(point, time);
-  if (!std::isfinite(value))
-    fail(where_, expression_->text,
-         fmt::format("is not a finite number ({}) at x = {}, y = {}, z = {} m, t = {} s",
-                     std::isnan(value) ? "nan" : "inf", point[0], point[1], point[2], time));
-  return value;
+  const Evaluated found = expression_->evaluate(point, time);
+  if (!found.trouble && expression_->range.contains(found.value) &&
+      std::abs(found.value) <= expression_->range.sense.most)
+    return found.value;
+  const Range &range = expression_->range;
+  const std::string reason = found.trouble
+                                 ? complaint_about(found)
+                                 : fmt::format("is {:g}, but {}", found.value,
+                                               complaint(range, found.value, expression_->unit));
+  fail(where_, expression_->text,
+       fmt::format("{}, at x = {}, y = {}, z = {} m, t = {} s", reason, point[0], point[1],
+                   point[2], time));
 }
 
 std::string Formula::text() const {

@@ -11,6 +11,8 @@ namespace tourmaline::casefile {
 
 namespace {
 
+constexpr double longest = 1e12;  // [s]; clocks count no further
+
 std::optional<Interval> in_unit(double number, const std::string &unit) {
   const bool whole = number == std::floor(number) && number <= std::numeric_limits<int>::max();
   if ((unit == "steps" && whole) || (unit == "step" && number == 1))
@@ -20,7 +22,7 @@ std::optional<Interval> in_unit(double number, const std::string &unit) {
     double seconds;
   } units[] = {{"s", 1}, {"min", 60}, {"h", 3600}};
   for (const auto &known : units)
-    if (unit == known.name)
+    if (unit == known.name && number * known.seconds < longest)
       return Interval{.seconds = number * known.seconds};
   return std::nullopt;
 }

@@ -73,7 +73,7 @@ class Table : public Visitor {
   }
 
   void key(const Key &key, Value value) override {
-    add(key, key.used ? schema_of_key(key, value) : Json(false));
+    add(key, key.used.holds ? schema_of_key(key, value) : Json(false));
     if (const auto text = std::get_if<std::string *>(&value); text && !key.choices.empty())
       choose(key, **text);
   }
@@ -126,7 +126,7 @@ class Table : public Visitor {
 
   void add(const Key &key, const Json &schema) {
     properties_[key.name] = schema;
-    if (key.required && key.used)
+    if (key.required && key.used.holds)
       required_.push_back(key.name);
   }
 
@@ -153,10 +153,10 @@ class Table : public Visitor {
   std::set<std::string> arrays_;
 };
 
-Json visited(Visit &visit) {
+Json visited(const Declaration &declaration, Visit &visit) {
   Case asked;
   Table root("", visit);
-  declare(root, asked);
+  declaration(root, asked);
   return root.schema();
 }
 
@@ -191,18 +191,86 @@ Json without_key(Json demand, const std::string &key) {
   return demand.empty() ? Json() : demand;
 }
 
-// What the switch's table is, by its positions; the first of a switch without choices is "given".
-std::vector<Json> positions_of(const Switch &turned, const MeshKind &kind, const Json &given) {
+/// One kind of mesh: the case with every switch as it is without its key, the switches, and what
+/// their tables are in each of their positions; the first of a switch without choices is "given".
+struct Variant {
+  const MeshKind &kind;
+  Json standard, any;
+  std::vector<Switch> switches;
+  std::vector<std::vector<Json>> positions;
+};
+
+std::vector<Json> positions_of(const Declaration &declaration, const Switch &turned,
+                               const Variant &variant) {
   std::vector<Json> all;
   if (turned.choices.empty())
-    all.push_back(at(given, turned.table));
+    all.push_back(at(variant.standard, turned.table));
   std::vector<std::string> choices = turned.choices;
   if (choices.empty())
     choices.emplace_back();
   for (const std::string &choice : choices) {
-    Visit visit{kind, {turned.table, turned.key, choice}};
-    all.push_back(at(visited(visit), turned.table));
+    Visit visit{variant.kind, {turned.table, turned.key, choice}};
+    all.push_back(at(visited(declaration, visit), turned.table));
   }
+  return all;
+}
+
+Variant variant_of(const Declaration &declaration, const MeshKind &kind) {
+  Visit visit{kind};
+  Variant variant{kind, visited(declaration, visit), {}, {}, {}};
+  variant.any = variant.standard;
+  std::set<std::pair<std::string, std::string>> seen;
+  for (const Switch &turned : visit.switches)
+    if (seen.emplace(turned.table, turned.key).second) {
+      variant.switches.push_back(turned);
+      variant.positions.push_back(positions_of(declaration, turned, variant));
+      Json &table = variant.any.at(Json::json_pointer(turned.table));
+      for (const Json &position : variant.positions.back())
+        table = merged(table, position);
+    }
+  return variant;
+}
+
+/// A switch in all kinds of meshes that have it.
+struct SharedSwitch {
+  Switch turned;                             ///< with the choices of all
+  std::vector<std::vector<Json>> of_choice;  ///< by position, the table in each of the kinds
+};
+
+void add(SharedSwitch &shared, const Switch &turned, const std::vector<Json> &positions) {
+  std::vector<std::string> &known = shared.turned.choices;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    std::size_t place = i;
+    if (!turned.choices.empty()) {
+      const auto found = std::find(known.begin(), known.end(), turned.choices[i]);
+      place = static_cast<std::size_t>(found - known.begin());
+      if (found == known.end())
+        known.push_back(turned.choices[i]);
+    }
+    shared.of_choice.resize(std::max(shared.of_choice.size(), place + 1));
+    shared.of_choice[place].push_back(positions[i]);
+  }
+}
+
+std::vector<SharedSwitch> shared_switches(const std::vector<Variant> &variants) {
+  std::vector<SharedSwitch> all;
+  for (const Variant &variant : variants)
+    for (std::size_t i = 0; i < variant.switches.size(); ++i) {
+      const Switch &turned = variant.switches[i];
+      auto shared = std::find_if(all.begin(), all.end(), [&](const SharedSwitch &other) {
+        return other.turned.table == turned.table && other.turned.key == turned.key;
+      });
+      if (shared == all.end())
+        shared = all.insert(all.end(), {turned, {}});
+      add(*shared, turned, variant.positions[i]);
+    }
+  return all;
+}
+
+Json merged_all(const std::vector<Json> &schemas) {
+  Json all = schemas.front();
+  for (const Json &schema : schemas)
+    all = merged(all, schema);
   return all;
 }
 
@@ -220,17 +288,17 @@ void add_rules_of_choices(Json &table, const Switch &turned, const std::vector<J
   }
 }
 
-// Makes the table accept what it may hold in any position of the switch, and tells the rules.
-void add_switch(Json &schema, const Switch &turned, const MeshKind &kind, const Json &given) {
-  const std::vector<Json> positions = positions_of(turned, kind, given);
-  Json any = positions.front();
-  for (const Json &position : positions)
-    any = merged(any, position);
+// What the position of the switch demands of its table, whatever the mesh.
+void add_rules(Json &schema, const SharedSwitch &shared) {
+  std::vector<Json> positions;
+  for (const std::vector<Json> &of_kinds : shared.of_choice)
+    positions.push_back(merged_all(of_kinds));
+  const Json any = merged_all(positions);
   std::vector<Json> demands(positions.size());
   std::transform(positions.begin(), positions.end(), demands.begin(),
                  [&](const Json &position) { return beyond(any, position); });
+  const Switch &turned = shared.turned;
   Json &table = schema.at(Json::json_pointer(turned.table));
-  table = merged(table, any);
   if (!turned.choices.empty())
     add_rules_of_choices(table, turned, demands);
   else
@@ -254,30 +322,25 @@ void add_mesh_rule(Json &schema, const MeshKind &kind, const Json &any, const Js
   add_rule(schema, condition, beyond(without_mesh(any), without_mesh(special)));
 }
 
-Json complete() {
-  std::vector<Visit> visits;
-  std::vector<Json> specials;
+Json complete(const Declaration &declaration) {
+  std::vector<Variant> variants;
+  std::vector<Json> all;
   for (const MeshKind &kind : mesh_kinds) {
-    visits.push_back({kind});
-    specials.push_back(visited(visits.back()));
+    variants.push_back(variant_of(declaration, kind));
+    all.push_back(variants.back().any);
   }
-  Json any = specials.front();
-  for (const Json &special : specials)
-    any = merged(any, special);
+  const Json any = merged_all(all);
   Json schema = any;
-  std::set<std::pair<std::string, std::string>> done;
-  for (std::size_t i = 0; i < specials.size(); ++i)
-    for (const Switch &turned : visits[i].switches)
-      if (done.emplace(turned.table, turned.key).second)
-        add_switch(schema, turned, mesh_kinds[i], specials[i]);
-  for (std::size_t i = 0; i < specials.size(); ++i)
-    add_mesh_rule(schema, mesh_kinds[i], any, specials[i]);
+  for (const SharedSwitch &shared : shared_switches(variants))
+    add_rules(schema, shared);
+  for (const Variant &variant : variants)
+    add_mesh_rule(schema, variant.kind, any, variant.any);
   return schema;
 }
 
 }  // namespace
 
-std::string json_schema() {
+std::string json_schema(const Declaration &declaration) {
   Json schema{
       {"$schema", "https://json-schema.org/draft/2020-12/schema"},
       {"$id", fmt::format("urn:tourmaline:case-file:{}", schema_version)},
@@ -287,8 +350,12 @@ std::string json_schema() {
        "All values are SI; temperatures are differences to the reference temperature. Printed by "
        "`tourmaline schema`. What a case must satisfy beyond this schema, `tourmaline check` "
        "says."}};
-  schema.update(complete());
+  schema.update(complete(declaration));
   return schema.dump(2) + "\n";
+}
+
+std::string json_schema() {
+  return json_schema([](Visitor &visitor, Case &asked) { declare(visitor, asked); });
 }
 
 }  // namespace tourmaline::casefile

@@ -19,10 +19,11 @@ Json plain(double number) {
 
 Json limited(const char *type, const Range &range) {
   Json schema{{"type", type}};
-  if (std::isfinite(range.low))
-    schema[range.low_allowed ? "minimum" : "exclusiveMinimum"] = plain(range.low);
-  if (std::isfinite(range.high))
-    schema[range.high_allowed ? "maximum" : "exclusiveMaximum"] = plain(range.high);
+  const Range both = range.narrowed();
+  if (std::isfinite(both.low))
+    schema[both.low_allowed ? "minimum" : "exclusiveMinimum"] = plain(both.low);
+  if (std::isfinite(both.high))
+    schema[both.high_allowed ? "maximum" : "exclusiveMaximum"] = plain(both.high);
   return schema;
 }
 
@@ -105,10 +106,12 @@ std::string description_of(const Key &key, const Value &value) {
     text += "; entries: " + key.length.words;
   if (const std::string range = key.range.words(); !range.empty())
     text += "; " + range;
+  if (const std::string sizes = key.range.sense_words(""); !sizes.empty())
+    text += "; " + sizes;
   if (key.constant_in_time)
     text += "; must not depend on t";
-  if (!key.used_with.empty())
-    text += "; only with " + key.used_with;
+  if (!key.used.words.empty())
+    text += "; only with " + key.used.words;
   if (!key.foreseen.empty())
     text += fmt::format("; not available in this version: {}", fmt::join(key.foreseen, ", "));
   return key.default_words.empty() ? text : text + "; default: " + key.default_words;

@@ -25,8 +25,13 @@ class Names : public Visitor {
  public:
   std::vector<std::string> all;
   std::vector<std::pair<std::string, std::string>> refused;
+  std::vector<Key> laws;  ///< on whose texts it may depend which other keys there are
 
-  void key(const Key &key, Value) override { all.push_back(key.name); }
+  void key(const Key &key, Value value) override {
+    all.push_back(key.name);
+    if (std::holds_alternative<std::string *>(value) && !key.choices.empty())
+      laws.push_back(key);
+  }
   bool given(const Key &key, bool) override {
     all.push_back(key.name);
     return false;
@@ -92,35 +97,42 @@ class Reader : public Visitor {
   void read_all(const Body &body) {
     Names names;
     body(names);
+    check_laws(names.laws);
     for (const auto &[name, node] : table_)
       check_known(name, node, names);
     body(*this);
+    if (!missing_.empty())
+      fail_missing();
   }
 
   void key(const Key &key, Value value) override {
     const toml::node *node = table_.get(key.name);
-    if (!key.used) {
+    if (!key.used.holds) {
       if (node)
-        fail(item(*node, key), "is only used with " + key.used_with);
+        fail(item(*node, key), "is only used with " + key.used.words);
       return;
     }
     if (node)
       read(item(*node, key), value);
     else if (key.required)
-      fail_missing(key);
+      missing_.push_back(key);
   }
 
   bool given(const Key &key, bool) override {
     const bool present = table_.contains(key.name);
-    if (!present && key.required)
-      fail_missing(key);
+    if (!present && key.required) {
+      missing_.push_back(key);
+      fail_missing();
+    }
     return present;
   }
 
   void table(const Key &key, const Body &body) override {
     const toml::node *node = table_.get(key.name);
-    if (!node && key.required)
-      fail_missing(key);
+    if (!node && key.required) {
+      missing_.push_back(key);
+      fail_missing();  // what follows depends on it
+    }
     if (!node)
       return;
     const toml::table *inner = node->as_table();
@@ -151,6 +163,8 @@ class Reader : public Visitor {
   }
 
   void check(const std::string &name, const Complaint &complaint) override {
+    if (!missing_.empty())
+      return;
     const std::string text = complaint();
     if (text.empty())
       return;
@@ -198,10 +212,24 @@ class Reader : public Visitor {
     return {node, key, full_name(key.name)};
   }
 
-  [[noreturn]] void fail_missing(const Key &key) const {
-    const std::string unit = key.unit.empty() ? "" : " [" + key.unit + "]";
-    throw CaseError(fmt::format("{}: missing, but must be given: {}{}",
-                                where(table_.source(), key.name), key.description, unit));
+  // A law that does not exist is the mistake, and not the keys that it would have.
+  void check_laws(const std::vector<Key> &laws) const {
+    std::string ignored;
+    for (const Key &law : laws)
+      if (const toml::node *node = table_.get(law.name))
+        read(item(*node, law), &ignored);
+  }
+
+  [[noreturn]] void fail_missing() const {
+    std::string names, meanings;
+    for (const Key &key : missing_) {
+      const std::string unit = key.unit.empty() ? "" : " [" + key.unit + "]";
+      names += (names.empty() ? "" : ", ") + key.name;
+      meanings += (meanings.empty() ? "" : "; ") + (missing_.size() > 1 ? key.name + ", " : "") +
+                  key.description + unit;
+    }
+    throw CaseError(
+        fmt::format("{}: missing, but must be given: {}", where(table_.source(), names), meanings));
   }
 
   void check_known(const toml::key &key, const toml::node &node, const Names &names) const {
@@ -223,6 +251,7 @@ class Reader : public Visitor {
 
   const toml::table &table_;
   std::string path_;  ///< of the table, with dots
+  std::vector<Key> missing_;
   const Context &context_;
 };
 

@@ -20,7 +20,9 @@ printed by `tourmaline reference` from the declarations that the program reads w
 (`src/case/schema*.cc`).
 
 All values are SI. Temperatures are differences to the reference temperature. Unknown keys, wrong types
-and impossible values are errors that say the place and what is allowed. `tourmaline check CASE.toml`
+and impossible values are errors that say the place and what is allowed. "At most ... in size" and "from ... to ... in
+size" hold for numbers other than 0 without their sign; they are orders of magnitude beyond materials and devices, so that
+what lies outside is a slip. `tourmaline check CASE.toml`
 prints the complete case with all defaults filled in; that text is itself a case file.
 
 [case.schema.json](case.schema.json), printed by `tourmaline schema`, is the same as JSON Schema (draft
@@ -54,7 +56,11 @@ std::string formulas() {
   return fmt::format(
       "- variables: {} (place [m] and time [s])\n- constants: {}\n- functions: {}\n\n"
       "`if(c, a, b)` is `c ? a : b`, `log` and `ln` are the natural logarithm, `mod(a, b)` has the "
-      "sign of b.\nA formula whose value is infinite or not a number ends the run with an error.\n",
+      "sign of b.\nOf `if`, `?:`, `&&` and `||` only what decides is evaluated. A formula in which "
+      "any "
+      "value that is evaluated is infinite or not a\nnumber ends the run with an error, as does "
+      "one "
+      "whose value is not in the range of its key.\n",
       code_list(names.variables), code_list(names.constants), code_list(names.functions));
 }
 
@@ -121,10 +127,12 @@ class Page : public Visitor {
       text += "; entries: " + key.length.words;
     if (const std::string range = key.range.words(); !range.empty())
       text += "; " + range;
+    if (const std::string sizes = key.range.sense_words(""); !sizes.empty())
+      text += "; " + sizes;
     if (key.constant_in_time)
       text += "; must not depend on t";
-    if (!key.used_with.empty())
-      text += "; only with `" + key.used_with + "`";
+    if (!key.used.words.empty())
+      text += "; only with `" + key.used.words + "`";
     return text;
   }
 

@@ -18,7 +18,7 @@ class Writer : public Visitor {
 
   void key(const Key &key, Value value) override {
     const std::string text = toml_text(value);
-    if (key.used && !text.empty())
+    if (key.used.holds && !text.empty())
       keys_ += key.name + " = " + text + "\n";
   }
 

@@ -1,6 +1,7 @@
 #include "tourmaline/case/schema.h"
 
 #include "schema_parts.h"
+#include "sense.h"
 #include "tourmaline/case/interval.h"
 
 namespace tourmaline::casefile {
@@ -12,7 +13,7 @@ void declare(Visitor &v, TimeCase &time) {
          .description = "time at which the simulation ends; it begins at 0",
          .unit = "s",
          .required = true,
-         .range = positive()},
+         .range = positive(sense::time)},
         &time.end);
   v.key({.name = "steps",
          .description = "number of equal time steps (backward Euler)",
@@ -25,12 +26,19 @@ void declare(Visitor &v, LoadCase &load, int dimension) {
   v.key({.name = "force",
          .description = "force f_0 on the volume (4)",
          .unit = "N/m^3",
+         .range = any(sense::volume_force),
          .length = one_each_axis(dimension),
          .default_words = "none"},
         &load.force);
-  v.key({.name = "charge", .description = "free charge phi_0 in the volume (5)", .unit = "C/m^3"},
+  v.key({.name = "charge",
+         .description = "free charge phi_0 in the volume (5)",
+         .unit = "C/m^3",
+         .range = any(sense::charge)},
         &load.charge);
-  v.key({.name = "heat", .description = "heat source q_0 in the volume (6)", .unit = "W/m^3"},
+  v.key({.name = "heat",
+         .description = "heat source q_0 in the volume (6)",
+         .unit = "W/m^3",
+         .range = any(sense::heat_source)},
         &load.heat);
 }
 
@@ -38,6 +46,7 @@ void declare(Visitor &v, InitialCase &initial, int dimension) {
   v.key({.name = "displacement",
          .description = "displacement u_0 at the time 0",
          .unit = "m",
+         .range = any(sense::coordinate),
          .length = one_each_axis(dimension),
          .constant_in_time = true,
          .default_words = "zero"},
@@ -45,46 +54,44 @@ void declare(Visitor &v, InitialCase &initial, int dimension) {
   v.key({.name = "potential",
          .description = "electric potential at the time 0",
          .unit = "V",
+         .range = any(sense::potential),
          .constant_in_time = true},
         &initial.potential);
   v.key(
       {.name = "temperature",
        .description = "temperature theta_0 at the time 0, difference to the reference temperature",
        .unit = "K",
+       .range = any(sense::temperature),
        .constant_in_time = true},
       &initial.temperature);
 }
 
 void declare_augmented_lagrangian(Visitor &v, SolverCase &solver) {
-  const bool monolithic = solver.method == "monolithic";
-  const std::string used_with = "method = \"monolithic\"";
+  const Use monolithic = with("method", solver.method, {"monolithic"});
   const std::string from_stiffness = "from the stiffness of the body at the contact";
   v.key({.name = "multiplier",
          .description = "where the contact multipliers live; nodal: at the contact nodes, with "
                         "lumped weights; piecewise-constant: on the facets (section 3.1), with "
                         "the facet means of u_nu and du_tau",
          .choices = {"nodal", "piecewise-constant"},
-         .used = monolithic,
-         .used_with = used_with},
+         .used = monolithic},
         &solver.multiplier);
   v.optional({.name = "r_normal",
               .description = "r_nu of the augmented Lagrangian (40); it changes the number of "
                              "iterations, not the solution",
               .unit = "N/m^3",
-              .range = positive(),
+              .range = positive(sense::augmentation),
               .default_words = from_stiffness,
-              .used = monolithic,
-              .used_with = used_with},
+              .used = monolithic},
              solver.r_normal);
   v.optional({.name = "r_tangential",
               .description = "r_tau of the augmented Lagrangian (41), which multiplies the slip "
                              "rate du_tau / k; it changes the number of iterations, not the "
                              "solution",
               .unit = "N s/m^3",
-              .range = positive(),
+              .range = positive(sense::augmentation),
               .default_words = from_stiffness,
-              .used = monolithic,
-              .used_with = used_with},
+              .used = monolithic},
              solver.r_tangential);
 }
 
@@ -102,21 +109,23 @@ void declare(Visitor &v, SolverCase &solver) {
              "for a factorisation; automatic: direct where its estimated memory is at most half of "
              "what is available",
          .choices = {"automatic", "direct", "iterative"},
-         .used = solver.method == "condensed",
-         .used_with = "method = \"condensed\""},
+         .used = with("method", solver.method, {"condensed"})},
         &solver.body);
   v.key(
       {.name = "linear_tolerance",
        .description = "at which the iterative solution of the body's equations stops: norm of the "
                       "residual over that of the largest contribution, in each field",
-       .range = {.low = 0, .high = 1e-3, .low_allowed = false},
-       .used = solver.body != "direct",
-       .used_with = "body = \"iterative\" or \"automatic\""},
+       .range = {.low = 0, .high = 1e-3, .low_allowed = false, .sense = sense::tolerance},
+       .used = with("body", solver.body, {"iterative", "automatic"})},
       &solver.linear_tolerance);
   v.key({.name = "tolerance",
          .description = "at which the contact iteration stops: natural residual divided by the "
                         "largest nodal force",
-         .range = {.low = 0, .high = 1, .low_allowed = false, .high_allowed = false}},
+         .range = {.low = 0,
+                   .high = 1,
+                   .low_allowed = false,
+                   .high_allowed = false,
+                   .sense = sense::tolerance}},
         &solver.tolerance);
   v.key({.name = "max_iterations",
          .description = "Newton iterations in one step after which the run fails",

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "schema_parts.h"
+#include "sense.h"
 #include "tourmaline/case/sides.h"
 
 namespace tourmaline::casefile {
@@ -39,6 +40,7 @@ void declare_mechanics(Visitor &v, BoundaryCase &boundary, int dimension) {
   v.optional({.name = "displacement",
               .description = "prescribed displacement u; a component may be \"free\"",
               .unit = "m",
+              .range = any(sense::coordinate),
               .length = one_each_axis(dimension)},
              boundary.displacement);
   v.optional({.name = "traction",
@@ -46,6 +48,7 @@ void declare_mechanics(Visitor &v, BoundaryCase &boundary, int dimension) {
                   "force on the body, sigma nu = f_N (8), nu the outward normal; must be 0 where "
                   "the displacement is prescribed",
               .unit = "N/m^2",
+              .range = any(sense::traction),
               .length = one_each_axis(dimension)},
              boundary.traction);
 }
@@ -56,18 +59,25 @@ void declare(Visitor &v, BoundaryCase &boundary, const MeshCase &mesh, int dimen
         &boundary.on);
   v.check("on", [&] { return inside_complaint(boundary.on, mesh); });
   declare_mechanics(v, boundary, dimension);
-  v.optional({.name = "potential", .description = "prescribed electric potential", .unit = "V"},
+  v.optional({.name = "potential",
+              .description = "prescribed electric potential",
+              .unit = "V",
+              .range = any(sense::potential)},
              boundary.potential);
-  v.optional(
-      {.name = "surface_charge", .description = "free charge, D.nu = phi_b (11)", .unit = "C/m^2"},
-      boundary.surface_charge);
+  v.optional({.name = "surface_charge",
+              .description = "free charge, D.nu = phi_b (11)",
+              .unit = "C/m^2",
+              .range = any(sense::charge)},
+             boundary.surface_charge);
   v.optional({.name = "temperature",
               .description = "prescribed difference to the reference temperature",
-              .unit = "K"},
+              .unit = "K",
+              .range = any(sense::temperature)},
              boundary.temperature);
   v.optional({.name = "heat_flux",
               .description = "heat flow q.nu; positive leaves the body",
-              .unit = "W/m^2"},
+              .unit = "W/m^2",
+              .range = any(sense::heat_flux)},
              boundary.heat_flux);
 }
 
@@ -83,22 +93,24 @@ void declare(Visitor &v, ElectrodeCase &electrode, const MeshCase &mesh) {
   v.optional({.name = "voltage",
               .description = "potential of the electrode over time; beside a resistor or capacitor "
                              "that of their other end, 0 when not given",
-              .unit = "V"},
+              .unit = "V",
+              .range = any(sense::potential)},
              electrode.voltage);
   v.optional({.name = "charge",
               .description = "total charge on the electrode over time, -integral of D.nu; its "
                              "potential follows",
-              .unit = "C (2D: C/m)"},
+              .unit = "C (2D: C/m)",
+              .range = any(sense::charge)},
              electrode.charge);
   v.optional({.name = "resistor",
               .description = "resistance between the electrode and ground, or `voltage`, or `to`",
               .unit = "ohm (2D: ohm m)",
-              .range = positive()},
+              .range = positive(sense::resistance)},
              electrode.resistor);
   v.optional({.name = "capacitor",
               .description = "capacitance between the same two, parallel to the resistor",
               .unit = "F (2D: F/m)",
-              .range = positive()},
+              .range = positive(sense::capacitance)},
              electrode.capacitor);
   v.optional({.name = "to",
               .description = "name of the electrode that resistor and capacitor lead to, instead "

@@ -1,10 +1,15 @@
 #include "schema_parts.h"
+#include "sense.h"
 
 namespace tourmaline::casefile {
 
 namespace {
 
 void declare(Visitor &v, FrictionCase &friction) {
+  for (const char *name : {"coefficient", "cohesion", "limit"})
+    v.refuse(name,
+             "belongs to Coulomb's law, which is not available in this version; law = \"tresca\" "
+             "has `bound`");
   v.key({.name = "law",
          .description = "none: the foundation is slippery; tresca: the tangential traction stays "
                         "below a given bound, and slip is opposed by it (9)",
@@ -15,9 +20,8 @@ void declare(Visitor &v, FrictionCase &friction) {
          .description = "friction bound S of Tresca's law (9)",
          .unit = "N/m^2",
          .required = true,
-         .range = not_negative(),
-         .used = friction.law == "tresca",
-         .used_with = "law = \"tresca\""},
+         .range = not_negative(sense::traction),
+         .used = with("law", friction.law, {"tresca"})},
         &friction.bound);
 }
 
@@ -27,24 +31,22 @@ void declare(Visitor &v, HeatExchangeCase &heat) {
          .choices = {"insulated", "exchange"},
          .foreseen = {"pressure_dependent", "frictional_heating"}},
         &heat.law);
-  const bool exchange = heat.law == "exchange";
-  const std::string used_with = "law = \"exchange\"";
+  const Use exchange = with("law", heat.law, {"exchange"});
   v.key({.name = "coefficient",
          .description = "coefficient of heat exchange k_c (13)",
          .unit = "W/(K m^2)",
          .required = true,
-         .range = not_negative(),
+         .range = not_negative(sense::heat_exchange),
          .constant_in_time = true,
-         .used = exchange,
-         .used_with = used_with},
+         .used = exchange},
         &heat.coefficient);
   v.key({.name = "foundation_temperature",
          .description = "temperature theta_f of the foundation (13), difference to the reference "
                         "temperature",
          .unit = "K",
          .required = true,
-         .used = exchange,
-         .used_with = used_with},
+         .range = any(sense::temperature),
+         .used = exchange},
         &heat.foundation_temperature);
 }
 
@@ -56,9 +58,13 @@ void declare(Visitor &v, ContactCase &contact, const MeshCase &mesh) {
   v.key({.name = "normal",
          .description = "bilateral: contact is never lost, u_nu = 0 (9)",
          .choices = {"bilateral"},
-         .foreseen = {"signorini", "normal_compliance", "damped_response"}},
+         .foreseen = {"unilateral", "signorini", "compliance", "normal_compliance", "damped",
+                      "damped_response"}},
         &contact.normal);
   v.refuse("charge", "not available in this version; no charge crosses the contact boundary");
+  v.refuse("electric", "not available in this version; no charge crosses the contact boundary");
+  v.refuse("gap", "not available in this version; body and foundation touch at the time 0");
+  v.refuse("foundation_displacement", "not available in this version; the foundation rests");
   v.table({.name = "friction", .description = "The tangential contact law"},
           [&](Visitor &inner) { declare(inner, contact.friction); });
   v.table({.name = "heat", .description = "The heat flow between body and foundation"},

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "schema_parts.h"
+#include "sense.h"
 #include "tourmaline/case/given.h"
 #include "tourmaline/case/symmetry.h"
 
@@ -32,14 +33,17 @@ Key elastic(const std::string &letter, const std::string &indices) {
           .description = std::string(stiffness ? "stiffness " : "compliance ") +
                          axes_words(indices) + ", at constant electric field",
           .unit = stiffness ? "Pa" : "1/Pa",
-          .range = diagonal ? positive() : Range{}};
+          .range = stiffness  ? diagonal ? positive(sense::stiffness) : any(sense::elastic_coupling)
+                    : diagonal ? positive(sense::compliance)
+                              : any(sense::compliant_coupling)};
 }
 
 Key piezoelectric(const std::string &letter, const std::string &indices) {
   return {.name = letter + indices,
           .description = fmt::format("charge along axis {} for the {} {} (Voigt)", indices[0],
                                      letter == "e" ? "strain" : "stress", indices[1]),
-          .unit = letter == "e" ? "C/m^2" : "C/N"};
+          .unit = letter == "e" ? "C/m^2" : "C/N",
+          .range = any(letter == "e" ? sense::stress_coefficient : sense::strain_coefficient)};
 }
 
 Key diagonal(const std::string &name, const std::string &what, const std::string &unit,
@@ -64,29 +68,34 @@ std::vector<Key> make_constants() {
   for (const char *letter : {"c", "s"})
     for (const char *indices : {"11", "12", "13", "14", "22", "23", "33", "44", "55", "66"})
       all.push_back(elastic(letter, indices));
-  all.push_back({"young", "Young's modulus of an isotropic material", "Pa", false, positive()});
+  all.push_back({"young", "Young's modulus of an isotropic material", "Pa", false,
+                 positive(sense::stiffness)});
   all.push_back({"poisson", "Poisson's ratio of an isotropic material", "", false,
                  Range{-1, 0.5, false, false}});
   for (const char *letter : {"e", "d"})
     for (const char *indices : {"11", "14", "15", "22", "24", "31", "32", "33"})
       all.push_back(piezoelectric(letter, indices));
-  add_diagonals(all, "beta", "", "permittivity at constant strain", "C/(V m)", positive());
-  add_diagonals(all, "eps", "", "relative permittivity at constant strain", "", at_least(1));
-  add_diagonals(all, "eps", "_T", "relative permittivity at constant stress", "", at_least(1));
+  add_diagonals(all, "beta", "", "permittivity at constant strain", "C/(V m)",
+                positive(sense::permittivity));
+  add_diagonals(all, "eps", "", "relative permittivity at constant strain", "",
+                {.low = 1, .sense = sense::relative_permittivity});
+  add_diagonals(all, "eps", "_T", "relative permittivity at constant stress", "",
+                {.low = 1, .sense = sense::relative_permittivity});
   add_diagonals(all, "m", "", "thermal stress coefficient, sigma = ... - m theta,", "N/(K m^2)",
-                Range{});
-  add_diagonals(all, "a", "", "thermal expansion", "1/K", Range{});
+                any(sense::thermal_stress));
+  add_diagonals(all, "a", "", "thermal expansion", "1/K", any(sense::thermal_expansion));
   all.push_back({"p3",
                  "pyroelectric coefficient along axis 3 at constant strain: D = ... + p theta",
-                 "C/(K m^2)"});
-  all.push_back({"p3_T", "pyroelectric coefficient along axis 3 at constant stress", "C/(K m^2)"});
-  add_diagonals(all, "k", "", "thermal conductivity", "W/(K m)", positive());
-  all.push_back({"density", "rho", "kg/m^3", false, positive()});
+                 "C/(K m^2)", false, any(sense::pyroelectric)});
+  all.push_back({"p3_T", "pyroelectric coefficient along axis 3 at constant stress", "C/(K m^2)",
+                 false, any(sense::pyroelectric)});
+  add_diagonals(all, "k", "", "thermal conductivity", "W/(K m)", positive(sense::conductivity));
+  all.push_back({"density", "rho", "kg/m^3", false, positive(sense::density)});
   all.push_back({"specific_heat", "c_v; the heat capacity of (6) is rho c_v / theta_ref",
-                 "J/(kg K)", false, positive()});
+                 "J/(kg K)", false, positive(sense::specific_heat)});
   all.push_back({"reference_temperature",
                  "theta_ref, the absolute temperature that all others are differences to", "K",
-                 false, positive()});
+                 false, positive(sense::absolute_temperature)});
   return all;
 }
 
@@ -115,12 +124,14 @@ void declare_mechanical_tensors(Visitor &v, MaterialCase &material) {
        .description = "F, instead of c11, ...: rows and columns in the Voigt order 11, 22, 33, "
                       "23, 13, 12, at constant electric field and temperature",
        .unit = "Pa",
+       .range = any(sense::elastic_coupling),
        .length = six,
        .rows = 6},
       material.stiffness);
   v.optional({.name = "compliance",
               .description = "inverse of `stiffness`, instead of s11, ...",
               .unit = "1/Pa",
+              .range = any(sense::compliant_coupling),
               .length = six,
               .rows = 6},
              material.compliance);
@@ -128,12 +139,14 @@ void declare_mechanical_tensors(Visitor &v, MaterialCase &material) {
               .description = "E, instead of e31, ...: a row for each axis of the field, columns in "
                              "Voigt order (for engineering shear strains)",
               .unit = "C/m^2",
+              .range = any(sense::stress_coefficient),
               .length = six,
               .rows = 3},
              material.piezoelectric);
   v.optional({.name = "strain_coefficients",
               .description = "d, instead of d31, ..., ordered like `piezoelectric`",
               .unit = "C/N",
+              .range = any(sense::strain_coefficient),
               .length = six,
               .rows = 3},
              material.strain_coefficients);
@@ -145,16 +158,19 @@ void declare_thermal_tensors(Visitor &v, MaterialCase &material) {
        .description = "M, instead of m11, ..., in Voigt order; positive when heating a clamped "
                       "body compresses it",
        .unit = "N/(K m^2)",
+       .range = any(sense::thermal_stress),
        .length = six},
       material.thermal_stress);
   v.optional({.name = "thermal_expansion",
               .description = "instead of a11, ..., in Voigt order (engineering shear strains)",
               .unit = "1/K",
+              .range = any(sense::thermal_expansion),
               .length = six},
              material.thermal_expansion);
   v.optional({.name = "conductivity",
               .description = "K, instead of k11, ...",
               .unit = "W/(K m)",
+              .range = any(sense::conductivity_entry),
               .length = three,
               .rows = 3},
              material.conductivity);
@@ -164,12 +180,14 @@ void declare_electric_tensors(Visitor &v, MaterialCase &material, int dimension)
   v.optional({.name = "permittivity",
               .description = "beta, instead of beta11, ..., at constant strain",
               .unit = "C/(V m)",
+              .range = any(sense::permittivity_entry),
               .length = three,
               .rows = 3},
              material.permittivity);
   v.optional({.name = "permittivity_T",
               .description = "the same at constant stress",
               .unit = "C/(V m)",
+              .range = any(sense::permittivity_entry),
               .length = three,
               .rows = 3},
              material.permittivity_T);
@@ -180,11 +198,13 @@ void declare_electric_tensors(Visitor &v, MaterialCase &material, int dimension)
        .description = "P, instead of p3, at constant strain: [p1, p2, p3], in two dimensions "
                       "also [p1, p3]",
        .unit = "C/(K m^2)",
+       .range = any(sense::pyroelectric),
        .length = pyroelectric},
       material.pyroelectric);
   v.optional({.name = "pyroelectric_T",
               .description = "the same at constant stress",
               .unit = "C/(K m^2)",
+              .range = any(sense::pyroelectric),
               .length = pyroelectric},
              material.pyroelectric_T);
 }
@@ -278,6 +298,7 @@ void declare_orientation(Visitor &v, MaterialCase &material, int dimension) {
   v.key({.name = "poling",
          .description = "direction of the crystal's axis 3, of any length; formulas give one by "
                         "place, as [\"x\", \"y\"] the radial one",
+         .range = any(sense::direction),
          .length = one_each_axis(dimension),
          .constant_in_time = true,
          .default_words = "y in 2D, z in 3D"},
@@ -286,6 +307,7 @@ void declare_orientation(Visitor &v, MaterialCase &material, int dimension) {
          .description =
              "direction of the crystal's axis 1, made orthogonal to `poling`; matters only "
              "for crystals that are not isotropic about axis 3",
+         .range = any(sense::direction),
          .length = one_each_axis(dimension),
          .default_words = "x, or any direction when x is the poling axis"},
         &material.axis1);
@@ -326,8 +348,7 @@ void declare(Visitor &v, MaterialCase &material, int dimension) {
   v.optional({.name = "file",
               .description = "file of materials of one's own, found from the folder of the case: a "
                              "table for each, with the keys of this one and `source`",
-              .used = material.library.has_value(),
-              .used_with = "library"},
+              .used = with("library", material.library.has_value())},
              material.file);
   if (material.file)
     v.locate("file", *material.file);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "schema_parts.h"
+#include "sense.h"
 #include "tourmaline/case/sides.h"
 
 namespace tourmaline::casefile {
@@ -15,6 +16,9 @@ std::string corners_complaint(const Box &box) {
   for (std::size_t i = 0; i < box.max.size(); ++i) {
     if (!(box.max[i] > box.min[i]))
       return fmt::format("entry {} must be greater than that of min, which is {}", i, box.min[i]);
+    if (box.max[i] - box.min[i] < sense::length.least)
+      return fmt::format("entry {} and that of min, {}, make a side shorter than {:g} m", i,
+                         box.min[i], sense::length.least);
     // Below this the corners of a cell are the same numbers.
     const double size = (box.max[i] - box.min[i]) / box.cells[i];
     const double far = std::max(std::abs(box.min[i]), std::abs(box.max[i]));
@@ -63,7 +67,7 @@ void declare_grading(Visitor &v, Box &box) {
     v.optional({.name = side.name,
                 .description = "size of the largest cells along this axis over that at the " +
                                side.name + " side",
-                .range = at_least(1),
+                .range = {.low = 1, .sense = sense::ratio},
                 .default_words = "1"},
                value);
     if (value)
@@ -84,12 +88,14 @@ void declare(Visitor &v, Box &box, int degree) {
          .description = "corner where the coordinates are least",
          .unit = "m",
          .required = true,
+         .range = any(sense::coordinate),
          .length = axes},
         &box.min);
   v.key({.name = "max",
          .description = "corner where the coordinates are greatest",
          .unit = "m",
          .required = true,
+         .range = any(sense::coordinate),
          .length = axes},
         &box.max);
   v.key({.name = "cells",
@@ -141,21 +147,20 @@ void declare(Visitor &v, Annulus &ring, int degree) {
          .description = "inner radius",
          .unit = "m",
          .required = true,
-         .range = positive()},
+         .range = positive(sense::length)},
         &ring.inner);
   v.key({.name = "outer",
          .description = "outer radius",
          .unit = "m",
          .required = true,
-         .range = positive()},
+         .range = positive(sense::length)},
         &ring.outer);
   v.key({.name = "height",
          .description = "length of the tube along z",
          .unit = "m",
          .required = true,
-         .range = positive(),
-         .used = tube,
-         .used_with = "cell = \"tetrahedron\" or \"hexahedron\""},
+         .range = positive(sense::length),
+         .used = with("cell", cell, {"tetrahedron", "hexahedron"})},
         &ring.height);
   v.key({.name = "cells",
          .description = "intervals along the radius, around and, of a tube, along z",
@@ -191,7 +196,6 @@ std::string unnamed_complaint(const MeshCase &mesh) {
 }
 
 void declare_file(Visitor &v, MeshCase &mesh) {
-  const std::string used_with = "mesh.file";
   v.optional(
       {.name = "file",
        .description =
@@ -202,29 +206,26 @@ void declare_file(Visitor &v, MeshCase &mesh) {
            "simplices; faces and solids from CAD go by their labels or by \"surface 1\", "
            "\"volume 1\", ... (`tourmaline check` lists them with their places)"},
       mesh.file);
-  const bool file = mesh.file.has_value();
+  const Use file = with("mesh.file", mesh.file.has_value());
   v.optional({.name = "size",
               .description = "size of the largest cells of a geometry; required for .step, .iges "
                              "and .brep",
               .unit = "m",
-              .range = positive(),
-              .used = file,
-              .used_with = used_with},
+              .range = positive(sense::length),
+              .used = file},
              mesh.size);
   v.key({.name = "scale",
          .description = "the unit of length of the file, 1e-3 when it is in millimetres; .step and "
                         ".iges know theirs and come in metres",
          .unit = "m",
-         .range = positive(),
-         .used = file,
-         .used_with = used_with},
+         .range = positive(sense::length),
+         .used = file},
         &mesh.scale);
   v.key({.name = "unnamed",
          .description = "what facets of the boundary without a name are; error: a mistake; "
                         "natural: free of traction, charge and heat flow",
          .choices = {"error", "natural"},
-         .used = file,
-         .used_with = used_with},
+         .used = file},
         &mesh.unnamed);
 }
 

@@ -25,8 +25,7 @@ void declare(Visitor &v, RegionCase &region, const MeshCase &mesh) {
       .choices = mesh.content ? mesh.content->regions.names : std::vector<std::string>{},
       .choices_words = "the names of a mesh file",
       .default_words = "none",
-      .used = !mesh.box && !mesh.annulus,
-      .used_with = "mesh.file"};
+      .used = with("mesh.file", !mesh.box && !mesh.annulus)};
   v.key(on, &region.on);
   v.optional({.name = "where",
               .description = "formula: a cell belongs to the region when this is not 0 at its "
@@ -85,7 +84,13 @@ void declare_composition(Visitor &v, Case &c) {
           "E(phi) = -grad phi. Each of them may be given in the stress-charge form (c, e, "
           "permittivity at constant strain) or in the strain-charge form of data sheets (s, d, "
           "permittivity at constant stress), from which the first is computed. What is not given "
-          "is taken from the library's entry; without an entry it must be given",
+          "is taken from the library's entry; without an entry it must be given, but a material "
+          "without "
+          "any piezoelectric constant, without thermal expansion or without pyroelectric constant "
+          "is not "
+          "piezoelectric, does not expand, is not pyroelectric (`tourmaline check` says so); of "
+          "each of "
+          "these kinds all constants of the class are given or none",
       .required = c.regions.empty()};
   const bool given = v.given(key, c.regions.empty());
   if (given)

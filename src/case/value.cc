@@ -71,16 +71,11 @@ std::string type_of(const toml::node &node) {
   fail(item, fmt::format("is {}, but must be {}", type_of(item.node), wanted));
 }
 
-std::string with_unit(const Key &key) {
-  const std::string range = key.range.words();
-  return "must be " + range + (key.unit.empty() ? "" : " " + key.unit);
-}
-
 void check_range(const Item &item, double number) {
-  if (!std::isfinite(number))
-    fail(item, "is not a finite number");
-  if (!item.key.range.contains(number))
-    fail(item, with_unit(item.key));
+  if (const std::string wrong = complaint(item.key.range, number, item.key.unit); !wrong.empty())
+    fail(item, wrong);
+  if (number != 0 && !std::isnormal(number))
+    fail(item, "is closer to 0 than double precision holds; write 0");
 }
 
 std::string listed(const std::vector<std::string> &texts) {
@@ -99,7 +94,13 @@ void check_choice(const Item &item, const std::string &text) {
     return;
   if (among(key.foreseen))
     fail(item, "not available in this version; allowed: " + listed(key.choices));
-  fail(item, "is not allowed; allowed: " + listed(key.choices) + did_you_mean(text, key.choices));
+  std::vector<std::string> known = key.choices;
+  known.insert(known.end(), key.foreseen.begin(), key.foreseen.end());
+  const std::optional<std::string> meant = nearest(text, known);
+  const bool is_foreseen =
+      meant && std::find(key.foreseen.begin(), key.foreseen.end(), *meant) != key.foreseen.end();
+  fail(item, "is not allowed; allowed: " + listed(key.choices) + did_you_mean(text, known) +
+                 (is_foreseen ? " That is not available in this version" : ""));
 }
 
 const toml::array &entries_of(const Item &item, std::string_view wanted) {
@@ -162,7 +163,10 @@ void read_into(const Item &item, double &value) {
 void read_into(const Item &item, std::string &value) {
   const auto given = item.node.value_exact<std::string>();
   if (!given)
-    fail_type(item, "a text");
+    fail_type(item,
+              item.key.choices.empty() ? "a text" : "a text, one of " + listed(item.key.choices));
+  if (given->find('\0') != std::string::npos)
+    fail(item, "has the character \\u0000, which no text can hold");
   check_choice(item, *given);
   value = *given;
 }
@@ -176,7 +180,7 @@ void check_formula(const Item &item, const Formula &formula) {
 
 void read_into(const Item &item, Formula &value) {
   if (const auto text = item.node.value_exact<std::string>())
-    value = Formula(*text, item.where());
+    value = Formula(*text, item.where(), item.key.range, item.key.unit);
   else if (const double number = number_in(item, "a number or a formula"); std::isfinite(number))
     value = Formula(number, item.where());
   else

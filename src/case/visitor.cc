@@ -2,34 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 
 namespace tourmaline::casefile {
 
-bool Range::contains(double number) const {
-  return std::isfinite(number) && (low_allowed ? number >= low : number > low) &&
-         (high_allowed ? number <= high : number < high);
+Use with(const std::string &name, const std::string &actual,
+         const std::vector<std::string> &values) {
+  return {std::find(values.begin(), values.end(), actual) != values.end(),
+          fmt::format("{} = \"{}\"", name, fmt::join(values, "\" or \""))};
 }
 
-std::string Range::words() const {
-  const std::string lower = fmt::format("{} {}", low_allowed ? ">=" : ">", low);
-  const std::string upper = fmt::format("{} {}", high_allowed ? "<=" : "<", high);
-  if (std::isfinite(low) && std::isfinite(high))
-    return lower + " and " + upper;
-  return std::isfinite(low) ? lower : std::isfinite(high) ? upper : "";
-}
-
-Range positive() {
-  return {.low = 0, .low_allowed = false};
-}
-Range not_negative() {
-  return {.low = 0};
-}
-Range at_least(double low) {
-  return {.low = low};
-}
-Range from_to(double low, double high) {
-  return {.low = low, .high = high};
+Use with(const std::string &name, bool is_given) {
+  return {is_given, name};
 }
 
 Length one_each_axis(int dimension) {

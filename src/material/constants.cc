@@ -8,6 +8,7 @@
 #include "tourmaline/case/given.h"
 #include "tourmaline/case/symmetry.h"
 #include "tourmaline/error.h"
+#include "tourmaline/material/completeness.h"
 #include "tourmaline/material/crystal_class.h"
 #include "tourmaline/material/library.h"
 
@@ -108,8 +109,9 @@ class Conversion {
       return matrix36(*given_.piezoelectric);
     if (given_.strain_coefficients)
       return matrix36(*given_.strain_coefficients) * c;
-    return gives_any("d") ? Piezoelectric(crystal_.strain_coefficients() * c)
-                          : crystal_.stress_coefficients();
+    if (gives_any("d"))
+      return crystal_.strain_coefficients() * c;
+    return gives_any("e") ? crystal_.stress_coefficients() : Piezoelectric(Piezoelectric::Zero());
   }
 
   Tensor permittivity(const Stiffness &c, const Piezoelectric &e) const {
@@ -130,7 +132,7 @@ class Conversion {
       return c * Eigen::Map<const Voigt>(given_.thermal_expansion->data());
     if (gives_any("a"))
       return c * normal(crystal_.diagonal("a"));
-    return gives_any("m") ? normal(given_in_part("m")) : Voigt(Voigt::Zero());
+    return gives_any("m") ? normal(crystal_.diagonal("m")) : Voigt(Voigt::Zero());
   }
 
   Vector pyroelectric(const Stiffness &c, const Piezoelectric &e, const Voigt &m) const {
@@ -141,7 +143,7 @@ class Conversion {
       return pyroelectric_of(*given_.pyroelectric_T) - by_expansion;
     if (crystal_.gives("p3_T"))
       return Vector(0, 0, crystal_.need("p3_T")) - by_expansion;
-    return {0, 0, crystal_.or_zero("p3")};
+    return {0, 0, crystal_.gives("p3") ? crystal_.need("p3") : 0};
   }
 
   Tensor conductivity() const {
@@ -166,15 +168,6 @@ class Conversion {
 
   Tensor along_axes(const char *letters, const char *suffix, double unit) const {
     return Tensor((unit * crystal_.diagonal(letters, suffix)).asDiagonal());
-  }
-
-  // What is not given of m is zero.
-  Vector given_in_part(const std::string &letter) const {
-    const double along1 = crystal_.or_zero(letter + "11");
-    if (crystal_.symmetry == "isotropic" || crystal_.symmetry == "cubic")
-      return Vector::Constant(along1);
-    return {along1, crystal_.symmetry == "mm2" ? crystal_.or_zero(letter + "22") : along1,
-            crystal_.or_zero(letter + "33")};
   }
 
   static Voigt normal(const Vector &v) {
@@ -216,30 +209,6 @@ MaterialCase with_entry(const MaterialCase &asked) {
   return asked.library ? casefile::merged(find(asked).given, asked) : asked;
 }
 
-std::vector<std::string> missing_constants(const MaterialCase &given) {
-  const auto says = [&](const std::string &name) {
-    const std::string kind = casefile::form_of(name).kind;
-    const auto tensors = casefile::given_tensors(given);
-    return given.constants.contains(name) ||
-           std::any_of(tensors.begin(), tensors.end(), [&](const auto &tensor) {
-             return tensor.second && casefile::form_of(tensor.first).kind == kind;
-           });
-  };
-  // A constant in another form says the same: m11 for a11, p3_T for p3.
-  const auto says_otherwise = [&](const std::string &name) {
-    const casefile::ConstantForm own = casefile::form_of(name);
-    return std::any_of(given.constants.begin(), given.constants.end(), [&](const auto &constant) {
-      const casefile::ConstantForm form = casefile::form_of(constant.first);
-      return !own.kind.empty() && form.kind == own.kind && form.form != own.form;
-    });
-  };
-  std::vector<std::string> missing;
-  for (const std::string &name : given.not_given)
-    if (!says(name) && !says_otherwise(name))
-      missing.push_back(name);
-  return missing;
-}
-
 Constants electromechanical(const MaterialCase &given) {
   check_class(given);
   const Conversion conversion(given);
@@ -257,10 +226,14 @@ Constants electromechanical(const MaterialCase &given) {
 
 Constants constants_of(const MaterialCase &asked) {
   const MaterialCase given = with_entry(asked);
-  if (const auto missing = missing_constants(given); !missing.empty())
-    throw CaseError(fmt::format("{} \"{}\" has no published value for {}: the case must give it",
-                                where_of(given), given.library.value_or(""),
-                                fmt::join(missing, ", ")));
+  check_class(given);
+  if (const std::string missing = missing_words(given); !missing.empty())
+    throw CaseError(fmt::format("{} {}, class {}, lacks: {}. Give them{}", where_of(given),
+                                given.library ? "\"" + *given.library + "\"" : "the material",
+                                symmetry_of(given), missing,
+                                given.library ? " beside the entry"
+                                              : ", or a library entry that has them (`tourmaline "
+                                                "materials` lists them)"));
   Constants c = electromechanical(given);
   const Conversion conversion(given);
   c.conductor = given.conductor.value_or(false);
@@ -273,6 +246,15 @@ Constants constants_of(const MaterialCase &asked) {
   c.reference_temperature = conversion.crystal().need("reference_temperature");
   check_stored_energy(c, where_of(given));
   return c;
+}
+
+std::string couplings(const Constants &c) {
+  const char *expands =
+      c.thermal_stress.isZero(0) ? "without thermal expansion" : "with thermal expansion";
+  if (c.conductor)
+    return expands;
+  return fmt::format("{}piezoelectric, {}pyroelectric, {}", c.piezoelectric.isZero(0) ? "not " : "",
+                     c.pyroelectric.isZero(0) ? "not " : "", expands);
 }
 
 void check_stored_energy(const Constants &constants, const std::string &where) {

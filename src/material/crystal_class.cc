@@ -16,11 +16,6 @@ double CrystalClass::need(const std::string &constant) const {
   return found->second;
 }
 
-double CrystalClass::or_zero(const std::string &constant) const {
-  const auto found = named.find(constant);
-  return found == named.end() ? 0 : found->second;
-}
-
 namespace {
 
 Stiffness isotropic(double young, double poisson) {
@@ -58,7 +53,7 @@ Stiffness elastic(const CrystalClass &crystal, const std::string &letter, double
 
 // e, or d, whose columns above 3 count twice (`shear` = 2).
 Piezoelectric piezoelectric(const CrystalClass &crystal, const std::string &letter, double shear) {
-  const auto get = [&](const char *indices) { return crystal.or_zero(letter + indices); };
+  const auto get = [&](const char *indices) { return crystal.need(letter + indices); };
   Piezoelectric e = Piezoelectric::Zero();
   if (crystal.symmetry == "32") {
     e.row(0) << get("11"), -get("11"), 0, get("14"), 0, 0;

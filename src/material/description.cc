@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 
 #include "tourmaline/case/given.h"
 #include "tourmaline/case/symmetry.h"
 #include "tourmaline/error.h"
+#include "tourmaline/material/completeness.h"
 #include "tourmaline/material/constants.h"
 #include "tourmaline/material/library.h"
 
@@ -114,11 +117,26 @@ std::string thermal(const MaterialCase &given) {
   return text;
 }
 
+std::string with_unit(const std::string &constant) {
+  const std::string unit = unit_of(constant);
+  return constant + (unit.empty() ? "" : " [" + unit + "]");
+}
+
+// What a case must add, a line for each kind.
+std::string to_add(const MaterialCase &given) {
+  std::string text;
+  for (const Gap &gap : gaps(given)) {
+    std::string keys;
+    for (const std::string &constant : gap.constants)
+      keys += (keys.empty() ? "" : ", ") + with_unit(constant);
+    text += fmt::format("  {}{}{}{}\n", gap.words.empty() ? "" : gap.words + ": ", keys,
+                        gap.reason.empty() ? "" : "; ", gap.reason);
+  }
+  return text.empty() ? "" : "\nDoes not run as it is; beside `library` a case must give:\n" + text;
+}
+
 std::string warnings(const MaterialCase &given, const std::optional<Forms> &forms) {
   std::string text;
-  if (const auto missing = missing_constants(given); !missing.empty())
-    text +=
-        fmt::format("not given by the source, a case must give: {}\n", fmt::join(missing, ", "));
   if (forms)
     for (const Factor &factor : coupling_factors(*forms, given.symmetry.value_or("6mm") == "6mm"))
       if (factor.square > 0.9)
@@ -134,13 +152,49 @@ std::string constants(const MaterialCase &given) {
   return text;
 }
 
+bool lacks(const MaterialCase &given, const std::set<std::string> &kinds) {
+  const std::vector<Gap> all = gaps(given);
+  return std::any_of(all.begin(), all.end(),
+                     [&](const Gap &gap) { return kinds.contains(gap.kind); });
+}
+
+std::string electromechanical_tensors(const MaterialCase &given) {
+  const Constants c = electromechanical(given);
+  if (given.conductor.value_or(false))
+    return "\n" + table("stiffness [Pa]", c.stiffness);
+  const Forms forms(c);
+  std::string text = both_forms(forms);
+  if (c.piezoelectric.squaredNorm() > 0)
+    text += couplings(forms, given.symmetry.value_or("6mm") == "6mm");
+  return text + warnings(given, forms);
+}
+
+// As far as what is given allows.
+std::string tensors(const MaterialCase &asked, const MaterialCase &given) {
+  if (lacks(given, {"elastic", "piezoelectric", "permittivity"}))
+    return "";
+  std::string text;
+  try {
+    text = electromechanical_tensors(given);
+    if (gaps(given).empty())
+      text += thermal(asked) + "\nThe material is " + couplings(constants_of(asked)) + ".\n";
+  } catch (const CaseError &error) {
+    text += fmt::format("\nWarnings:\n{}\n", error.what());
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string describe_library(const std::string &file) {
   std::string text;
-  for (const Entry &entry : file.empty() ? library() : materials_in(file))
-    text += fmt::format("{:<18} {:<10} {}\n", entry.name, entry.given.symmetry.value_or("6mm"),
-                        entry.given.source);
+  for (const Entry &entry : file.empty() ? library() : materials_in(file)) {
+    const auto missing = missing_constants(entry.given);
+    text +=
+        fmt::format("{:<18} {:<10} {:<42} {}\n", entry.name, entry.given.symmetry.value_or("6mm"),
+                    missing.empty() ? "complete" : fmt::format("add {}", fmt::join(missing, ", ")),
+                    entry.given.source);
+  }
   return text;
 }
 
@@ -149,17 +203,47 @@ std::string describe(const MaterialCase &asked) {
   std::string text = fmt::format(
       "{}\n{}\nclass {}{}\n\n", *asked.library, given.source, given.symmetry.value_or("6mm"),
       given.conductor.value_or(false) ? ", a conductor: no electric field inside" : "");
-  text += constants(given);
-  const Constants c = electromechanical(given);
-  std::optional<Forms> forms;
-  if (!given.conductor.value_or(false))
-    forms.emplace(c);
-  text += forms ? both_forms(*forms) : "\n" + table("stiffness [Pa]", c.stiffness);
-  if (forms && c.piezoelectric.squaredNorm() > 0)
-    text += couplings(*forms, given.symmetry.value_or("6mm") == "6mm");
-  if (missing_constants(given).empty())
-    text += thermal(asked);
-  return text + warnings(given, forms);
+  return text + constants(given) + tensors(asked, given) + to_add(given);
+}
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json as_json(const std::string &name, const MaterialCase &given) {
+  Json json{{"name", name},
+            {"source", given.source},
+            {"symmetry", given.symmetry.value_or("6mm")},
+            {"conductor", given.conductor.value_or(false)},
+            {"constants", given.constants},
+            {"tensors", Json::array()},
+            {"complete", gaps(given).empty()},
+            {"missing", Json::array()}};
+  for (const auto &[key, is_given] : casefile::given_tensors(given))
+    if (is_given)
+      json["tensors"].push_back(key);
+  for (const Gap &gap : gaps(given))
+    for (const std::string &constant : gap.constants)
+      json["missing"].push_back(
+          {{"key", constant}, {"unit", unit_of(constant)}, {"reason", gap.reason}});
+  return json;
+}
+
+std::string printed(const Json &json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+std::string library_json(const std::string &file) {
+  Json all = Json::array();
+  for (const Entry &entry : file.empty() ? library() : materials_in(file))
+    all.push_back(as_json(entry.name, entry.given));
+  return printed(all);
+}
+
+std::string entry_json(const MaterialCase &asked) {
+  return printed(as_json(*asked.library, with_entry(asked)));
 }
 
 }  // namespace tourmaline::material

@@ -40,6 +40,15 @@ Json extremes(int dimension, const std::vector<Extreme> &list) {
   return json;
 }
 
+Json materials(const std::vector<MaterialRecord> &list) {
+  Json json = Json::array();
+  for (const MaterialRecord &record : list)
+    json.push_back({{"region", record.region},
+                    {"material", record.material},
+                    {"couplings", record.couplings}});
+  return json;
+}
+
 Json seconds_json(const Seconds &seconds) {
   return {{"mesh", number(seconds.mesh)},
           {"start", number(seconds.start)},
@@ -70,6 +79,7 @@ std::string summary_text(int dimension, const Summary &summary) {
       summary.negative_pivots ? Json(*summary.negative_pivots) : Json(nullptr);
   json["backward_error"] = number(summary.backward_error);
   json["extremes"] = extremes(dimension, summary.extremes);
+  json["materials"] = materials(summary.materials);
   json["seconds"] = seconds_json(summary.seconds);
   json["memory"] = summary.peak_memory_bytes;
   json["warnings"] = summary.warnings;

@@ -94,6 +94,28 @@ bool is_shown(const Field &field, const Result &result) {
   return field.name != "poling" || result.field("region");
 }
 
+// Empty where the record has no such text.
+std::string text_in(const Json &record, const char *key) {
+  const auto found = record.is_object() ? record.find(key) : record.end();
+  return found != record.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+// The materials with the couplings that they have not, so that nobody looks for them in vain.
+Json parts_json(const Result &result, const Json &summary) {
+  Json parts = Json::array();
+  if (summary.is_object() && summary.contains("materials")) {
+    for (const Json &record : summary["materials"]) {
+      const std::string region = text_in(record, "region");
+      const std::string words = text_in(record, "material") + ": " + text_in(record, "couplings");
+      parts.push_back({{"name", region.empty() ? "body" : region}, {"material", words}});
+    }
+    return parts;
+  }
+  for (const Part &part : parts_of(result))
+    parts.push_back({{"name", part.name}, {"material", part.material}});
+  return parts;
+}
+
 Json result_json(Packing &packing, const Result &result) {
   Json json{{"name", result.name},
             {"title", result.asked ? result.asked->title : ""},
@@ -114,8 +136,7 @@ Json result_json(Packing &packing, const Result &result) {
     if (is_shown(field, result))
       json["fields"].push_back(field_json(packing, field, result.times.size()));
   json["poling"] = poling_json(packing, result);
-  for (const Part &part : parts_of(result))
-    json["parts"].push_back({{"name", part.name}, {"material", part.material}});
+  json["parts"] = parts_json(result, json["summary"]);
   for (const Boundary &boundary : result.boundaries)
     json["boundaries"].push_back(boundary_json(packing, boundary));
   if (result.history)

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -79,6 +80,14 @@ struct State {
   fs::path file;
 };
 
+double time_in(const std::string &text, const fs::path &file) {
+  double time = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), time);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(time))
+    throw CaseError(file.string() + ": timestep=\"" + text + "\" is no number");
+  return time;
+}
+
 std::vector<State> series_of(const fs::path &folder) {
   std::vector<State> series;
   const fs::path path = folder / "result.pvd";
@@ -87,7 +96,7 @@ std::vector<State> series_of(const fs::path &folder) {
   const std::string text = read_text_file(path);
   for_each_element(text, path.string(), [&](const XmlElement &e) {
     if (e.name == "DataSet")
-      series.push_back({std::stod(e.attribute("timestep")), folder / e.attribute("file")});
+      series.push_back({time_in(e.attribute("timestep"), path), folder / e.attribute("file")});
   });
   return series;
 }
@@ -96,7 +105,9 @@ std::vector<State> series_of(const fs::path &folder) {
 int step_of(const fs::path &file) {
   const std::string stem = file.stem().string();
   const std::size_t digits = stem.find_last_not_of("0123456789") + 1;
-  return digits < stem.size() ? std::stoi(stem.substr(digits)) : 0;
+  int step = 0;
+  std::from_chars(stem.data() + digits, stem.data() + stem.size(), step);
+  return step;
 }
 
 std::size_t numbers_of(const FieldFile &file, const Skin &skin) {

@@ -25,6 +25,7 @@
 #include "tourmaline/solve/recorder.h"
 #include "tourmaline/solve/resumption.h"
 #include "tourmaline/solve/schedule.h"
+#include "tourmaline/solve/survey.h"
 #include "tourmaline/solve/versions.h"
 #include "tourmaline/stopwatch.h"
 
@@ -420,6 +421,7 @@ output::Summary Simulation<dim>::summary() const {
     summary.negative_pivots = report.negative_pivots;
   summary.backward_error = report.backward_error;
   summary.extremes = recorder_->extremes(state_);
+  summary.materials = materials_of(model_.asked);
   summary.seconds.mesh = model_.mesh_seconds;
   summary.seconds.assemble = model_.assemble_seconds;
   summary.seconds.analyse = report.analyse_seconds;

@@ -6,7 +6,9 @@
 
 #include "tourmaline/body/conductors.h"
 #include "tourmaline/case/sides.h"
+#include "tourmaline/case/toml_text.h"
 #include "tourmaline/material/composition.h"
+#include "tourmaline/material/constants.h"
 #include "tourmaline/mesh/mesh.h"
 
 namespace tourmaline::solve {
@@ -79,6 +81,12 @@ std::string names(const casefile::RegionCase &region) {
   return text;
 }
 
+// In a comment a line break would end it.
+std::string one_line(const std::string &text) {
+  const std::string quoted = casefile::toml_text(text);
+  return quoted.substr(1, quoted.size() - 2);
+}
+
 bool varies(const casefile::MaterialCase &material) {
   for (const casefile::Formula &entry : material.poling)
     if (entry.depends_on_place())
@@ -94,7 +102,7 @@ std::string poling_words(const casefile::MaterialCase &material, const Region &r
   if (varies(material)) {
     std::string text;
     for (const casefile::Formula &entry : material.poling)
-      text += (text.empty() ? "(" : ", ") + entry.text();
+      text += (text.empty() ? "(" : ", ") + one_line(entry.text());
     return ", poled along " + text + ")";
   }
   return square == 0
@@ -108,11 +116,12 @@ std::string survey_in(const casefile::Case &asked) {
   const body::Discretisation<dim> body(mesh::build<dim>(asked), 1);
   body::check_conductors(body, composition, asked,
                          body::prescribed_unknowns(body, asked.boundaries, asked.electrodes));
-  std::string text = "\n# Boundaries and regions of this case\n";
+  std::string text = "# Boundaries and regions of this case\n";
   for (const std::string &name : casefile::side_names(asked.mesh)) {
     Extent extent;
     body.for_each_facet({name}, [&](const body::Quadrature<dim> &facet) { extent.add(facet); });
-    text += fmt::format("# boundary \"{}\": {}\n", name, extent.words(dim, dim - 1));
+    text +=
+        fmt::format("# boundary {}: {}\n", casefile::toml_text(name), extent.words(dim, dim - 1));
   }
   const auto regions =
       regions_of(body, composition, std::max<std::size_t>(1, asked.regions.size()));
@@ -120,19 +129,43 @@ std::string survey_in(const casefile::Case &asked) {
     const bool whole = asked.regions.empty();
     const casefile::MaterialCase &material = whole ? asked.material : asked.regions[i].material;
     text += fmt::format("# region {}: {}, {}{}\n",
-                        whole ? "(the whole body)" : "\"" + names(asked.regions[i]) + "\"",
-                        material.library.value_or("material of the case"),
+                        whole ? "(the whole body)" : casefile::toml_text(names(asked.regions[i])),
+                        one_line(material.library.value_or("material of the case")),
                         regions[i].extent.words(dim, dim), poling_words(material, regions[i], dim));
   }
   return text;
 }
 
+output::MaterialRecord record(const std::string &region, const casefile::MaterialCase &material) {
+  return {region, material.library.value_or("material of the case"),
+          material::couplings(material::constants_of(material))};
+}
+
+std::string materials_in_words(const casefile::Case &asked) {
+  std::string text = "\n# Materials of this case\n";
+  for (const output::MaterialRecord &part : materials_of(asked))
+    text += fmt::format("# {}, {}: {}\n",
+                        part.region.empty() ? "(the whole body)" : casefile::toml_text(part.region),
+                        one_line(part.material), part.couplings);
+  return text;
+}
+
 }  // namespace
 
+std::vector<output::MaterialRecord> materials_of(const casefile::Case &asked) {
+  if (asked.regions.empty())
+    return {record("", asked.material)};
+  std::vector<output::MaterialRecord> all;
+  for (const casefile::RegionCase &region : asked.regions)
+    all.push_back(record(names(region), region.material));
+  return all;
+}
+
 std::string survey(const casefile::Case &asked) {
+  const std::string materials = materials_in_words(asked);
   if (!asked.mesh.content && asked.regions.empty() && !varies(asked.material))
-    return "";
-  return asked.dimension == 2 ? survey_in<2>(asked) : survey_in<3>(asked);
+    return materials;
+  return materials + (asked.dimension == 2 ? survey_in<2>(asked) : survey_in<3>(asked));
 }
 
 }  // namespace tourmaline::solve

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <thread>
 
 #include "tourmaline/error.h"
@@ -73,6 +74,89 @@ TEST(Formula, TheBranchNotTakenMayBeUndefined) {
 
 TEST(Formula, ACompareWithAnUndefinedConditionIsAnError) {
   EXPECT_THAT(error_of("if(sqrt(-x), 1, 2)"), HasSubstr("nan"));
+}
+
+TEST(Formula, WhatIsNotANumberIsNotHiddenByWhatFollows) {
+  for (const char *text : {"sqrt(-t) ? 1 : 2", "max(1, sqrt(-t))", "min(sqrt(-t), 1)",
+                           "sqrt(-t) < 1", "sqrt(-t) == 1 || x > 0", "x > 0 && log(-x) < 1",
+                           "sqrt(-t)^0", "1^log(-t)", "if(x > 0, if(sqrt(-x), 1, 2), 3)"})
+    EXPECT_THAT(error_of(text), HasSubstr("(nan)")) << text;
+  for (const char *text : {"1/(1/(x - 1))", "atan(1/(x - 1))", "t < 1/(x - 1)",
+                           "1/(1 + exp(1e3*t))", "max(0, log(x - 1))", "t > 1/0 ? 1 : 2"})
+    EXPECT_THAT(error_of(text), HasSubstr("(inf)")) << text;
+}
+
+TEST(Formula, WhatIsNotTakenMayBeUndefinedInAnyForm) {
+  for (const auto &[text, value] :
+       std::map<std::string, double>{{"x < 0 ? log(-x) : 5", 5},
+                                     {"x > 0 || log(-x) > 0", 1},
+                                     {"x < 0 && sqrt(-x) > 0", 0},
+                                     {"x < 0 && sqrt(-x) > 0 || y == 2 && z == 3", 1},
+                                     {"if(x < 0, sqrt(-x), if(y > 5, sqrt(-y), z))", 3},
+                                     {"if (x < 0 || y < 0, 1/0, max(if(x == 1, 7, 1/0), 2))", 7},
+                                     {"1 + if(x==1, 2, 3)*10", 21},
+                                     {"x < 0 ? 1 : y < 0 ? 2 : z < 0 ? 3 : 4", 4},
+                                     {"x > 0 ? y > 0 ? 11 : 12 : 13", 11},
+                                     {"-(x > 0 && t > 0)", -1},
+                                     {"(x > 0) + (y > 0 || 1/0)", 2}})
+    EXPECT_EQ(Formula(text).value({1, 2, 3}, 4), value) << text;
+}
+
+TEST(Formula, LogicalOperatorsAreTrueOrFalse) {
+  for (int bits = 0; bits < 8; ++bits) {
+    const std::array<double, 3> p{bits & 1 ? 3. : 0., bits & 2 ? -2. : 0., bits & 4 ? 0.5 : 0.};
+    const bool a = p[0] != 0, b = p[1] != 0, c = p[2] != 0;
+    EXPECT_EQ(Formula("x && y || z").value(p, 0), (a && b) || c);
+    EXPECT_EQ(Formula("x || y && z").value(p, 0), a || (b && c));
+    EXPECT_EQ(Formula("(x || y) && z").value(p, 0), (a || b) && c);
+    EXPECT_EQ(Formula("x && y && z ? 1 : 2").value(p, 0), a && b && c ? 1 : 2);
+  }
+}
+
+TEST(Formula, AnEarlierTroubleOfTheThreadIsNotTheFormulas) {
+  volatile double zero = 0;
+  volatile double infinite = 1 / zero;
+  EXPECT_TRUE(std::isinf(infinite));
+  EXPECT_EQ(Formula("2*x").value({1, 0, 0}, 0), 2);
+}
+
+TEST(Formula, ControlCharactersAreRefused) {
+  EXPECT_THAT(error_of(std::string("1\0*x", 4)), HasSubstr("control character"));
+  EXPECT_THAT(error_of("x\x1B[31m"), HasSubstr("control character"));
+  EXPECT_EQ(Formula("x\n+\tt").value({1, 0, 0}, 2), 3);
+}
+
+TEST(Formula, ThatIsNestedTooDeeplyIsRefused) {
+  const std::string deep = std::string(5000, '(') + "x" + std::string(5000, ')');
+  EXPECT_THAT(error_of(deep), HasSubstr("parentheses"));
+  std::string chain = "0";
+  for (int i = 0; i < 900; ++i)
+    chain = "x==" + std::to_string(i) + "?" + std::to_string(i + 1) + ":" + chain;
+  EXPECT_EQ(Formula(chain).value({500, 0, 0}, 0), 501);
+  for (int i = 0; i < 200; ++i)
+    chain = "1?1:" + chain;
+  EXPECT_THAT(error_of(chain), HasSubstr("conditions"));
+  std::string either = "x==0";
+  for (int i = 1; i < 1000; ++i)
+    either += "||x==" + std::to_string(i);
+  EXPECT_EQ(Formula(either).value({999, 0, 0}, 0), 1);
+  EXPECT_EQ(Formula(either).value({1000, 0, 0}, 0), 0);
+}
+
+TEST(Formula, ValuesOutsideOfTheRangeSayWhereAndWhen) {
+  const Formula load("1e17*x*t", "case.toml:3:5 [load] heat", any({0, 1e15}), "W/m^3");
+  EXPECT_EQ(load.value({1e-3, 0, 0}, 1), 1e14);
+  try {
+    load.value({1, 2, 0}, 0.5);
+    FAIL();
+  } catch (const CaseError &error) {
+    EXPECT_THAT(error.what(), HasSubstr("[load] heat = \"1e17*x*t\": is 5e+16, but cannot be "
+                                        "meant; it must be at most 1e+15 W/m^3 in size, at x = 1"));
+    EXPECT_THAT(error.what(), HasSubstr("t = 0.5 s"));
+  }
+  const Formula bound("1 - t", "", not_negative(), "N/m^2");
+  EXPECT_EQ(bound.value({}, 1), 0);
+  EXPECT_THROW(bound.value({}, 1.5), CaseError);
 }
 
 TEST(Formula, ModHasTheSignOfTheDivisor) {

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Tests of docs/case.schema.json with a JSON Schema validator that is not ours: Debian's python3-jsonschema."""
+import copy
 import json
 import pathlib
+import random
 import subprocess
 import sys
 import tempfile
@@ -41,6 +43,20 @@ region = [{ where = "y < 0.5", material = { library = "BaTiO3-Liu2014" } },
           { where = "y > 0.5", material = { library = "steel", poling = [1, 0] } }]
 time = { end = 1, steps = 2 }
 boundary = [{ on = "right", displacement = [0, 0], potential = 0 }]
+"""
+
+# Wants nothing of a library, so that each of its constants may be changed.
+PLAIN = """
+mesh.box = { min = [0, 0], max = [1, 1], cells = [4, 4] }
+time = { end = 1, steps = 2 }
+material = { symmetry = "isotropic", young = 1, poisson = 0.3, beta11 = 1, k11 = 1, density = 1, specific_heat = 1, reference_temperature = 1 }
+boundary = [{ on = "right", displacement = [0, 0], potential = 0, temperature = 0 }, { on = "top" }]
+electrode = [{ name = "plate", on = "bottom", voltage = 1 }]
+contact = { on = "left", friction = {}, heat = {} }
+load = {}
+initial = {}
+solver = {}
+output = {}
 """
 
 # A text that stands in the case, and what stands there instead.
@@ -93,6 +109,10 @@ WRONG = {
     "coefficient without the exchange": (SQUARE, "bound = 15 }", "bound = 15 }, heat = { coefficient = 1 }"),
     "height of a ring": (TUBE, "tetrahedron", "triangle"),
     "tube without height": (TUBE, "height = 0.1, ", ""),
+    "resistor that nobody has": (SQUARE, "time =", 'electrode = [{ name = "a", on = "top", resistor = 5e-324 }]\ntime ='),
+    "constant that no material has": (SQUARE, "time =", "material.e31 = 1e200\ntime ="),
+    "time that has not begun": (SQUARE, "end = 1", "end = 3e-310"),
+    "load of another universe": (SQUARE, "potential = 0", "potential = 1e200"),
     "no mesh": (SQUARE, "mesh.box = { min = [0, 0], max = [1, 1], cells = [4, 4] }", "mesh.degree = 1"),
     "two meshes": (SQUARE, "material.", "mesh.annulus = { inner = 1, outer = 2, cells = [2, 16] }\nmaterial."),
     "mesh file beside a box": (SQUARE, "material.", 'mesh.file = "a.msh"\nmaterial.'),
@@ -114,6 +134,68 @@ WRONG = {
 def changed(case, before, after):
     assert before in case, before
     return case.replace(before, after, 1)
+
+
+def toml(value):
+    """A value as TOML, tables on one line."""
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{key} = {toml(entry)}" for key, entry in value.items()) + " }"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(toml, value)) + "]"
+    return json.dumps(value) if isinstance(value, (str, bool)) else repr(value)
+
+
+def random_number(rng, schema):
+    """Mostly one that the schema allows, of any size; sometimes a limit, or what lies beyond."""
+    low = schema.get("minimum", schema.get("exclusiveMinimum", -1e30))
+    high = schema.get("maximum", schema.get("exclusiveMaximum", 1e30))
+    if rng.random() < 0.2:
+        return rng.choice([low, high, 0.0, low * 2 - 1, high * 2 + 1, 1e-320, 1e308])
+    smallest = max(abs(low) if low > 0 else 1e-20, 1e-30)
+    size = smallest * (max(abs(high), smallest) / smallest) ** rng.random()
+    return -size if low < 0 and rng.random() < 0.5 else size
+
+
+def random_value(rng, schema):
+    """A value for a key, from what its declaration says."""
+    if "anyOf" in schema:
+        return random_value(rng, rng.choice(schema["anyOf"]))
+    if "enum" in schema:
+        return rng.choice(schema["enum"] + ["no such choice"]) if rng.random() < 0.9 else 1
+    kind = schema["type"]
+    if kind == "array":
+        least = schema.get("minItems", 1)
+        length = rng.randint(least, max(least, schema.get("maxItems", 3))) + (rng.random() < 0.1)
+        return [random_value(rng, schema["items"]) for _ in range(length)]
+    if kind == "integer":
+        return rng.choice([-1, 0, 1, 2, 3, 8, 2.0, 3000000000])
+    if kind == "number":
+        return random_number(rng, schema)
+    return rng.choice(["0.5*t", "x", "left", "2", "steel"]) if kind == "string" else rng.choice([True, False, 0])
+
+
+def keys_of(schema, table):
+    """Every key that the table and those inside it may have, with where it goes."""
+    for name, inner in schema.get("properties", {}).items():
+        if inner is False:
+            continue
+        if inner.get("type") == "object":
+            if name in table:
+                yield from keys_of(inner, table[name])
+        elif inner.get("items", {}).get("type") == "object":
+            for entry in table.get(name, []):
+                yield from keys_of(inner["items"], entry)
+        else:
+            yield table, name, inner
+
+
+def random_case(rng, schema):
+    """A small case with one to three keys given at random, of all that are declared."""
+    case = copy.deepcopy(tomllib.loads(rng.choice([SQUARE, CUBE, TUBE, LAYERS, PLAIN, PLAIN])))
+    for _ in range(rng.randint(1, 3)):
+        table, name, inner = rng.choice(list(keys_of(schema, case)))
+        table[name] = random_value(rng, inner)
+    return "".join(f"{key} = {toml(value)}\n" for key, value in case.items())
 
 
 def program(*arguments):
@@ -175,6 +257,25 @@ class CaseSchema(unittest.TestCase):
                     text = changed(*change)
                     self.assertEqual(check(text, folder).returncode, 2)
                     self.assertFalse(self.validator.is_valid(tomllib.loads(text)))
+
+    def test_agrees_with_the_program_on_random_cases(self):
+        rng = random.Random(13)
+        accepted = refused = 0
+        with tempfile.TemporaryDirectory() as folder:
+            for number in range(200):
+                text = random_case(rng, self.schema)
+                with self.subTest(case=text):
+                    said = check(text, folder)
+                    self.assertIn(said.returncode, (0, 2), said.stderr)
+                    if said.returncode == 0:
+                        accepted += 1
+                        self.assert_valid(text)
+                        self.assert_valid(said.stdout)
+                    else:
+                        self.assertEqual(said.stderr.count("\n"), 1, said.stderr)
+                        refused += not self.validator.is_valid(tomllib.loads(text))
+        self.assertGreater(accepted, 30)
+        self.assertGreater(refused, 30)
 
     def test_says_unit_and_default(self):
         friction = self.schema["properties"]["contact"]["properties"]["friction"]["properties"]

@@ -29,7 +29,7 @@ TEST(ReferencePage, HasEveryTable) {
 TEST(ReferencePage, SaysUnitRangeAndDefault) {
   const std::string page = reference_page();
   EXPECT_THAT(page, HasSubstr("| `bound` | formula | N/m^2 | required |"));
-  EXPECT_THAT(page, HasSubstr(">= 0; only with `law = \"tresca\"` |"));
+  EXPECT_THAT(page, HasSubstr(">= 0; at most 1e+18 in size; only with `law = \"tresca\"` |"));
   EXPECT_THAT(page, HasSubstr("| `method` | text |  | `\"condensed\"` |"));
   EXPECT_THAT(page, HasSubstr("| `end` | number | s | required |"));
 }

@@ -135,6 +135,16 @@ const BadInput values[] = {
     override("end that is no number", "time.end=nan", "is not a finite number"),
     override("infinite end", "time.end=inf", "is not a finite number"),
     override("end at the start", "time.end=0", "must be > 0 s"),
+    override("end that is denormal", "time.end=3e-310", "from 1e-18 to 1e+18 s"),
+    override("resistor that is denormal", "electrode=[{name='a',on='bottom',resistor=5e-324}]",
+             "ohm in size"),
+    override("constant that overflows", "material.m11=1e200", "cannot be meant"),
+    override("title that colours the terminal", "title=[\"\\u001b[31m\"]", "\\u001B[31m"),
+    override("name that clears the terminal", "contact.on=\"\\u009b2J\"", "\\u009B2J"),
+    override("key that turns the writing", "\xE2\x80\xAExam=1", "\\u202Exam"),
+    override("formula that is cut by a zero", "boundary[1].traction=[0,\"1\\u00000\"]", "control"),
+    override("material that lacks a constant", "material={library='BaTiO3-Liu2014',d31=-4e-11}",
+             "d33, d15"),
     override("no steps", "time.steps=0", "must be >= 1"),
     override("more steps than an integer holds", "time.steps=3000000000", "at most 2147483647"),
     override("no cells", "mesh.box.cells=[4,0]", "must be >= 1"),
@@ -179,6 +189,12 @@ const BadInput values[] = {
 INSTANTIATE_TEST_SUITE_P(Values, CommandLine, testing::ValuesIn(values), in_camel_case);
 
 const BadInput while_running[] = {
+    {"load that grows out of all sense", good_case,
+     run_it + " --quiet --set 'boundary[1].traction=[0,\"-1e308*t\"]'", 2, "at most 1e+18 N/m^2",
+     true},
+    {"load that hides what is no number", good_case,
+     run_it + " --quiet --set 'boundary[1].traction=[0,\"max(1, sqrt(0.15-t))\"]'", 2,
+     "uses a value on the way", true},
     {"load that is no number at the second step", good_case,
      run_it + " --quiet --set 'boundary[1].traction=[0,\"sqrt(0.15-t)\"]'", 2, "t = 0.2 s", true},
     {"potential that is infinite at a corner", good_case,
@@ -203,6 +219,36 @@ TEST_F(Program, CheckPrintsACaseThatCanBeChecked) {
   std::ofstream(here() / "resolved.toml") << first;
   ASSERT_EQ(run("check resolved.toml"), 0) << complained_;
   EXPECT_EQ(said_, first);
+}
+
+TEST_F(Program, NothingThatAUserNamesCommandsTheTerminal) {
+  const auto is_harmless = [](const std::string &text) {
+    return std::none_of(text.begin(), text.end(), [](unsigned char c) {
+      return (c < 0x20 && c != '\n' && c != '\t') || c == 0x7F || c == 0x9B;
+    });
+  };
+  const std::string escape = "\x1B]0;owned\x07";
+  const std::string file = "c" + escape + "\xC2\x9B" + "\x9B.toml";
+  std::ofstream(here() / file) << good_case_with("\"a square in contact\"", "\"\\u001b[2J\"");
+  ASSERT_EQ(run("check './" + file + "'"), 0) << complained_;
+  EXPECT_TRUE(is_harmless(said_)) << said_;
+  EXPECT_EQ(run("check './" + file + "' --set 'time.stesp=\"" + escape + "\"'"), 2);
+  EXPECT_TRUE(is_harmless(complained_)) << complained_;
+  EXPECT_THAT(complained_, HasSubstr("c\\u001B]0;owned\\u0007\\u009B\\x9B.toml"));
+  EXPECT_EQ(run("'--" + escape + "'"), 2);
+  EXPECT_TRUE(is_harmless(complained_)) << complained_;
+}
+
+TEST_F(Program, CheckSaysWhichCouplingsAMaterialHas) {
+  std::ofstream(here() / "case.toml") << good_case_with(
+      "library = \"BaTiO3-Liu2014\"",
+      "c11 = 1e11\nc12 = 5e10\nc13 = 5e10\nc33 = 1e11\nc44 = 2e10\nbeta11 = 1e-8\nbeta33 = 1e-8\n"
+      "k11 = 1\nk33 = 1\ndensity = 5000\nspecific_heat = 400\nreference_temperature = 293");
+  ASSERT_EQ(run("check case.toml"), 0) << complained_;
+  EXPECT_THAT(said_, HasSubstr("# (the whole body), material of the case: not piezoelectric, not "
+                               "pyroelectric, without thermal expansion\n"));
+  ASSERT_EQ(run("check case.toml --set material.d33=3e-11"), 2);
+  EXPECT_THAT(complained_, HasSubstr("piezoelectric constants d31, d15 (d33 is given"));
 }
 
 TEST_F(Program, CheckWritesNoFiles) {

@@ -98,7 +98,7 @@ TEST(Material, AMissingConstantIsAnErrorAndNotADefault) {
     constants_of(asked);
     FAIL();
   } catch (const CaseError &error) {
-    EXPECT_NE(std::string(error.what()).find("c12 is missing"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("c12"), std::string::npos);
   }
 }
 

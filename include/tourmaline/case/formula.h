@@ -5,13 +5,17 @@
 #include <string>
 #include <vector>
 
+#include "tourmaline/case/range.h"
+
 namespace tourmaline::casefile {
 
 /// A number or a muParser expression in x, y, z [m] and t [s], as it stands in the case file.
 ///
-/// Besides muParser's own operators and functions it knows `if(c, a, b)` and `pi`. Values that are
-/// not finite are errors at the place of evaluation: `value` throws CaseError with `where()`, the
-/// text and the point.
+/// Besides muParser's own operators and functions it knows `if(c, a, b)` and `pi`. Of `if`, `?:`,
+/// `&&` and `||` only what decides is evaluated. Where any value that is evaluated on the way is
+/// infinite or not a number, a comparison or a `max` could hide it from the result: that is an
+/// error like a result that is not finite. `value` throws CaseError with `where()`, the text and
+/// the point.
 class Formula {
  public:
   Formula() : Formula(0.0) {}
@@ -19,8 +23,10 @@ class Formula {
   /*implicit*/ Formula(double number, std::string where = {});
   /// Throws CaseError with muParser's reason when the text does not parse, and when it uses no
   /// variable and is not finite. An expression without variables becomes its number. `where` is
-  /// what an error begins with: file, line and key.
-  explicit Formula(const std::string &text, std::string where = {});
+  /// what an error begins with: file, line and key. Values of an expression with variables that are
+  /// not in `range` are errors as well, in that unit; a number is judged by who reads it.
+  explicit Formula(const std::string &text, std::string where = {}, const Range &range = {},
+                   std::string unit = {});
 
   /// Safe to call from several threads at once.
   double value(const std::array<double, 3> &point, double time) const;

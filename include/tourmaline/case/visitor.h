@@ -1,32 +1,16 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "tourmaline/case/case.h"
+#include "tourmaline/case/range.h"
 
 /// What may be said of a key of the case file, and the visitors that it is said to.
 namespace tourmaline::casefile {
-
-/// The values that a number may have.
-struct Range {
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();
-  bool low_allowed = true, high_allowed = true;
-
-  bool contains(double number) const;
-  /// "> 0", "from 1 to 2"; empty when every finite number is allowed.
-  std::string words() const;
-};
-
-Range positive();
-Range not_negative();
-Range at_least(double low);
-Range from_to(double low, double high);
 
 /// The numbers of entries that a list may have.
 struct Length {
@@ -36,6 +20,18 @@ struct Length {
 };
 
 Length one_each_axis(int dimension);
+
+/// Whether the rest of its table gives a key a meaning, and what the rest must say for that.
+struct Use {
+  bool holds = true;
+  std::string words = {};
+};
+
+/// Used where the key `name`, whose value is `actual`, has one of these values.
+Use with(const std::string &name, const std::string &actual,
+         const std::vector<std::string> &values);
+/// Used where that key or table is given.
+Use with(const std::string &name, bool is_given);
 
 struct Key {
   std::string name;
@@ -50,9 +46,8 @@ struct Key {
   int rows = 0;                            ///< of a matrix
   bool constant_in_time = false;           ///< of a formula
   std::string default_words = {};          ///< the default where the value does not say it
-  bool used = true;            ///< whether the rest of the table gives the key a meaning
-  std::string used_with = {};  ///< what the rest must say for that
-  bool optional = false;       ///< not giving it differs from giving any value
+  Use used = {};
+  bool optional = false;  ///< not giving it differs from giving any value
 };
 
 /// One entry for each component; empty where the component is free.

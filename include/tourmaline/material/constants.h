@@ -36,9 +36,9 @@ struct Constants {
 };
 
 /// The constants that a case asks for, in crystal axes: the library's entry, then what the case
-/// gives, all in stress-charge form at constant strain. Throws CaseError for an unknown entry, a
-/// missing constant, one that the crystal's class does not have, or a stored energy that is not
-/// positive.
+/// gives, all in stress-charge form at constant strain. Throws CaseError for an unknown entry,
+/// constants that are missing (`gaps`, all at once), one that the crystal's class does not have, or
+/// a stored energy that is not positive.
 Constants constants_of(const casefile::MaterialCase &asked);
 
 /// The entry of the library, or of the case's own file of materials, with what the case gives laid
@@ -48,8 +48,9 @@ casefile::MaterialCase with_entry(const casefile::MaterialCase &asked);
 /// The electromechanical part of `constants_of` for a material with its entry: elasticity,
 /// piezoelectricity and permittivity; the others stay zero.
 Constants electromechanical(const casefile::MaterialCase &given);
-/// Those of the entry's `not_given` that the case does not give either.
-std::vector<std::string> missing_constants(const casefile::MaterialCase &given);
+/// What of the couplings there is and what not: "piezoelectric, not pyroelectric, without thermal
+/// expansion"; of a conductor only the last.
+std::string couplings(const Constants &constants);
 
 /// Throws CaseError unless elasticity, conductivity and the electro-thermal energy
 /// [beta P; P^T alpha] are symmetric and positive definite: the operator of a step is then

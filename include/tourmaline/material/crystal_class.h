@@ -16,12 +16,11 @@ struct CrystalClass {
 
   bool gives(const std::string &constant) const { return named.contains(constant); }
   double need(const std::string &constant) const;
-  double or_zero(const std::string &constant) const;
 
   Stiffness stiffness() const;                ///< c11, ... or young, poisson [Pa]
   Stiffness compliance() const;               ///< s11, ... [1/Pa]
-  Piezoelectric stress_coefficients() const;  ///< e31, ... [C/m^2]; zero when not given
-  Piezoelectric strain_coefficients() const;  ///< d31, ... [C/N]; zero when not given
+  Piezoelectric stress_coefficients() const;  ///< e31, ... [C/m^2]
+  Piezoelectric strain_coefficients() const;  ///< d31, ... [C/N]
   /// letter11, letter22, letter33 with a suffix: "beta" + "", "eps" + "_T", ...
   Vector diagonal(const std::string &letters, const std::string &suffix = "") const;
 };

@@ -30,6 +30,13 @@ struct Seconds {
   double total = none;
 };
 
+/// What a part of the body is made of.
+struct MaterialRecord {
+  std::string region;     // names or formula; empty: the whole body
+  std::string material;   // entry of the library
+  std::string couplings;  // which there are and which not
+};
+
 /// What a run says about itself when it is over.
 struct Summary {
   std::string title;                              // the case's
@@ -43,13 +50,15 @@ struct Summary {
   double backward_error = Seconds::none;           // largest of the run's linear solves, relative
   std::vector<Extreme> extremes;
   Seconds seconds;
+  std::vector<MaterialRecord> materials;
   std::uint64_t peak_memory_bytes = 0;  // largest resident set, all ranks together
   std::vector<std::string> warnings;
 };
 
-/// summary.json: the keys case, versions, inputs, sizes, iterations, factorisations, negative_pivots,
-/// backward_error, extremes, seconds, memory (bytes), warnings, in this order. Numbers read back as
-/// they were; what is not finite or not known is null. Places have `dimension` coordinates.
+/// summary.json: the keys case, versions, inputs, sizes, iterations, factorisations,
+/// negative_pivots, backward_error, extremes, materials, seconds, memory (bytes), warnings, in this
+/// order. Numbers read back as they were; what is not finite or not known is null. Places have
+/// `dimension` coordinates.
 std::string summary_text(int dimension, const Summary &summary);
 
 }  // namespace tourmaline::output

@@ -1,0 +1,178 @@
+#include "tourmaline/material/completeness.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tourmaline/error.h"
+#include "tourmaline/material/constants.h"
+#include "tourmaline/material/description.h"
+#include "tourmaline/material/library.h"
+
+namespace tourmaline::material {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using Names = std::vector<std::string>;
+
+// Polyvinylidene fluoride as a data sheet has it, complete.
+casefile::MaterialCase film() {
+  casefile::MaterialCase asked;
+  asked.constants = {{"s11", 5e-10},
+                     {"s12", -1.45e-10},
+                     {"s13", -1.45e-10},
+                     {"s33", 5e-10},
+                     {"s44", 1.3e-9},
+                     {"d31", 2.2e-11},
+                     {"d33", -3.0e-11},
+                     {"d15", -2e-11},
+                     {"eps11_T", 12},
+                     {"eps33_T", 12},
+                     {"a11", 1e-4},
+                     {"a33", 1e-4},
+                     {"p3", -2e-5},
+                     {"k11", 0.2},
+                     {"k33", 0.2},
+                     {"density", 1780},
+                     {"specific_heat", 1200},
+                     {"reference_temperature", 293}};
+  return asked;
+}
+
+casefile::MaterialCase film_without(const Names &constants) {
+  casefile::MaterialCase asked = film();
+  for (const std::string &constant : constants)
+    EXPECT_EQ(asked.constants.erase(constant), 1u) << constant;
+  return asked;
+}
+
+std::string complaint(const casefile::MaterialCase &asked) {
+  try {
+    constants_of(asked);
+  } catch (const CaseError &error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Completeness, AMaterialWithAllConstantsOfItsClassLacksNone) {
+  EXPECT_THAT(missing_constants(film()), IsEmpty());
+  EXPECT_EQ(complaint(film()), "");
+}
+
+TEST(Completeness, NoConstantOfAMaterialBecomesZeroByBeingForgotten) {
+  for (const auto &[constant, value] : film().constants) {
+    if (constant == "p3")
+      continue;  // the only one of its kind: without it the material is not pyroelectric
+    EXPECT_THAT(missing_constants(film_without({constant})), ElementsAre(constant));
+    EXPECT_THAT(complaint(film_without({constant})), HasSubstr(constant)) << constant;
+  }
+}
+
+TEST(Completeness, WholeKindsOfCouplingsMayBeLeftOut) {
+  const auto plain = film_without({"d31", "d33", "d15", "a11", "a33", "p3"});
+  EXPECT_EQ(complaint(plain), "");
+  EXPECT_EQ(couplings(constants_of(plain)),
+            "not piezoelectric, not pyroelectric, without thermal expansion");
+  EXPECT_EQ(couplings(constants_of(film())), "piezoelectric, pyroelectric, with thermal expansion");
+  EXPECT_EQ(couplings(constants_of(film_without({"p3"}))),
+            "piezoelectric, not pyroelectric, with thermal expansion");
+}
+
+TEST(Completeness, AllThatIsMissingIsSaidAtOnce) {
+  casefile::MaterialCase empty;
+  EXPECT_THAT(missing_constants(empty),
+              ElementsAre("c11", "c12", "c13", "c33", "c44", "beta11", "beta33", "k11", "k33",
+                          "density", "specific_heat", "reference_temperature"));
+  const std::string said = complaint(empty);
+  for (const std::string &constant : missing_constants(empty))
+    EXPECT_THAT(said, HasSubstr(constant));
+  EXPECT_THAT(complaint(film_without({"d31", "d15", "density"})),
+              HasSubstr("lacks: piezoelectric constants d31, d15 (d33 is given; all of this kind "
+                        "and form, or none); density. Give them"));
+}
+
+TEST(Completeness, ClassesHaveTheirOwnConstants) {
+  casefile::MaterialCase crystal;
+  crystal.symmetry = "mm2";
+  crystal.constants = {{"e31", 1}, {"m11", 1}};
+  EXPECT_THAT(missing_constants(crystal),
+              testing::IsSupersetOf({"e32", "e33", "e24", "e15", "m22", "m33", "c66", "k22"}));
+  crystal.symmetry = "isotropic";
+  crystal.constants = {{"young", 1}};
+  EXPECT_THAT(missing_constants(crystal), ElementsAre("poisson", "beta11", "k11", "density",
+                                                      "specific_heat", "reference_temperature"));
+}
+
+TEST(Completeness, AWholeTensorSaysAllOfItsKind) {
+  casefile::MaterialCase asked = film_without({"d31", "d33", "d15"});
+  asked.piezoelectric = std::vector<std::vector<double>>(3, std::vector<double>(6, 0.1));
+  EXPECT_THAT(missing_constants(asked), IsEmpty());
+}
+
+TEST(Completeness, OneConstantOverridesThatOfAnEntryInItsForm) {
+  casefile::MaterialCase asked;
+  asked.library = "BaTiO3-Liu2014";
+  asked.constants = {{"e31", -4}};
+  EXPECT_EQ(constants_of(asked).piezoelectric(2, 0), -4);
+  EXPECT_EQ(constants_of(asked).piezoelectric(2, 2), 18.6);
+}
+
+TEST(Completeness, OneConstantInAnotherFormThanTheEntrysNeedsTheOthers) {
+  casefile::MaterialCase asked;
+  asked.library = "BaTiO3-Liu2014";
+  asked.constants = {{"d31", -4e-11}};
+  EXPECT_THAT(complaint(asked), HasSubstr("piezoelectric constants d33, d15 (d31 is given"));
+}
+
+TEST(Completeness, AConductorNeedsNoElectricConstants) {
+  casefile::MaterialCase metal = film_without({"d31", "d33", "d15", "eps11_T", "eps33_T", "p3"});
+  metal.conductor = true;
+  EXPECT_THAT(missing_constants(metal), IsEmpty());
+  EXPECT_EQ(couplings(constants_of(metal)), "with thermal expansion");
+}
+
+TEST(MaterialsCommand, SaysOfEveryEntryWhetherACaseCanUseItAsItIs) {
+  const auto list = nlohmann::json::parse(library_json());
+  ASSERT_EQ(list.size(), library().size());
+  for (const auto &entry : list) {
+    casefile::MaterialCase asked;
+    asked.library = entry.at("name");
+    EXPECT_EQ(entry.at("complete").get<bool>(), complaint(asked).empty()) << entry.at("name");
+    for (const auto &missing : entry.at("missing"))
+      asked.constants[missing.at("key")] = missing.at("key") == "specific_heat" ? 400
+                                           : missing.at("unit") == "W/(K m)"    ? 1
+                                                                                : 1e-6;
+    EXPECT_EQ(complaint(asked), "") << entry.at("name") << " with what it lacks";
+    EXPECT_THAT(describe_library(), HasSubstr(entry.at("name").get<std::string>()));
+  }
+  EXPECT_THAT(describe_library(), HasSubstr("add a11, a33, p3, k11, k33, specific_heat"));
+  EXPECT_THAT(describe_library(), HasSubstr("6mm        complete"));
+}
+
+TEST(MaterialsCommand, ShowsWhatThereIsOfAnUnfinishedEntry) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "tourmaline-unfinished.toml";
+  std::ofstream(file) << "[half]\nsource = \"data sheet\"\nc11 = 1e11\n"
+                         "[unstable]\nsource = \"data sheet\"\nsymmetry = \"cubic\"\n"
+                         "c11 = 1e11\nc12 = 2e11\nc44 = 1e11\neps11 = 5\n";
+  casefile::MaterialCase asked;
+  asked.file = file.string();
+  asked.library = "half";
+  EXPECT_THAT(describe(asked),
+              AllOf(HasSubstr("1e+11  Pa"), HasSubstr("elastic constants: c12 [Pa], c13 [Pa]")));
+  asked.library = "unstable";
+  EXPECT_THAT(describe(asked), AllOf(HasSubstr("2e+11  Pa"), HasSubstr("not positive definite"),
+                                     HasSubstr("density [kg/m^3]")));
+  const auto entry = nlohmann::json::parse(entry_json(asked));
+  EXPECT_FALSE(entry.at("complete").get<bool>());
+  EXPECT_EQ(entry.at("constants").at("c12"), 2e11);
+  std::filesystem::remove(file);
+}
+
+}  // namespace
+}  // namespace tourmaline::material
