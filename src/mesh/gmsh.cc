@@ -2,18 +2,19 @@
 
 #include <fmt/format.h>
 #include <gmsh.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <unordered_map>
 
 #include "child_process.h"
 #include "mesh_bytes.h"
+#include "sandbox.h"
 #include "tourmaline/error.h"
 #include "tourmaline/mesh/completed.h"
 
@@ -25,10 +26,17 @@ using casefile::CellShape;
 using casefile::Groups;
 using casefile::MeshFile;
 
+// What a geometry may not, for those who wonder why it cannot be read.
+constexpr const char *walls =
+    "a geometry may not start programs, open connections, write files or read any that do not lie "
+    "in its folder; if you trust it, read it with --trust";
+
 /// libgmsh between its start and its end; it keeps one model at a time for the whole process.
 class Session {
  public:
-  Session() {
+  /// `confined`: whether a geometry meets walls, which its errors then tell.
+  explicit Session(bool confined) {
+    confined_ = confined;
     gmsh::initialize(0, nullptr, false);  // no settings of the user's own: same case, same mesh
     gmsh::option::setNumber("General.Terminal", 0);
     gmsh::logger::start();
@@ -41,16 +49,35 @@ class Session {
   Session &operator=(const Session &) = delete;
 
   /// Throws CaseError with the first error that libgmsh has reported so far; it goes on after many.
+  /// Of nodes and elements that have the same number it keeps one, and says so at most.
   static void check() {
     std::vector<std::string> log;
     gmsh::logger::get(log);
-    for (const std::string &line : log)
+    for (const std::string &line : log) {
       if (line.starts_with("Error"))
-        throw CaseError("Gmsh says: " + line);
+        throw CaseError("Gmsh says: " + line + hint(line));
+      for (const char *kind : {"node", "element"})
+        if (const auto at = line.find(fmt::format("Skipping duplicate {} ", kind));
+            at != std::string::npos)
+          throw CaseError(fmt::format("lists two {0}s with the number {1}; every {0} has its own",
+                                      kind, line.substr(line.find_last_of(' ') + 1)));
+    }
   }
+
+ private:
+  static std::string hint(const std::string &line) {
+    const bool file = line.find("open file") != std::string::npos;
+    return file && confined_ ? "; " + std::string(walls) : "";
+  }
+
+  inline static bool confined_ = false;
 };
 
 enum class Format { msh2, msh4, geo, cad };
+
+bool is_geometry(Format format) {
+  return format == Format::geo || format == Format::cad;
+}
 
 std::string extension(const std::filesystem::path &file) {
   std::string text = file.extension().string();
@@ -106,7 +133,7 @@ void check_last_line(Format format, const std::string &file) {
 void check_size(Format format, const casefile::MeshCase &asked) {
   if (format == Format::cad && !asked.size)
     throw CaseError("is a geometry without a mesh; give the size of its cells, mesh.size");
-  if (format != Format::geo && format != Format::cad && asked.size)
+  if (!is_geometry(format) && asked.size)
     throw CaseError("is a mesh already; mesh.size is for geometries (.geo, .step, ...)");
 }
 
@@ -124,10 +151,12 @@ void generate(Format format, const casefile::MeshCase &asked) {
   if (format == Format::cad)
     join_solids();
   if (asked.size)
-    gmsh::option::setNumber("Mesh.MeshSizeMax", *asked.size / asked.scale);
+    gmsh::option::setNumber("Mesh.MeshSizeMax", *asked.size);
   gmsh::model::mesh::generate(gmsh::model::getDimension());
 }
 
+// Options beside the file (body.msh.opt), which may run commands, belong to libgmsh's projects;
+// `merge` takes the file alone.
 void open(Format format, const casefile::MeshCase &asked) {
   // A format-2 file may give elements of one entity to different groups, which libgmsh would give
   // to all of them. With the two tags switched an entity is a group.
@@ -135,9 +164,12 @@ void open(Format format, const casefile::MeshCase &asked) {
   // CAD files know their unit.
   if (format == Format::cad)
     gmsh::option::setString("Geometry.OCCTargetUnit", "M");
-  gmsh::open(*asked.file);
+  if (is_geometry(format))
+    gmsh::open(*asked.file);
+  else
+    gmsh::merge(*asked.file);
   Session::check();
-  if (format == Format::geo || format == Format::cad)
+  if (is_geometry(format))
     generate(format, asked);
   Session::check();
 }
@@ -282,7 +314,9 @@ struct Nodes {
     for (std::size_t i = 0; i < tags.size(); ++i) {
       points.push_back(
           {scale * places[3 * i], scale * places[3 * i + 1], scale * places[3 * i + 2]});
-      index[tags[i]] = static_cast<std::uint32_t>(i);
+      if (!index.emplace(tags[i], static_cast<std::uint32_t>(i)).second)
+        throw CaseError(
+            fmt::format("lists two nodes with the number {0}; every node has its own", tags[i]));
     }
   }
 
@@ -325,8 +359,8 @@ MeshFile listed(Format format, const casefile::MeshCase &asked) {
   return mesh;
 }
 
-MeshFile read_with_libgmsh(Format format, const casefile::MeshCase &asked) {
-  const Session session;
+MeshFile read_with_libgmsh(Format format, const casefile::MeshCase &asked, bool confined) {
+  const Session session(confined);
   try {
     open(format, asked);
     return listed(format, asked);
@@ -336,32 +370,96 @@ MeshFile read_with_libgmsh(Format format, const casefile::MeshCase &asked) {
   }
 }
 
-// A mesh is read in a time that grows with its size; meshing a geometry may take any.
-double most_seconds(Format format, const std::string &file) {
-  if (format != Format::msh2 && format != Format::msh4)
-    return std::numeric_limits<double>::infinity();
+// A mesh is read in a time that grows with its size. By the clock anything takes longer on a busy
+// machine, but nothing sleeps.
+Limits limits_of(Format format, const std::string &file, const Reading &how) {
+  Limits limits;
+  if (is_geometry(format) && how.trusted)
+    return limits;
   constexpr double least = 30, bytes_per_second = 1e5;
-  return least + static_cast<double>(std::filesystem::file_size(file)) / bytes_per_second;
+  limits.processor_seconds =
+      is_geometry(format)
+          ? how.seconds_of_geometry
+          : least + static_cast<double>(std::filesystem::file_size(file)) / bytes_per_second;
+  limits.seconds = 5 * limits.processor_seconds + least;
+  limits.bytes =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  return limits;
 }
 
-MeshFile read(const casefile::MeshCase &asked) {
+std::string complaint_about(Format format, const Limits &limits, Ending ending) {
+  if (ending == Ending::forbidden)
+    return fmt::format("wants to start a program; {}", walls);
+  if (is_geometry(format) && ending == Ending::out_of_time)
+    return fmt::format(
+        "is a geometry that does not come to an end within {:g} s of a processor; mesh it with "
+        "Gmsh and name the mesh (.msh), or, if you trust it, read it with --trust, which sets no "
+        "limit",
+        limits.processor_seconds);
+  const std::string text = "cannot be read, it may be damaged: the library that reads it ";
+  switch (ending) {
+    case Ending::out_of_time:
+      return text + "does not come to an end on it";
+    case Ending::out_of_memory:
+      return text + "takes more memory than there is";
+    case Ending::silent:
+      return text + "ended without a word";
+    default:
+      return text + "crashed on it";
+  }
+}
+
+// A mesh is data, and read with what walls there are; a geometry is a program, and needs them all.
+void build_walls(Format format, const std::filesystem::path &file, const Reading &how) {
+  std::vector<std::filesystem::path> readable{std::filesystem::canonical(file)};
+  if (is_geometry(format))
+    readable.push_back(file.parent_path());
+  const Walls stand = confine(readable, how.walls);
+  if (!is_geometry(format) || (stand.files && stand.calls))
+    return;
+  throw CaseError(fmt::format(
+      "is a geometry, whose script could do anything: the kernel of this machine offers no {} to "
+      "keep it from that (containers and old kernels may lack it). Mesh it with Gmsh and name the "
+      "mesh (.msh), or, if you trust it, read it with --trust",
+      stand.calls   ? "Landlock"
+      : stand.files ? "seccomp"
+                    : "Landlock and no seccomp"));
+}
+
+MeshFile read(const casefile::MeshCase &asked, const Reading &how) {
   const Format format = format_of(*asked.file);
   check_size(format, asked);
   check_last_line(format, *asked.file);
+  const Limits limits = limits_of(format, *asked.file, how);
+  const bool confined = !(is_geometry(format) && how.trusted);
   // libgmsh crashes on many a damaged file.
-  return mesh_of(in_child_process([&] { return bytes_of(read_with_libgmsh(format, asked)); },
-                                  most_seconds(format, *asked.file)));
+  return mesh_of(in_child_process(
+      [&] {
+        if (confined)
+          build_walls(format, *asked.file, how);
+        return bytes_of(read_with_libgmsh(format, asked, confined && is_geometry(format)));
+      },
+      limits, [&](Ending ending) { return complaint_about(format, limits, ending); }));
 }
 
-}  // namespace
-
-std::shared_ptr<const MeshFile> read_mesh_file(const casefile::MeshCase &asked) {
+std::shared_ptr<const MeshFile> read_file(casefile::MeshCase asked, const Reading &how) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(*asked.file, ignored))
     throw CaseError("there is no such file");
   if (!std::ifstream(*asked.file))
     throw CaseError("cannot be read");
-  return std::make_shared<const MeshFile>(completed(read(asked)));
+  asked.file = std::filesystem::absolute(*asked.file).string();
+  return std::make_shared<const MeshFile>(completed(read(asked, how)));
+}
+
+}  // namespace
+
+std::shared_ptr<const MeshFile> read_mesh_file(const casefile::MeshCase &asked) {
+  return read_file(asked, {});
+}
+
+casefile::MeshFileReader mesh_file_reader(const Reading &how) {
+  return [how](const casefile::MeshCase &asked) { return read_file(asked, how); };
 }
 
 }  // namespace tourmaline::mesh
