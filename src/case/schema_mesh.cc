@@ -203,14 +203,16 @@ void declare_file(Visitor &v, MeshCase &mesh) {
            "\"volume 1\", ... (`tourmaline check` lists them with their places)"},
       mesh.file);
   const bool file = mesh.file.has_value();
-  v.optional({.name = "size",
-              .description = "size of the largest cells of a geometry; required for .step, .iges "
-                             "and .brep",
-              .unit = "m",
-              .range = positive(),
-              .used = file,
-              .used_with = used_with},
-             mesh.size);
+  v.optional(
+      {.name = "size",
+       .description = "size of the largest cells of a geometry, in the unit of its file, which "
+                      "is `scale`; required for .step, .iges and .brep. A size that changes "
+                      "nothing is a mistake",
+       .unit = "scale",
+       .range = positive(),
+       .used = file,
+       .used_with = used_with},
+      mesh.size);
   v.key({.name = "scale",
          .description = "the unit of length of the file, 1e-3 when it is in millimetres; .step and "
                         ".iges know theirs and come in metres",

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -15,6 +16,7 @@
 #include "child_process.h"
 #include "mesh_bytes.h"
 #include "sandbox.h"
+#include "tourmaline/case/utf8.h"
 #include "tourmaline/error.h"
 #include "tourmaline/mesh/completed.h"
 
@@ -147,9 +149,22 @@ void join_solids() {
   gmsh::model::occ::synchronize();
 }
 
+// libgmsh would leave the cells as they are.
+void check_not_meshed() {
+  std::vector<int> types;
+  std::vector<std::vector<std::size_t>> tags, nodes;
+  gmsh::model::mesh::getElements(types, tags, nodes, gmsh::model::getDimension());
+  if (!types.empty())
+    throw CaseError(
+        "makes or merges a mesh itself, on which mesh.size has no effect; leave out "
+        "mesh.size");
+}
+
 void generate(Format format, const casefile::MeshCase &asked) {
   if (format == Format::cad)
     join_solids();
+  if (asked.size)
+    check_not_meshed();
   if (asked.size)
     gmsh::option::setNumber("Mesh.MeshSizeMax", *asked.size);
   gmsh::model::mesh::generate(gmsh::model::getDimension());
@@ -201,12 +216,20 @@ class Names {
       throw CaseError("has a physical group called " + name +
                       "; names may not contain commas, quotes and ends of lines, as result files "
                       "list them");
+    require_utf8(name);
     return name.empty() ? std::to_string(std::abs(tag)) : name;
+  }
+
+  static void require_utf8(const std::string &name) {
+    if (!casefile::is_utf8(name))
+      throw CaseError("has a group whose name is not UTF-8, " + casefile::readable(name) +
+                      "; save the file as UTF-8, or take a name of plain letters");
   }
 
   static std::string cad_name(int dimension, int entity) {
     std::string label;
     gmsh::model::getEntityName(dimension, entity, label);
+    require_utf8(label);
     constexpr const char *kind[] = {"point", "curve", "surface", "volume"};
     return label.empty() ? fmt::format("{} {}", kind[dimension], entity)
                          : label.substr(label.find_last_of('/') + 1);
@@ -415,15 +438,13 @@ void build_walls(Format format, const std::filesystem::path &file, const Reading
   if (is_geometry(format))
     readable.push_back(file.parent_path());
   const Walls stand = confine(readable, how.walls);
-  if (!is_geometry(format) || (stand.files && stand.calls))
+  if (!is_geometry(format) || stand.complete())
     return;
   throw CaseError(fmt::format(
       "is a geometry, whose script could do anything: the kernel of this machine offers no {} to "
       "keep it from that (containers and old kernels may lack it). Mesh it with Gmsh and name the "
       "mesh (.msh), or, if you trust it, read it with --trust",
-      stand.calls   ? "Landlock"
-      : stand.files ? "seccomp"
-                    : "Landlock and no seccomp"));
+      stand.seccomp ? "Landlock and no namespaces" : "seccomp"));
 }
 
 MeshFile read(const casefile::MeshCase &asked, const Reading &how) {
@@ -442,6 +463,33 @@ MeshFile read(const casefile::MeshCase &asked, const Reading &how) {
       limits, [&](Ending ending) { return complaint_about(format, limits, ending); }));
 }
 
+double longest_edge(const MeshFile &mesh) {
+  double longest = 0;
+  const std::size_t each = mesh.vertices_per_cell();
+  for (std::size_t cell = 0; cell < mesh.n_cells(); ++cell)
+    for (std::size_t i = 0; i < each; ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        const auto &a = mesh.points[mesh.cells[cell * each + i]];
+        const auto &b = mesh.points[mesh.cells[cell * each + j]];
+        longest = std::max(longest, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
+      }
+  return longest;
+}
+
+// Where a size decides, a line is divided into parts longer than half of it, unless the line itself
+// is shorter.
+void check_size_decided(const casefile::MeshCase &asked, const MeshFile &mesh) {
+  if (!asked.size)
+    return;
+  const double longest = longest_edge(mesh) / asked.scale;
+  if (longest < 0.5 * *asked.size)
+    throw CaseError(fmt::format(
+        "has no cell longer than {:.3g} in its own unit (mesh.scale = {:g} m), so that mesh.size = "
+        "{:g} has no effect: the geometry asks for smaller cells itself, or is smaller. Leave out "
+        "mesh.size, or give a smaller one in the unit of the file",
+        longest, asked.scale, *asked.size));
+}
+
 std::shared_ptr<const MeshFile> read_file(casefile::MeshCase asked, const Reading &how) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(*asked.file, ignored))
@@ -449,7 +497,9 @@ std::shared_ptr<const MeshFile> read_file(casefile::MeshCase asked, const Readin
   if (!std::ifstream(*asked.file))
     throw CaseError("cannot be read");
   asked.file = std::filesystem::absolute(*asked.file).string();
-  return std::make_shared<const MeshFile>(completed(read(asked, how)));
+  auto mesh = std::make_shared<const MeshFile>(completed(read(asked, how)));
+  check_size_decided(asked, *mesh);
+  return mesh;
 }
 
 }  // namespace

@@ -6,16 +6,21 @@
 #include <seccomp.h>
 #include <sys/ioctl.h>
 #include <sys/mman.h>
+#include <sys/mount.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <initializer_list>
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace tourmaline::mesh {
 
@@ -75,6 +80,77 @@ bool wall_off_files(const std::vector<std::filesystem::path> &readable) {
   stands = syscall(SYS_landlock_restrict_self, ruleset, 0) == 0 && stands;
   close(static_cast<int>(ruleset));
   return stands;
+}
+
+bool write_to(const char *file, const std::string &text) {
+  const int out = open(file, O_WRONLY | O_CLOEXEC);
+  const bool written =
+      out >= 0 && write(out, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+  close(out);
+  return written;
+}
+
+// Mounts and a network of its own, of which it is the master without being more to anybody else.
+bool enter_namespaces() {
+  const std::string user = std::to_string(getuid()), group = std::to_string(getgid());
+  return unshare(CLONE_NEWUSER | CLONE_NEWNS | CLONE_NEWNET | CLONE_NEWIPC) == 0 &&
+         write_to("/proc/self/setgroups", "deny") &&
+         write_to("/proc/self/uid_map", user + " " + user + " 1") &&
+         write_to("/proc/self/gid_map", group + " " + group + " 1") &&
+         mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0;
+}
+
+// What a mount forbids, those that are made from it must forbid too.
+unsigned long forbidden_by(int file) {
+  struct statvfs status {};
+  fstatvfs(file, &status);
+  unsigned long flags = MS_RDONLY | MS_NOSUID | MS_NODEV;
+  for (const auto &[has, keeps] : {std::pair<unsigned long, unsigned long>{ST_NOEXEC, MS_NOEXEC},
+                                   {ST_NOATIME, MS_NOATIME},
+                                   {ST_NODIRATIME, MS_NODIRATIME},
+                                   {ST_RELATIME, MS_RELATIME}})
+    flags |= (status.f_flag & has) != 0 ? keeps : 0;
+  return flags;
+}
+
+// The same file or folder, by the same name below `root`.
+bool show(int file, const std::filesystem::path &path, const std::filesystem::path &root) {
+  std::error_code error;
+  const std::filesystem::path place = root / path.relative_path();
+  struct stat status {};
+  fstat(file, &status);
+  std::filesystem::create_directories(S_ISDIR(status.st_mode) ? place : place.parent_path(), error);
+  if (!S_ISDIR(status.st_mode))
+    close(open(place.c_str(), O_RDONLY | O_CREAT | O_CLOEXEC, 0400));
+  const std::string source = "/proc/self/fd/" + std::to_string(file);
+  return mount(source.c_str(), place.c_str(), nullptr, MS_BIND | MS_REC, nullptr) == 0 &&
+         mount(nullptr, place.c_str(), nullptr, MS_BIND | MS_REMOUNT | forbidden_by(file),
+               nullptr) == 0;
+}
+
+// A root of its own that holds what may be read, and nothing else. What is to be shown is opened
+// before, as the new root may lie above it.
+bool hide_files(std::vector<std::filesystem::path> readable) {
+  if (!enter_namespaces())
+    return false;
+  // Folders before what lies in them.
+  std::sort(readable.begin(), readable.end());
+  std::vector<int> opened;
+  for (const std::filesystem::path &path : readable)
+    opened.push_back(open(path.c_str(), O_PATH | O_CLOEXEC));
+  const std::filesystem::path root = std::filesystem::temp_directory_path();
+  bool stands =
+      mount("none", root.c_str(), "tmpfs", MS_NOSUID | MS_NODEV | MS_NOEXEC, "mode=700") == 0;
+  for (std::size_t i = 0; i < opened.size(); ++i) {
+    // In a folder that is shown already it has its place.
+    std::error_code error;
+    const bool shown = std::filesystem::exists(root / readable[i].relative_path(), error);
+    stands = stands && (shown || show(opened[i], readable[i], root));
+    close(opened[i]);
+  }
+  return stands && chroot(root.c_str()) == 0 && chdir("/") == 0 &&
+         mount(nullptr, "/", nullptr, MS_REMOUNT | MS_RDONLY | MS_NOSUID | MS_NODEV | MS_NOEXEC,
+               nullptr) == 0;
 }
 
 /// A filter of system calls: what it does not name fails with EPERM.
@@ -185,8 +261,9 @@ Walls confine(const std::vector<std::filesystem::path> &readable, Walls asked) {
   setrlimit(RLIMIT_FSIZE, &nothing);
   prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
   Walls stand;
-  stand.files = asked.files && wall_off_files(readable);
-  stand.calls = asked.calls && wall_off_calls();
+  stand.landlock = asked.landlock && wall_off_files(readable);
+  stand.namespaces = !stand.landlock && asked.namespaces && hide_files(readable);
+  stand.seccomp = asked.seccomp && wall_off_calls();
   return stand;
 }
 

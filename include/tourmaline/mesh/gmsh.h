@@ -8,17 +8,20 @@ namespace tourmaline::mesh {
 
 /// What keeps a child process from the machine.
 struct Walls {
-  bool files = true;  ///< Landlock: it reads what it was given, and writes nothing
-  bool calls = true;  ///< seccomp: it starts no program and opens no socket, and writes nothing
+  bool landlock = true;    ///< it reads what it was given, and writes nothing
+  bool namespaces = true;  ///< it sees no other files; taken where Landlock is missing
+  bool seccomp = true;     ///< it starts no program, opens no socket, and writes nothing
+
+  bool complete() const { return (landlock || namespaces) && seccomp; }
 };
 
 /// How files of others are read.
 struct Reading {
   /// Geometries may do whatever this program may, for as long as they like: their scripts start
-  /// programs and write files. Else they are read between walls, or refused where the kernel has
-  /// not all of these.
+  /// programs and write files. Else they are read between walls, or refused where these are not
+  /// complete.
   bool trusted = false;
-  Walls walls;                       ///< those to be built
+  Walls walls = {};                  ///< those to be built
   double seconds_of_geometry = 600;  ///< of a processor, to evaluate and mesh a geometry
 };
 
