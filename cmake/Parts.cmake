@@ -10,6 +10,7 @@ find_package(ZLIB REQUIRED)
 pkg_check_modules(TOMLPLUSPLUS REQUIRED IMPORTED_TARGET tomlplusplus)
 pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo)
 pkg_check_modules(MUPARSER REQUIRED IMPORTED_TARGET muparser)
+pkg_check_modules(SECCOMP REQUIRED IMPORTED_TARGET libseccomp)
 
 # deal.II's own target drags some 150 Trilinos libraries into the link line, and with them into every
 # start of the program. Only the library itself is linked here; `--as-needed` keeps of the two Teuchos

@@ -2,6 +2,8 @@
 include(CMakePackageConfigHelpers)
 set(config ${CMAKE_INSTALL_LIBDIR}/cmake/Tourmaline)
 
+target_link_options(tourmaline_lib INTERFACE
+  $<INSTALL_INTERFACE:-Wl,--version-script=$<INSTALL_PREFIX>/${config}/hidden-symbols.map>)
 install(TARGETS tourmaline_lib EXPORT TourmalineTargets COMPONENT development)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/ TYPE INCLUDE COMPONENT development)
 install(EXPORT TourmalineTargets NAMESPACE Tourmaline:: DESTINATION ${config} COMPONENT development)
@@ -16,7 +18,7 @@ configure_package_config_file(TourmalineConfig.cmake.in TourmalineConfig.cmake I
 write_basic_package_version_file(TourmalineConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/TourmalineConfig.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/TourmalineConfigVersion.cmake
-              ${PROJECT_SOURCE_DIR}/cmake/Parts.cmake
+              ${PROJECT_SOURCE_DIR}/cmake/Parts.cmake ${PROJECT_SOURCE_DIR}/cmake/hidden-symbols.map
   DESTINATION ${config} COMPONENT development)
 
 # The example of a program that uses the library.

@@ -37,15 +37,19 @@ struct Asked {
   std::vector<std::filesystem::path> folders;
   std::vector<std::string> overrides;
   std::string material, materials_file;
-  bool quiet = false, resume = false, json = false;
+  bool quiet = false, resume = false, json = false, trust = false;
   std::string format = "svg";
   std::vector<std::string> fields;
   std::optional<double> time;
 };
 
+tourmaline::casefile::Case case_of(const Asked &asked) {
+  return tourmaline::casefile::read_file(
+      asked.file, asked.overrides, tourmaline::mesh::mesh_file_reader({.trusted = asked.trust}));
+}
+
 void run(const Asked &asked) {
-  const auto read = tourmaline::casefile::read_file(asked.file, asked.overrides,
-                                                    tourmaline::mesh::read_mesh_file);
+  const auto read = case_of(asked);
   const auto directory = asked.directory.empty()
                              ? std::filesystem::path("results") / asked.file.stem()
                              : asked.directory;
@@ -56,8 +60,7 @@ void run(const Asked &asked) {
 }
 
 void check(const Asked &asked) {
-  const auto read = tourmaline::casefile::read_file(asked.file, asked.overrides,
-                                                    tourmaline::mesh::read_mesh_file);
+  const auto read = case_of(asked);
   tourmaline::solve::check(read);
   std::cout << tourmaline::casefile::resolved(read) << tourmaline::solve::survey(read);
 }
@@ -105,6 +108,9 @@ void add_case(CLI::App &command, Asked &asked) {
           "another value for a key of the case file, key.path=value with the value as TOML; "
           "may be given several times")
       ->allow_extra_args(false);
+  command.add_flag("--trust", asked.trust,
+                   "let the script of a geometry (mesh.file) do anything that you may, without "
+                   "limits of time and memory");
 }
 
 void add_run(CLI::App &app, Asked &asked) {

@@ -81,6 +81,9 @@ void add_sweep(CLI::App &app, int &status) {
                    "cases that run side by side; if not given as many as cores (over "
                    "solver.threads) and memory allow")
       ->check(CLI::Range(1, 1024));
+  command->add_flag("--trust", request->trust,
+                    "let the script of a geometry (mesh.file) do anything that you may, without "
+                    "limits of time and memory");
   command->add_flag("-q,--quiet", request->quiet, "print nothing but warnings and errors");
   command->callback([request, &status] { status = sweep(*request); });
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tourmaline/case/toml_text.h"
+#include "tourmaline/case/utf8.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::casefile {
@@ -46,7 +47,9 @@ std::string trimmed(std::string_view text) {
 }
 
 Override split(const std::string &assignment) {
-  Override asked{.place = "--set " + shortened(assignment), .path = {}, .value = {}};
+  Override asked{.place = "--set " + shortened(readable(assignment)), .path = {}, .value = {}};
+  if (!is_utf8(assignment))
+    fail(asked, "is not UTF-8");
   const auto equals = assignment.find('=');
   if (equals == std::string::npos)
     fail(asked, "has no \"=\"; write key.path=value");

@@ -13,6 +13,7 @@
 #include "tourmaline/case/nearest.h"
 #include "tourmaline/case/schema.h"
 #include "tourmaline/case/toml_text.h"
+#include "tourmaline/case/utf8.h"
 #include "tourmaline/error.h"
 #include "value.h"
 
@@ -175,8 +176,14 @@ class Reader : public Visitor {
   }
 
   void locate(const std::string &name, std::string &file) override {
-    if (table_.contains(name))
-      file = std::filesystem::absolute(context_.folder / file).lexically_normal().string();
+    const toml::node *node = table_.get(name);
+    if (!node)
+      return;
+    file = std::filesystem::absolute(context_.folder / file).lexically_normal().string();
+    if (!is_utf8(file))
+      fail(item(*node, {.name = name, .description = ""}),
+           "lies in a folder whose name is not UTF-8, as resolved.toml could not name it (" +
+               readable(file) + "); rename the folder");
   }
 
   void load(MeshCase &mesh) override {
@@ -258,6 +265,7 @@ class Reader : public Visitor {
 toml::table parsed(const std::string &text, const std::string &name) {
   if (text.find('\0') != std::string::npos)
     throw CaseError(name + ": is not a text file");
+  require_utf8(text, name);
   if (text.find_first_not_of(" \t\r\n") == std::string::npos)
     throw CaseError(name + ": is empty; a case needs at least [mesh], [material] and [time]");
   try {

@@ -24,6 +24,17 @@ struct Integrals {
   Normal<dim> normal = Normal<dim>::Zero();
 };
 
+// Of the nodes of the facet's cell those on the facet. Round-off keeps the shape functions of the
+// others from being 0 there; those of the facet's own nodes are far from 0 at one point at least.
+template <int dim>
+bool lies_on(const body::Quadrature<dim> &facet, std::size_t a) {
+  constexpr double round_off = 1e-10;
+  for (std::size_t q = 0; q < facet.jxw.size(); ++q)
+    if (std::abs(facet.value(q, a)) > round_off)
+      return true;
+  return false;
+}
+
 // Every rank has all nodes, and of their integrals what its facets contribute.
 template <int dim>
 void sum_over_ranks(std::map<body::Node, Integrals<dim>> &by_node) {
@@ -49,7 +60,7 @@ std::map<body::Node, Integrals<dim>> integrate(const body::Discretisation<dim> &
   body.for_each_facet(boundaries, [&](const body::Quadrature<dim> &facet) {
     for (std::size_t a = 0; a < facet.nodes.size(); ++a) {
       const auto found = by_node.find(facet.nodes[a]);
-      if (found == by_node.end())
+      if (found == by_node.end() || !lies_on(facet, a))
         continue;
       for (std::size_t q = 0; q < facet.jxw.size(); ++q) {
         const double share = facet.jxw[q] * facet.value(q, a);
@@ -93,7 +104,7 @@ std::map<body::Node, Edge> facets_at_nodes(const body::Discretisation<dim> &body
     body.for_each_facet({name}, [&](const body::Quadrature<dim> &facet) {
       for (std::size_t a = 0; a < facet.nodes.size(); ++a) {
         const auto found = normal_at.find(facet.nodes[a]);
-        if (found == normal_at.end() || facet.value(0, a) == 0)
+        if (found == normal_at.end() || !lies_on(facet, a))
           continue;
         Edge &edge = all[facet.nodes[a]];
         edge.boundaries.insert(name);

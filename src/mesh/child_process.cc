@@ -2,16 +2,21 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstring>
+#include <fstream>
 #include <new>
+#include <optional>
 #include <stdexcept>
 
 #include "tourmaline/error.h"
@@ -21,7 +26,10 @@ namespace tourmaline::mesh {
 namespace {
 
 // The first byte of what the child sends.
-enum Outcome : char { done = 'd', wrong_case = 'c', machine_failed = 'm' };
+enum Outcome : char { done = 'd', wrong_case = 'c', machine_failed = 'm', no_memory = 'n' };
+
+// The child's end of the pipe.
+constexpr int pipe_of_child = STDERR_FILENO + 1;
 
 std::string outcome_of(const std::function<std::string()> &work) {
   try {
@@ -31,82 +39,180 @@ std::string outcome_of(const std::function<std::string()> &work) {
   } catch (const MachineError &error) {
     return std::string(1, machine_failed) + error.what();
   } catch (const std::bad_alloc &) {
-    return std::string(1, wrong_case) + "wants more memory than there is";
+    return std::string(1, no_memory);
   } catch (const std::length_error &) {
-    return std::string(1, wrong_case) + "wants more memory than there is";
+    return std::string(1, no_memory);
   }
 }
 
-void send(int pipe, const std::string &text) {
+void send(const std::string &text) {
   for (std::size_t sent = 0; sent < text.size();) {
-    const ssize_t n = write(pipe, text.data() + sent, text.size() - sent);
+    const ssize_t n = write(pipe_of_child, text.data() + sent, text.size() - sent);
     if (n < 0 && errno != EINTR)
       return;
     sent += static_cast<std::size_t>(std::max<ssize_t>(n, 0));
   }
 }
 
+double address_space() {
+  double pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+// Beyond the soft limit of time comes SIGXCPU, beyond the hard one SIGKILL.
+void limit(decltype(RLIMIT_CPU) resource, double most) {
+  if (!std::isfinite(most))
+    return;
+  const auto soft = static_cast<rlim_t>(most);
+  const rlimit both{soft, resource == RLIMIT_CPU ? soft + 1 : soft};
+  setrlimit(resource, &both);
+}
+
 // What a library prints while it breaks is no message for anybody.
-[[noreturn]] void be_child(int pipe, const std::function<std::string()> &work, double seconds) {
-  if (const int nothing = open("/dev/null", O_WRONLY); nothing >= 0) {
-    dup2(nothing, STDOUT_FILENO);
-    dup2(nothing, STDERR_FILENO);
-  }
-  const rlimit no_core{0, 0};
-  setrlimit(RLIMIT_CORE, &no_core);
-  if (std::isfinite(seconds)) {
-    const auto most = static_cast<rlim_t>(seconds) + 1;
-    const rlimit processor{most, most};
-    setrlimit(RLIMIT_CPU, &processor);
-  }
-  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGINT, SIGTERM})
+void keep_only(int pipe) {
+  const int aside = fcntl(pipe, F_DUPFD, pipe_of_child + 1);
+  if (const int nothing = open("/dev/null", O_RDWR); nothing >= 0)
+    for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+      dup2(nothing, standard);
+  dup3(aside, pipe_of_child, O_CLOEXEC);  // programs that a child starts do not hold it
+  close_range(pipe_of_child + 1, ~0U, 0);
+}
+
+[[noreturn]] void be_child(int pipe, pid_t parent, const std::function<std::string()> &work,
+                           const Limits &limits) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent)
+    _exit(1);
+  keep_only(pipe);
+  limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_CPU, std::ceil(limits.processor_seconds));
+  limit(RLIMIT_AS, address_space() + limits.bytes);
+  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGSYS, SIGINT, SIGTERM})
     std::signal(signal, SIG_DFL);
-  send(pipe, outcome_of(work));
+  send(outcome_of(work));
   _exit(0);
 }
 
-std::string received(int pipe) {
+/// The child as its parent sees it.
+class Child {
+ public:
+  explicit Child(pid_t id) : id_(id) {}
+  ~Child() {
+    if (!ended_)
+      kill();
+  }
+  Child(const Child &) = delete;
+  Child &operator=(const Child &) = delete;
+
+  bool has_ended() { return ended_ || (ended_ = waitpid(id_, &status_, WNOHANG) == id_); }
+  /// Waits for the end.
+  int status() {
+    while (!ended_)
+      ended_ = waitpid(id_, &status_, 0) == id_ || errno != EINTR;
+    return status_;
+  }
+  void kill() {
+    ::kill(id_, SIGKILL);
+    status();
+    was_killed_ = true;
+  }
+  bool was_killed() const { return was_killed_; }
+
+ private:
+  pid_t id_;
+  bool was_killed_ = false;
+  int status_ = 0;
+  bool ended_ = false;
+};
+
+/// What the child sends until its end, or until the clock's limit, when it is killed. Whoever else
+/// holds the pipe then is not waited for.
+std::string received(int pipe, Child &child, double seconds) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  const auto is_over = [&] {
+    return std::chrono::duration<double>(Clock::now() - start).count() > seconds;
+  };
   std::string text;
   std::string part(1 << 16, '\0');
-  for (ssize_t n; (n = read(pipe, part.data(), part.size())) != 0;)
-    if (n > 0)
-      text.append(part, 0, static_cast<std::size_t>(n));
-    else if (errno != EINTR)
-      break;
-  return text;
+  pollfd wanted{pipe, POLLIN, 0};
+  for (bool ended = false;;) {
+    const int ready = poll(&wanted, 1, ended ? 0 : 200);
+    if (ready > 0) {
+      const ssize_t n = read(pipe, part.data(), part.size());
+      if (n == 0 || (n < 0 && errno != EINTR))
+        return text;
+      text.append(part, 0, static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
+    } else if (ended) {
+      return text;
+    } else {
+      ended = child.has_ended();
+    }
+    if (!ended && is_over())
+      child.kill();
+  }
 }
 
-std::string ending_of(pid_t child) {
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
+// Empty if it has worked to its end.
+std::optional<Ending> ending_of(Child &child) {
+  const int status = child.status();
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
-    return "";
-  if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
-    return "does not come to an end on it, or takes too much memory";
-  return "crashed on it";
+    return {};
+  const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  if (signal == SIGXCPU || child.was_killed())
+    return Ending::out_of_time;
+  if (signal == SIGKILL)  // by the kernel, which has no memory left
+    return Ending::out_of_memory;
+  return signal == SIGSYS ? Ending::forbidden : Ending::crashed;
 }
+
+/// Both ends of a pipe that no started program gets.
+class Pipe {
+ public:
+  Pipe() {
+    if (pipe2(ends_, O_CLOEXEC) != 0)
+      throw MachineError(fmt::format("no pipe can be opened: {}", std::strerror(errno)));
+  }
+  ~Pipe() {
+    close_writing();
+    close(ends_[0]);
+  }
+  Pipe(const Pipe &) = delete;
+  Pipe &operator=(const Pipe &) = delete;
+
+  int reading() const { return ends_[0]; }
+  int writing() const { return ends_[1]; }
+  void close_writing() {
+    if (ends_[1] >= 0)
+      close(ends_[1]);
+    ends_[1] = -1;
+  }
+
+ private:
+  int ends_[2] = {-1, -1};
+};
 
 }  // namespace
 
-std::string in_child_process(const std::function<std::string()> &work, double most_seconds) {
-  int ends[2];
-  if (pipe(ends) != 0)
-    throw MachineError(fmt::format("no pipe can be opened: {}", std::strerror(errno)));
-  const pid_t child = fork();
-  if (child < 0)
+std::string in_child_process(const std::function<std::string()> &work, const Limits &limits,
+                             const std::function<std::string(Ending)> &complaint) {
+  Pipe pipe;
+  const pid_t parent = getpid();
+  const pid_t id = fork();
+  if (id < 0)
     throw MachineError(fmt::format("no process can be started: {}", std::strerror(errno)));
-  if (child == 0) {
-    close(ends[0]);
-    be_child(ends[1], work, most_seconds);
-  }
-  close(ends[1]);
-  const std::string text = received(ends[0]);
-  close(ends[0]);
-  const std::string ending = ending_of(child);
-  if (!ending.empty() || text.empty())
-    throw CaseError("cannot be read, it may be damaged: the library that reads it " +
-                    (ending.empty() ? "ended without a word" : ending));
+  if (id == 0)
+    be_child(pipe.writing(), parent, work, limits);
+  pipe.close_writing();
+  Child child(id);
+  const std::string text = received(pipe.reading(), child, limits.seconds);
+  if (const std::optional<Ending> ending = ending_of(child))
+    throw CaseError(complaint(*ending));
+  if (text.empty())
+    throw CaseError(complaint(Ending::silent));
+  if (text[0] == no_memory)
+    throw CaseError(complaint(Ending::out_of_memory));
   if (text[0] == wrong_case)
     throw CaseError(text.substr(1));
   if (text[0] == machine_failed)

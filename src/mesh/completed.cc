@@ -2,19 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "tourmaline/error.h"
 #include "tourmaline/mesh/element_table.h"
+#include "unfolded.h"
 
 namespace tourmaline::mesh {
 
 namespace {
 
-using casefile::CellShape;
 using casefile::Groups;
 using casefile::MeshFile;
 using Indices = std::vector<std::uint32_t>;
@@ -22,16 +21,6 @@ using Point = std::array<double, 3>;
 
 std::string place(const Point &p) {
   return fmt::format("({:g}, {:g}, {:g})", p[0], p[1], p[2]);
-}
-
-// Vertices of a cell's facets, in Gmsh's numbering.
-const std::vector<std::vector<int>> &facets_of(CellShape cell) {
-  static const std::vector<std::vector<int>> all[] = {
-      {{0, 1}, {1, 2}, {2, 0}},
-      {{0, 1}, {1, 2}, {2, 3}, {3, 0}},
-      {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}},
-      {{0, 3, 2, 1}, {0, 1, 5, 4}, {0, 4, 7, 3}, {1, 2, 6, 5}, {2, 3, 7, 6}, {4, 5, 6, 7}}};
-  return all[static_cast<int>(cell)];
 }
 
 double extent(const MeshFile &mesh) {
@@ -43,6 +32,13 @@ double extent(const MeshFile &mesh) {
     size = std::max(size, (*high)[axis] - (*low)[axis]);
   }
   return size;
+}
+
+void check_numbers(const MeshFile &mesh) {
+  for (const Point &point : mesh.points)
+    for (const double x : point)
+      if (!std::isfinite(x))
+        throw CaseError("has a vertex at " + place(point) + "; coordinates are finite numbers");
 }
 
 void leave_out_unused(MeshFile &mesh) {
@@ -77,7 +73,18 @@ void check_plane(MeshFile &mesh) {
   }
 }
 
-// Gmsh lists an element once for each of its groups.
+// Gmsh lists an element once for each of its groups, in format 2. A cell that one group has twice
+// would be twice in the body.
+void check_listed_once(const MeshFile &mesh) {
+  const std::size_t each = mesh.vertices_per_cell();
+  ElementTable(mesh.cells, each).for_each([&](std::span<const std::uint32_t> twins) {
+    for (std::size_t i = 1; i < twins.size(); ++i)
+      if (mesh.regions.set_of[twins[i]] == mesh.regions.set_of[twins[i - 1]])
+        throw CaseError("lists the cell at " + place(mesh.points[mesh.cells[twins[i] * each]]) +
+                        " twice");
+  });
+}
+
 void merge_twins(Indices &vertices, std::size_t each, Groups &groups) {
   const ElementTable table(vertices, each);
   std::vector<bool> keep(vertices.size() / each, false);
@@ -190,83 +197,22 @@ void complete_facets(MeshFile &mesh, const Indices &faces, const ElementTable &t
   });
 }
 
-Eigen::Vector3d vertex(const MeshFile &mesh, std::size_t cell, int local) {
-  const std::size_t at = cell * mesh.vertices_per_cell() + static_cast<std::size_t>(local);
-  return Eigen::Map<const Eigen::Vector3d>(mesh.points[mesh.cells[at]].data());
-}
-
-// Twice the area or six times the volume that the edges at a vertex span; its sign says the order.
-double spanned(const MeshFile &mesh, std::size_t cell, int at, int a, int b, int c) {
-  const Eigen::Vector3d origin = vertex(mesh, cell, at);
-  const Eigen::Vector3d first = vertex(mesh, cell, a) - origin;
-  const Eigen::Vector3d second = vertex(mesh, cell, b) - origin;
-  return mesh.dimension == 2 ? first.cross(second).z()
-                             : first.cross(second).dot(vertex(mesh, cell, c) - origin);
-}
-
-// Corners with the neighbours that span a positive volume when the cell is listed in the right
-// order.
-const std::vector<std::array<int, 4>> &corners_of(CellShape cell) {
-  static const std::vector<std::array<int, 4>> all[] = {
-      {{0, 1, 2, 0}},
-      {{0, 1, 3, 0}, {1, 2, 0, 0}, {2, 3, 1, 0}, {3, 0, 2, 0}},
-      {{0, 1, 2, 3}},
-      {{0, 1, 3, 4},
-       {1, 2, 0, 5},
-       {2, 3, 1, 6},
-       {3, 0, 2, 7},
-       {4, 7, 5, 0},
-       {5, 4, 6, 1},
-       {6, 5, 7, 2},
-       {7, 6, 4, 3}}};
-  return all[static_cast<int>(cell)];
-}
-
-void turn_over(MeshFile &mesh, std::size_t cell) {
-  const auto at = [&](std::size_t local) -> std::uint32_t & {
-    return mesh.cells[cell * mesh.vertices_per_cell() + local];
-  };
-  if (mesh.cell == CellShape::hexahedron)
-    for (std::size_t i = 0; i < 4; ++i)
-      std::swap(at(i), at(i + 4));
-  else if (mesh.cell == CellShape::quadrilateral)
-    std::swap(at(1), at(3));
-  else
-    std::swap(at(0), at(1));
-}
-
-void orient(MeshFile &mesh) {
-  for (std::size_t cell = 0; cell < mesh.n_cells(); ++cell) {
-    int positive = 0, negative = 0;
-    for (const auto &[at, a, b, c] : corners_of(mesh.cell)) {
-      const double volume = spanned(mesh, cell, at, a, b, c);
-      positive += volume > 0 ? 1 : 0;
-      negative += volume < 0 ? 1 : 0;
-    }
-    const int corners = static_cast<int>(corners_of(mesh.cell).size());
-    if (positive < corners && negative < corners) {
-      const Eigen::Vector3d p = vertex(mesh, cell, 0);
-      throw CaseError("has a cell at " + place({p[0], p[1], p[2]}) +
-                      " that is degenerate: flat, folded or not convex");
-    }
-    if (negative == corners)
-      turn_over(mesh, cell);
-  }
-}
-
 }  // namespace
 
 MeshFile completed(MeshFile mesh) {
+  check_numbers(mesh);
   leave_out_unused(mesh);
   check_plane(mesh);
+  orient(mesh);
+  check_listed_once(mesh);
   merge_twins(mesh.cells, mesh.vertices_per_cell(), mesh.regions);
   merge_twins(mesh.facets, mesh.vertices_per_facet(), mesh.boundaries);
-  orient(mesh);
   const Indices faces = faces_of_all_cells(mesh);
   const ElementTable table(faces, mesh.vertices_per_facet());
   check_places(mesh, 0);
   check_places(mesh, 0.5);
   check_faces(mesh, faces, table);
+  check_unfolded(mesh, faces, table);
   complete_facets(mesh, faces, table);
   return mesh;
 }

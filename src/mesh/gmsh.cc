@@ -2,18 +2,21 @@
 
 #include <fmt/format.h>
 #include <gmsh.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <unordered_map>
 
 #include "child_process.h"
 #include "mesh_bytes.h"
+#include "sandbox.h"
+#include "tourmaline/case/utf8.h"
 #include "tourmaline/error.h"
 #include "tourmaline/mesh/completed.h"
 
@@ -25,10 +28,17 @@ using casefile::CellShape;
 using casefile::Groups;
 using casefile::MeshFile;
 
+// What a geometry may not, for those who wonder why it cannot be read.
+constexpr const char *walls =
+    "a geometry may not start programs, open connections, write files or read any that do not lie "
+    "in its folder; if you trust it, read it with --trust";
+
 /// libgmsh between its start and its end; it keeps one model at a time for the whole process.
 class Session {
  public:
-  Session() {
+  /// `confined`: whether a geometry meets walls, which its errors then tell.
+  explicit Session(bool confined) {
+    confined_ = confined;
     gmsh::initialize(0, nullptr, false);  // no settings of the user's own: same case, same mesh
     gmsh::option::setNumber("General.Terminal", 0);
     gmsh::logger::start();
@@ -41,16 +51,35 @@ class Session {
   Session &operator=(const Session &) = delete;
 
   /// Throws CaseError with the first error that libgmsh has reported so far; it goes on after many.
+  /// Of nodes and elements that have the same number it keeps one, and says so at most.
   static void check() {
     std::vector<std::string> log;
     gmsh::logger::get(log);
-    for (const std::string &line : log)
+    for (const std::string &line : log) {
       if (line.starts_with("Error"))
-        throw CaseError("Gmsh says: " + line);
+        throw CaseError("Gmsh says: " + line + hint(line));
+      for (const char *kind : {"node", "element"})
+        if (const auto at = line.find(fmt::format("Skipping duplicate {} ", kind));
+            at != std::string::npos)
+          throw CaseError(fmt::format("lists two {0}s with the number {1}; every {0} has its own",
+                                      kind, line.substr(line.find_last_of(' ') + 1)));
+    }
   }
+
+ private:
+  static std::string hint(const std::string &line) {
+    const bool file = line.find("open file") != std::string::npos;
+    return file && confined_ ? "; " + std::string(walls) : "";
+  }
+
+  inline static bool confined_ = false;
 };
 
 enum class Format { msh2, msh4, geo, cad };
+
+bool is_geometry(Format format) {
+  return format == Format::geo || format == Format::cad;
+}
 
 std::string extension(const std::filesystem::path &file) {
   std::string text = file.extension().string();
@@ -106,7 +135,7 @@ void check_last_line(Format format, const std::string &file) {
 void check_size(Format format, const casefile::MeshCase &asked) {
   if (format == Format::cad && !asked.size)
     throw CaseError("is a geometry without a mesh; give the size of its cells, mesh.size");
-  if (format != Format::geo && format != Format::cad && asked.size)
+  if (!is_geometry(format) && asked.size)
     throw CaseError("is a mesh already; mesh.size is for geometries (.geo, .step, ...)");
 }
 
@@ -120,14 +149,29 @@ void join_solids() {
   gmsh::model::occ::synchronize();
 }
 
+// libgmsh would leave the cells as they are.
+void check_not_meshed() {
+  std::vector<int> types;
+  std::vector<std::vector<std::size_t>> tags, nodes;
+  gmsh::model::mesh::getElements(types, tags, nodes, gmsh::model::getDimension());
+  if (!types.empty())
+    throw CaseError(
+        "makes or merges a mesh itself, on which mesh.size has no effect; leave out "
+        "mesh.size");
+}
+
 void generate(Format format, const casefile::MeshCase &asked) {
   if (format == Format::cad)
     join_solids();
   if (asked.size)
-    gmsh::option::setNumber("Mesh.MeshSizeMax", *asked.size / asked.scale);
+    check_not_meshed();
+  if (asked.size)
+    gmsh::option::setNumber("Mesh.MeshSizeMax", *asked.size);
   gmsh::model::mesh::generate(gmsh::model::getDimension());
 }
 
+// Options beside the file (body.msh.opt), which may run commands, belong to libgmsh's projects;
+// `merge` takes the file alone.
 void open(Format format, const casefile::MeshCase &asked) {
   // A format-2 file may give elements of one entity to different groups, which libgmsh would give
   // to all of them. With the two tags switched an entity is a group.
@@ -135,9 +179,12 @@ void open(Format format, const casefile::MeshCase &asked) {
   // CAD files know their unit.
   if (format == Format::cad)
     gmsh::option::setString("Geometry.OCCTargetUnit", "M");
-  gmsh::open(*asked.file);
+  if (is_geometry(format))
+    gmsh::open(*asked.file);
+  else
+    gmsh::merge(*asked.file);
   Session::check();
-  if (format == Format::geo || format == Format::cad)
+  if (is_geometry(format))
     generate(format, asked);
   Session::check();
 }
@@ -169,12 +216,20 @@ class Names {
       throw CaseError("has a physical group called " + name +
                       "; names may not contain commas, quotes and ends of lines, as result files "
                       "list them");
+    require_utf8(name);
     return name.empty() ? std::to_string(std::abs(tag)) : name;
+  }
+
+  static void require_utf8(const std::string &name) {
+    if (!casefile::is_utf8(name))
+      throw CaseError("has a group whose name is not UTF-8, " + casefile::readable(name) +
+                      "; save the file as UTF-8, or take a name of plain letters");
   }
 
   static std::string cad_name(int dimension, int entity) {
     std::string label;
     gmsh::model::getEntityName(dimension, entity, label);
+    require_utf8(label);
     constexpr const char *kind[] = {"point", "curve", "surface", "volume"};
     return label.empty() ? fmt::format("{} {}", kind[dimension], entity)
                          : label.substr(label.find_last_of('/') + 1);
@@ -282,7 +337,9 @@ struct Nodes {
     for (std::size_t i = 0; i < tags.size(); ++i) {
       points.push_back(
           {scale * places[3 * i], scale * places[3 * i + 1], scale * places[3 * i + 2]});
-      index[tags[i]] = static_cast<std::uint32_t>(i);
+      if (!index.emplace(tags[i], static_cast<std::uint32_t>(i)).second)
+        throw CaseError(
+            fmt::format("lists two nodes with the number {0}; every node has its own", tags[i]));
     }
   }
 
@@ -325,8 +382,8 @@ MeshFile listed(Format format, const casefile::MeshCase &asked) {
   return mesh;
 }
 
-MeshFile read_with_libgmsh(Format format, const casefile::MeshCase &asked) {
-  const Session session;
+MeshFile read_with_libgmsh(Format format, const casefile::MeshCase &asked, bool confined) {
+  const Session session(confined);
   try {
     open(format, asked);
     return listed(format, asked);
@@ -336,32 +393,123 @@ MeshFile read_with_libgmsh(Format format, const casefile::MeshCase &asked) {
   }
 }
 
-// A mesh is read in a time that grows with its size; meshing a geometry may take any.
-double most_seconds(Format format, const std::string &file) {
-  if (format != Format::msh2 && format != Format::msh4)
-    return std::numeric_limits<double>::infinity();
+// A mesh is read in a time that grows with its size. By the clock anything takes longer on a busy
+// machine, but nothing sleeps.
+Limits limits_of(Format format, const std::string &file, const Reading &how) {
+  Limits limits;
+  if (is_geometry(format) && how.trusted)
+    return limits;
   constexpr double least = 30, bytes_per_second = 1e5;
-  return least + static_cast<double>(std::filesystem::file_size(file)) / bytes_per_second;
+  limits.processor_seconds =
+      is_geometry(format)
+          ? how.seconds_of_geometry
+          : least + static_cast<double>(std::filesystem::file_size(file)) / bytes_per_second;
+  limits.seconds = 5 * limits.processor_seconds + least;
+  limits.bytes =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  return limits;
 }
 
-MeshFile read(const casefile::MeshCase &asked) {
+std::string complaint_about(Format format, const Limits &limits, Ending ending) {
+  if (ending == Ending::forbidden)
+    return fmt::format("wants to start a program; {}", walls);
+  if (is_geometry(format) && ending == Ending::out_of_time)
+    return fmt::format(
+        "is a geometry that does not come to an end within {:g} s of a processor; mesh it with "
+        "Gmsh and name the mesh (.msh), or, if you trust it, read it with --trust, which sets no "
+        "limit",
+        limits.processor_seconds);
+  const std::string text = "cannot be read, it may be damaged: the library that reads it ";
+  switch (ending) {
+    case Ending::out_of_time:
+      return text + "does not come to an end on it";
+    case Ending::out_of_memory:
+      return text + "takes more memory than there is";
+    case Ending::silent:
+      return text + "ended without a word";
+    default:
+      return text + "crashed on it";
+  }
+}
+
+// A mesh is data, and read with what walls there are; a geometry is a program, and needs them all.
+void build_walls(Format format, const std::filesystem::path &file, const Reading &how) {
+  std::vector<std::filesystem::path> readable{std::filesystem::canonical(file)};
+  if (is_geometry(format))
+    readable.push_back(file.parent_path());
+  const Walls stand = confine(readable, how.walls);
+  if (!is_geometry(format) || stand.complete())
+    return;
+  throw CaseError(fmt::format(
+      "is a geometry, whose script could do anything: the kernel of this machine offers no {} to "
+      "keep it from that (containers and old kernels may lack it). Mesh it with Gmsh and name the "
+      "mesh (.msh), or, if you trust it, read it with --trust",
+      stand.seccomp ? "Landlock and no namespaces" : "seccomp"));
+}
+
+MeshFile read(const casefile::MeshCase &asked, const Reading &how) {
   const Format format = format_of(*asked.file);
   check_size(format, asked);
   check_last_line(format, *asked.file);
+  const Limits limits = limits_of(format, *asked.file, how);
+  const bool confined = !(is_geometry(format) && how.trusted);
   // libgmsh crashes on many a damaged file.
-  return mesh_of(in_child_process([&] { return bytes_of(read_with_libgmsh(format, asked)); },
-                                  most_seconds(format, *asked.file)));
+  return mesh_of(in_child_process(
+      [&] {
+        if (confined)
+          build_walls(format, *asked.file, how);
+        return bytes_of(read_with_libgmsh(format, asked, confined && is_geometry(format)));
+      },
+      limits, [&](Ending ending) { return complaint_about(format, limits, ending); }));
 }
 
-}  // namespace
+double longest_edge(const MeshFile &mesh) {
+  double longest = 0;
+  const std::size_t each = mesh.vertices_per_cell();
+  for (std::size_t cell = 0; cell < mesh.n_cells(); ++cell)
+    for (std::size_t i = 0; i < each; ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        const auto &a = mesh.points[mesh.cells[cell * each + i]];
+        const auto &b = mesh.points[mesh.cells[cell * each + j]];
+        longest = std::max(longest, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
+      }
+  return longest;
+}
 
-std::shared_ptr<const MeshFile> read_mesh_file(const casefile::MeshCase &asked) {
+// Where a size decides, a line is divided into parts longer than half of it, unless the line itself
+// is shorter.
+void check_size_decided(const casefile::MeshCase &asked, const MeshFile &mesh) {
+  if (!asked.size)
+    return;
+  const double longest = longest_edge(mesh) / asked.scale;
+  if (longest < 0.5 * *asked.size)
+    throw CaseError(fmt::format(
+        "has no cell longer than {:.3g} in its own unit (mesh.scale = {:g} m), so that mesh.size = "
+        "{:g} has no effect: the geometry asks for smaller cells itself, or is smaller. Leave out "
+        "mesh.size, or give a smaller one in the unit of the file",
+        longest, asked.scale, *asked.size));
+}
+
+std::shared_ptr<const MeshFile> read_file(casefile::MeshCase asked, const Reading &how) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(*asked.file, ignored))
     throw CaseError("there is no such file");
   if (!std::ifstream(*asked.file))
     throw CaseError("cannot be read");
-  return std::make_shared<const MeshFile>(completed(read(asked)));
+  asked.file = std::filesystem::absolute(*asked.file).string();
+  auto mesh = std::make_shared<const MeshFile>(completed(read(asked, how)));
+  check_size_decided(asked, *mesh);
+  return mesh;
+}
+
+}  // namespace
+
+std::shared_ptr<const MeshFile> read_mesh_file(const casefile::MeshCase &asked) {
+  return read_file(asked, {});
+}
+
+casefile::MeshFileReader mesh_file_reader(const Reading &how) {
+  return [how](const casefile::MeshCase &asked) { return read_file(asked, how); };
 }
 
 }  // namespace tourmaline::mesh

@@ -24,14 +24,17 @@ namespace fs = std::filesystem;
 /// Reads each mesh file once, however many members have it.
 class Meshes {
  public:
+  explicit Meshes(bool trusted) : reader_(mesh::mesh_file_reader({.trusted = trusted})) {}
+
   std::shared_ptr<const casefile::MeshFile> read(const casefile::MeshCase &mesh) {
     auto &content = known_[{*mesh.file, mesh.size.value_or(0), mesh.scale, mesh.unnamed}];
     if (!content)
-      content = mesh::read_mesh_file(mesh);
+      content = reader_(mesh);
     return content;
   }
 
  private:
+  casefile::MeshFileReader reader_;
   std::map<std::tuple<std::string, double, double, std::string>,
            std::shared_ptr<const casefile::MeshFile>>
       known_;
@@ -46,7 +49,7 @@ double memory_of(const casefile::Case &asked) {
 
 std::vector<Prepared> prepared(const Request &request, const std::vector<Variation> &variations,
                                const std::vector<Member> &members) {
-  Meshes meshes;
+  Meshes meshes(request.trust);
   std::vector<Prepared> all;
   for (const Member &member : members) {
     std::vector<std::string> overrides = request.overrides;

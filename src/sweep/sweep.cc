@@ -136,6 +136,8 @@ class Study {
       command.emplace_back("--set");
       command.push_back(override);
     };
+    if (request_.trust)
+      command.emplace_back("--trust");
     std::for_each(request_.overrides.begin(), request_.overrides.end(), add);
     for (const std::string &override : overrides_of(results_.variations, results_.members[i]))
       add(override);

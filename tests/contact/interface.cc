@@ -65,6 +65,26 @@ TEST(Interface, ContactAroundACornerIsRefusedBecauseTheNormalIsNotUnique) {
       CaseError);
 }
 
+// Round-off leaves 1e-17 of a cell's shape functions on the facets that their nodes are not on.
+TEST(Interface, BothFacesOfAPlateOneCellThickHaveTheirOwnNormals) {
+  using casefile::CellShape;
+  const auto vertical = [](const auto &nodes, double top) {
+    for (const auto &node : nodes)
+      EXPECT_NEAR(node.normal[node.normal.size() - 1],
+                  node.point[node.normal.size() - 1] == top ? 1 : -1, 1e-14);
+    return nodes.size();
+  };
+  for (const int degree : {1, 2})
+    for (const CellShape shape : {CellShape::triangle, CellShape::quadrilateral})
+      EXPECT_EQ(vertical(interface_nodes(box<2>(shape, {7, 1}, degree), {"top", "bottom"}), 3),
+                2u * (7u * static_cast<unsigned>(degree) + 1));
+  for (const CellShape shape : {CellShape::tetrahedron, CellShape::hexahedron})
+    EXPECT_EQ(vertical(interface_nodes(box<3>(shape, {5, 5, 1}, 1), {"top", "bottom"}), 5), 72u);
+  EXPECT_EQ(
+      vertical(interface_nodes(box<3>(CellShape::hexahedron, {2, 2, 1}, 2), {"top", "bottom"}), 5),
+      50u);
+}
+
 template <int dim>
 body::Discretisation<dim> ring(casefile::CellShape shape, std::vector<int> cells) {
   casefile::MeshCase mesh;

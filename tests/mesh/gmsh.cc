@@ -190,12 +190,21 @@ TEST_F(MeshFiles, TheSameGeometryGivesTheSameMeshAgain) {
   EXPECT_EQ(once->cells, again->cells);
 }
 
-TEST_F(MeshFiles, AFileInMillimetresIsScaledToMetres) {
-  casefile::MeshCase asked = geo(rectangle, 0.5e-3);
+TEST_F(MeshFiles, AFileInMillimetresIsScaledToMetresAndItsCellsAreSizedInMillimetres) {
+  casefile::MeshCase asked = geo(rectangle, 0.5);
   asked.scale = 1e-3;
   const auto file = read_mesh_file(asked);
   EXPECT_NEAR(measures<2>(*file, {"round"}, 1).volume, 6e-6, 1e-18);
   EXPECT_EQ(file->n_cells(), read_mesh_file(geo(rectangle, 0.5))->n_cells());
+}
+
+TEST_F(MeshFiles, ASizeThatChangesNothingIsRefused) {
+  EXPECT_THAT(complaint(geo(rectangle, 5)), HasSubstr("mesh.size = 5 has no effect"));
+  EXPECT_THAT(complaint(geo(rectangle + "Mesh 2;\n", 0.1)),
+              HasSubstr("makes or merges a mesh itself"));
+  casefile::MeshCase mesh = saved(rectangle, 4.1, false);
+  mesh.size = 0.1;
+  EXPECT_THAT(complaint(mesh), HasSubstr("is a mesh already"));
 }
 
 // Two steel blocks of 10 mm that touch, as a CAD program would leave them.
@@ -260,6 +269,60 @@ TEST_F(MeshFiles, OfOneEntityElementsInDifferentGroupsStayApart) {
   EXPECT_NEAR(measures<2>(*file, {"right"}, 1).area, 2, 1e-15);
   EXPECT_NEAR(measures<2>(*file, {"left", "right"}, 1).area, 3, 1e-15);
   EXPECT_NEAR(measures<2>(*file, {"7"}, 1).area, 1, 1e-15);
+}
+
+std::string with(std::string text, const std::string &from, const std::string &to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+const std::string format4 = R"($MeshFormat
+4.1 0 8
+$EndMeshFormat
+$Entities
+0 0 1 0
+1 0 0 0 1 1 0 1 3 0
+$EndEntities
+$Nodes
+1 4 1 4
+2 1 0 4
+1
+2
+3
+4
+0 0 0
+1 0 0
+1 1 0
+0 1 0
+$EndNodes
+$Elements
+1 2 1 2
+2 1 2 2
+1 1 2 3
+2 1 3 4
+$EndElements
+)";
+
+// libgmsh keeps the first or the last of them.
+TEST_F(MeshFiles, NumbersThatAreGivenTwiceAreRefused) {
+  EXPECT_EQ(complaint(text("four.msh", format4)), "");
+  for (const std::string &twice :
+       {with(format2, "9 5 5 0", "4 5 5 0"), with(format4, "3\n4\n0", "3\n3\n0")})
+    EXPECT_THAT(complaint(text("a.msh", twice)), HasSubstr("lists two nodes with the number"));
+  EXPECT_THAT(complaint(text("a.msh", with(format4, "2 1 3 4", "1 1 3 4"))),
+              HasSubstr("lists two elements with the number 1"));
+}
+
+TEST_F(MeshFiles, WhatIsInconsistentIsRefused) {
+  EXPECT_THAT(complaint(text("a.msh", with(format2, "3 1 1 0", "3 nan 1 0"))),
+              HasSubstr("finite numbers"));
+  EXPECT_THAT(complaint(text("a.msh", with(format2, "1 1 3 4\n8", "1 1 3 3\n8"))),
+              HasSubstr("degenerate"));
+  EXPECT_THAT(complaint(text("a.msh", with(format2, "3 1 1 0", "3 0.3 0.2 0"))),
+              HasSubstr("is folded at"));
+  EXPECT_THAT(complaint(text("a.msh", with(format4, "2 1 3 4", "2 1 2 3"))),
+              HasSubstr("lists the cell at (0, 0, 0) twice"));
+  EXPECT_THAT(complaint(text("a.msh", with(format2, "\"left\"", "\"l\xE4\""))),
+              HasSubstr("not UTF-8, l\\xE4"));
 }
 
 TEST_F(MeshFiles, FacetsThatTheFileDoesNotListAreThereWithoutName) {

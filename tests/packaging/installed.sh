@@ -18,5 +18,6 @@ diff <(usr/bin/tourmaline materials PZT-4 | tail -n +2) \
 cmake -S "$source/examples/directional_friction" -B example -DCMAKE_PREFIX_PATH="$root/usr" > configure.log 2>&1 \
   || { cat configure.log; exit 1; }
 cmake --build example > build.log 2>&1 || { cat build.log; exit 1; }
+bash "$source/tests/packaging/own_symbols.sh" example/directional_friction
 example/directional_friction usr/share/tourmaline/cases/ouafik-2020/conductive.toml result
 test -s result/summary.json

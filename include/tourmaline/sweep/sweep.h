@@ -17,6 +17,7 @@ struct Request {
   std::filesystem::path program;        ///< whose `run` runs a member
   int jobs = 0;  ///< members side by side; 0: as many as cores, their threads and memory allow
   bool quiet = false;
+  bool trust = false;  ///< of scripts of geometries: mesh::Reading::trusted
 };
 
 /// A member that failed, with the exit status and the error of its run.
