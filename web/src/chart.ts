@@ -30,6 +30,11 @@ export interface ChartOptions {
 
 const charts: Chart[] = [];
 
+export function allZero(values: ArrayLike<number | null>): boolean {
+  for (let i = 0; i < values.length; ++i) if (values[i] !== 0 && values[i] !== null) return false;
+  return true;
+}
+
 export class Chart {
   readonly box: HTMLElement;
   private readonly place = element('div', { class: 'plot' });
