@@ -13,8 +13,9 @@ namespace {
 constexpr std::size_t components = 6;
 
 /// 1, x, y, (z), then x x, x y, y y, ... as far as `terms` goes.
-Eigen::VectorXd monomials(int dim, Eigen::Index terms, const std::array<double, 3> &x) {
-  Eigen::VectorXd p(terms);
+template <class Powers>
+Powers monomials(int dim, Eigen::Index terms, const std::array<double, 3> &x) {
+  Powers p(terms);
   Eigen::Index next = 0;
   p[next++] = 1;
   for (int i = 0; i < dim; ++i)
@@ -58,6 +59,12 @@ Recovery<dim>::Recovery(const Discretisation<dim> &body)
     for (const Node node : cell.nodes)
       numbers_.push_back(nodes_.number(node, cell.region));
   });
+  if (linear)
+    samples_ = centres_;
+  else
+    body.for_each_cell_sampled([&](const Quadrature<dim> &cell) {
+      samples_.insert(samples_.end(), cell.points.begin(), cell.points.end());
+    });
   number_patches();
   measure_patches();
   solve_normal_equations();
@@ -90,18 +97,24 @@ std::span<const std::uint32_t> Recovery<dim>::patches_of(std::size_t cell) const
 }
 
 template <int dim>
+std::span<const std::array<double, 3>> Recovery<dim>::samples_of(std::size_t cell) const {
+  const std::size_t n = centres_.empty() ? 0 : samples_.size() / centres_.size();
+  return std::span(samples_).subspan(cell * n, n);
+}
+
+template <int dim>
+void Recovery<dim>::for_each_sample(
+    const std::function<void(std::uint32_t patch, const Place &place)> &visit) const {
+  for (std::size_t cell = 0; cell < centres_.size(); ++cell)
+    for (const std::uint32_t patch : patches_of(cell))
+      for (const Place &place : samples_of(cell))
+        visit(patch, place);
+}
+
+template <int dim>
 void Recovery<dim>::measure_patches() {
   patches_.resize(corner_of_.size());
   std::vector<double> sums(4 * patches_.size(), 0), extents(3 * patches_.size(), 0);
-  const auto for_each_sample = [&](const auto &visit) {
-    std::size_t i = 0;
-    body_.for_each_cell_sampled([&](const Quadrature<dim> &cell) {
-      for (const std::uint32_t patch : patches_of(i))
-        for (const Place &place : cell.points)
-          visit(patch, place);
-      ++i;
-    });
-  };
   for_each_sample([&](std::uint32_t patch, const Place &place) {
     sums[4 * patch + 3] += 1;
     for (int axis = 0; axis < 3; ++axis)
@@ -126,12 +139,12 @@ void Recovery<dim>::measure_patches() {
 }
 
 template <int dim>
-Eigen::VectorXd Recovery<dim>::powers(std::uint32_t patch, const Place &place) const {
+typename Recovery<dim>::Powers Recovery<dim>::powers(std::uint32_t patch, const Place &place) const {
   const Patch &at = patches_[patch];
   Place scaled;
   for (int axis = 0; axis < 3; ++axis)
     scaled[axis] = (place[axis] - at.centre[axis]) / at.extent[axis];
-  return monomials(dim, terms_, scaled);
+  return monomials<Powers>(dim, terms_, scaled);
 }
 
 template <int dim>
@@ -147,14 +160,9 @@ void Recovery<dim>::solve_normal_equations() {
   const auto matrix = [&](std::uint32_t patch) {
     return Eigen::Map<Eigen::MatrixXd>(&inverses_[patch * size], terms_, terms_);
   };
-  std::size_t i = 0;
-  body_.for_each_cell_sampled([&](const Quadrature<dim> &cell) {
-    for (const std::uint32_t patch : patches_of(i))
-      for (const Place &place : cell.points) {
-        const Eigen::VectorXd p = powers(patch, place);
-        matrix(patch) += p * p.transpose();
-      }
-    ++i;
+  for_each_sample([&](std::uint32_t patch, const Place &place) {
+    const Powers p = powers(patch, place);
+    matrix(patch) += p * p.transpose();
   });
   parallel::sum(inverses_);
   const Eigen::Index linear = dim + 1;
@@ -163,7 +171,7 @@ void Recovery<dim>::solve_normal_equations() {
     const Eigen::LDLT<Eigen::MatrixXd> factor(normal);
     if (is_regular(factor)) {
       normal = factor.solve(Eigen::MatrixXd::Identity(terms_, terms_)).eval();
-      const Eigen::VectorXd p =
+      const Powers p =
           powers(patch, body_.points()[nodes_.node(corner_of_[patch])]);
       patches_[patch].surrounds = p.dot(normal * p) < greatest_uncertainty;
     } else {
@@ -207,28 +215,39 @@ void Recovery<dim>::find_neighbours() {
 }
 
 template <int dim>
-std::vector<double> Recovery<dim>::coefficients(const material::Composition<dim> &composition,
-                                                std::span<const double> state) const {
-  const std::size_t size = components * static_cast<std::size_t>(terms_);
-  std::vector<double> sums(patches_.size() * size, 0);
-  std::size_t i = 0;
+std::vector<output::SymmetricTensor> Recovery<dim>::sampled(
+    const material::Composition<dim> &composition, std::span<const double> state) const {
+  std::vector<output::SymmetricTensor> stress;
+  stress.reserve(samples_.size());
   body_.for_each_cell_sampled([&](const Quadrature<dim> &cell) {
-    const material::Constants constants = composition.in_space(cell.region, centres_[i]);
+    const Place &centre = centres_[stress.size() / cell.points.size()];
+    const material::Constants constants = composition.in_space(cell.region, centre);
     for (std::size_t q = 0; q < cell.points.size(); ++q) {
       Gradients at;
       add_gradients(cell, q, state, 1, at);
-      const output::SymmetricTensor stress = in_file_order(stress_of(at, constants), 1);
-      const Eigen::Map<const Eigen::Matrix<double, 1, components>> row(stress.data());
-      for (const std::uint32_t patch : patches_of(i))
-        Eigen::Map<Coefficients>(&sums[patch * size], terms_, components) +=
-            powers(patch, cell.points[q]) * row;
+      stress.push_back(in_file_order(stress_of(at, constants), 1));
     }
-    ++i;
   });
+  return stress;
+}
+
+template <int dim>
+std::vector<double> Recovery<dim>::coefficients(
+    std::span<const output::SymmetricTensor> stress) const {
+  const std::size_t size = components * static_cast<std::size_t>(terms_);
+  std::vector<double> sums(patches_.size() * size, 0);
+  for (std::size_t cell = 0, next = 0; cell < centres_.size(); ++cell)
+    for (const Place &place : samples_of(cell)) {
+      const Eigen::Map<const Eigen::Matrix<double, 1, components>> row(stress[next++].data());
+      for (const std::uint32_t patch : patches_of(cell))
+        Eigen::Map<Coefficients>(&sums[patch * size], terms_, components) +=
+            powers(patch, place).lazyProduct(row);
+    }
   parallel::sum(sums);
   for (std::uint32_t patch = 0; patch < patches_.size(); ++patch) {
     Eigen::Map<Coefficients> of_patch(&sums[patch * size], terms_, components);
-    of_patch = (inverse(patch) * of_patch).eval();
+    const Coefficients right = of_patch;
+    of_patch.noalias() = inverse(patch).lazyProduct(right);
   }
   return sums;
 }
@@ -240,7 +259,7 @@ void Recovery<dim>::add_own_value(std::uint32_t patch, const Place &place, doubl
   const std::size_t size = components * static_cast<std::size_t>(terms_);
   const Eigen::Map<const Coefficients> of_patch(&coefficients[patch * size], terms_, components);
   Eigen::Map<Eigen::Matrix<double, 1, components>>(to.data()) +=
-      share * powers(patch, place).transpose() * of_patch;
+      share * powers(patch, place).transpose().lazyProduct(of_patch);
 }
 
 template <int dim>
@@ -257,8 +276,11 @@ void Recovery<dim>::add_value(std::uint32_t patch, const Place &place, double sh
 
 template <int dim>
 std::vector<output::SymmetricTensor> Recovery<dim>::operator()(
-    const material::Composition<dim> &composition, std::span<const double> state) const {
-  const std::vector<double> all = coefficients(composition, state);
+    const material::Composition<dim> &composition, std::span<const double> state,
+    std::span<const output::SymmetricTensor> means) const {
+  const bool linear = samples_.size() == centres_.size();
+  const std::vector<double> all =
+      coefficients(linear ? std::vector(means.begin(), means.end()) : sampled(composition, state));
   std::vector<output::SymmetricTensor> stress(nodes_.size(), output::SymmetricTensor{});
   std::vector<bool> done(nodes_.size(), false);
   for (std::size_t i = 0; i < numbers_.size(); ++i) {

@@ -126,7 +126,11 @@ void Recorder<dim>::put_fields(int n, std::span<const double> state) {
   if (!model_.asked.output.fields)
     return;
   prepare_fields();
-  const std::vector<output::SymmetricTensor> stress = (*recovery_)(model_.composition, state);
+  output::CellFields cells;
+  parallel::together(
+      [&] { cells = body::derived_fields(model_.body, model_.composition, state); });
+  const std::vector<output::SymmetricTensor> stress =
+      (*recovery_)(model_.composition, state, cells.stress);
   parallel::together([&] {
     std::vector<body::Node> nodes;
     for (const std::uint32_t number : nodes_)
@@ -136,8 +140,7 @@ void Recorder<dim>::put_fields(int n, std::span<const double> state) {
       points.stress.push_back(stress[number]);
       points.von_mises.push_back(body::von_mises(stress[number]));
     }
-    folder_.put_fields(n, model_.time(n), grid_, points,
-                       body::derived_fields(model_.body, model_.composition, state));
+    folder_.put_fields(n, model_.time(n), grid_, points, cells);
   });
   parallel::on_first([&] { folder_.list_fields(n, model_.time(n)); });
 }
