@@ -42,7 +42,7 @@ export class Chart {
   private power = 0;
 
   constructor(private readonly options: ChartOptions, private x: number[], private curves: Curve[]) {
-    this.box = element('figure', { class: 'chart' }, element('figcaption', {}, options.title), this.place);
+    this.box = element('figure', { class: 'chart', 'data-unit': options.unit }, element('figcaption', {}, options.title), this.place);
     charts.push(this);
     new ResizeObserver(() => this.resize()).observe(this.place);
   }
