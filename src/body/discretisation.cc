@@ -48,7 +48,7 @@ struct Discretisation<dim>::Parts {
   mesh::Mesh<dim> mesh;
   std::unique_ptr<dealii::FiniteElement<dim>> linear, element;
   std::unique_ptr<dealii::Mapping<dim>> mapping;
-  dealii::Quadrature<dim> cell_rule;
+  dealii::Quadrature<dim> cell_rule, sampling_rule;
   dealii::Quadrature<dim - 1> facet_rule;
   dealii::DoFHandler<dim> dofs;
   std::vector<Node> node_of;           // by deal.II's global number, which depends on the ranks
@@ -98,6 +98,7 @@ Discretisation<dim>::Parts::Parts(mesh::Mesh<dim> given, int degree)
       element(lagrange<dim>(mesh.simplices, degree)),
       mapping(std::make_unique<dealii::MappingFE<dim>>(*linear)),
       cell_rule(gauss<dim>(mesh.simplices, degree + 1)),
+      sampling_rule(gauss<dim>(mesh.simplices, degree)),
       facet_rule(gauss<dim - 1>(mesh.simplices, degree + 1)),
       dofs(*mesh.cells) {
   dofs.distribute_dofs(*element);
@@ -233,7 +234,31 @@ NodeGraph Discretisation<dim>::graph() const {
 template <int dim>
 void Discretisation<dim>::for_each_cell(
     const std::function<void(const Quadrature<dim> &)> &visit) const {
-  dealii::FEValues<dim> shape(*parts_->mapping, *parts_->element, parts_->cell_rule,
+  visit_cells(parts_->cell_rule, visit);
+}
+
+template <int dim>
+void Discretisation<dim>::for_each_cell_sampled(
+    const std::function<void(const Quadrature<dim> &)> &visit) const {
+  visit_cells(parts_->sampling_rule, visit);
+}
+
+template <int dim>
+std::vector<std::vector<double>> Discretisation<dim>::corner_shares() const {
+  std::vector<std::vector<double>> shares;
+  for (const dealii::Point<dim> &node : parts_->element->get_unit_support_points()) {
+    shares.emplace_back();
+    for (unsigned int v = 0; v < parts_->linear->n_dofs_per_cell(); ++v)
+      shares.back().push_back(parts_->linear->shape_value(v, node));
+  }
+  return shares;
+}
+
+template <int dim>
+template <class Rule>
+void Discretisation<dim>::visit_cells(
+    const Rule &rule, const std::function<void(const Quadrature<dim> &)> &visit) const {
+  dealii::FEValues<dim> shape(*parts_->mapping, *parts_->element, rule,
                               dealii::update_values | dealii::update_gradients |
                                   dealii::update_JxW_values | dealii::update_quadrature_points);
   const unsigned int n_shapes = parts_->element->n_dofs_per_cell();

@@ -177,7 +177,7 @@ void ResultFolder::put_fields(int step, double time, const Grid &grid, const Poi
     vtu_.emplace(grid);
   else if (grid.points.size() != vtu_->n_points() || grid.n_cells() != vtu_->n_cells())
     throw std::invalid_argument("put_fields: not the grid of the first call");
-  constant_ = {!cells.region.empty(), !cells.poling.empty()};
+  optional_ = {!cells.region.empty(), !cells.poling.empty(), !points.stress.empty()};
   vtu_->write(directory_ / piece_name(step, piece_.number, piece_.count), time, points, cells);
 }
 
@@ -190,7 +190,7 @@ void ResultFolder::list_fields(int step, double time) {
       pieces.push_back(piece_name(step, i, piece_.count));
     unsynced_.insert(unsynced_.end(), pieces.begin(), pieces.end());
     name = fmt::format("result_{:04}.pvtu", step);
-    write_file(directory_ / name, pvtu_text(time, pieces, constant_));
+    write_file(directory_ / name, pvtu_text(time, pieces, optional_));
   }
   series_.push_back({time, name});
   unsynced_.push_back(name);

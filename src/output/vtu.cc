@@ -121,10 +121,15 @@ void VtuWriter::write(const std::filesystem::path &path, double time, const Poin
   file.append(field("displacement", points.displacement, n_points_));
   file.append(field("potential", points.potential, n_points_));
   file.append(field("temperature", points.temperature, n_points_));
+  if (!points.stress.empty()) {
+    file.append(field("recovered_stress", points.stress, n_points_));
+    file.append(field("recovered_von_mises", points.von_mises, n_points_));
+  }
   file.append("</PointData>\n<CellData>\n");
   file.append(field("stress", cells.stress, n_cells_));
   file.append(field("von_mises", cells.von_mises, n_cells_));
   file.append(field("strain", cells.strain, n_cells_));
+  file.append(field("electric_field", cells.electric_field, n_cells_));
   file.append(field("electric_displacement", cells.electric_displacement, n_cells_));
   file.append(field("heat_flux", cells.heat_flux, n_cells_));
   if (!cells.region.empty())
@@ -146,7 +151,7 @@ std::string declared(const char *name, std::string_view attributes) {
 }  // namespace
 
 std::string pvtu_text(double time, std::span<const std::string> pieces,
-                      const ConstantArrays &constant) {
+                      const OptionalArrays &optional) {
   std::string text = fmt::format(
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" "
@@ -159,14 +164,17 @@ std::string pvtu_text(double time, std::span<const std::string> pieces,
       "<PPointData Scalars=\"potential\" Vectors=\"displacement\">\n",
       std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian", time);
   text += declared("displacement", vector_components) + declared("potential", "") +
-          declared("temperature", "") + "</PPointData>\n<PCellData>\n" +
-          declared("stress", tensor_components) + declared("von_mises", "") +
+          declared("temperature", "");
+  if (optional.recovered)
+    text += declared("recovered_stress", tensor_components) + declared("recovered_von_mises", "");
+  text += "</PPointData>\n<PCellData>\n" + declared("stress", tensor_components) + declared("von_mises", "") +
           declared("strain", tensor_components) +
+          declared("electric_field", vector_components) +
           declared("electric_displacement", vector_components) +
           declared("heat_flux", vector_components);
-  if (constant.region)
+  if (optional.region)
     text += declared("region", "");
-  if (constant.poling)
+  if (optional.poling)
     text += declared("poling", vector_components);
   text += "</PCellData>\n<PPoints>\n" + declared("Points", vector_components) + "</PPoints>\n";
   for (const std::string &piece : pieces)

@@ -68,17 +68,19 @@ void add_others(Conditions &conditions, const casefile::BoundaryCase &entry) {
   scalar(entry.heat_flux, "q·ν", "W/m²");
 }
 
-std::string electrode_text(const casefile::ElectrodeCase &electrode) {
+/// Of a plane body everything holds for a metre of its depth.
+std::string electrode_text(const casefile::ElectrodeCase &electrode, int dimension) {
+  const bool plane = dimension == 2;
   std::string text = "electrode " + electrode.name;
   const auto add = [&](const std::string &piece) { text += ", " + piece; };
   if (electrode.voltage)
     add(electrode.voltage->text() + " V");
   if (electrode.charge)
-    add("Q = " + electrode.charge->text() + " C");
+    add("Q = " + electrode.charge->text() + (plane ? " C/m" : " C"));
   if (electrode.resistor)
-    add(fmt::format("{} Ω", *electrode.resistor));
+    add(fmt::format("{} {}", *electrode.resistor, plane ? "Ω m" : "Ω"));
   if (electrode.capacitor)
-    add(fmt::format("{} F", *electrode.capacitor));
+    add(fmt::format("{} {}", *electrode.capacitor, plane ? "F/m" : "F"));
   if (electrode.to)
     add("to " + *electrode.to);
   return text;
@@ -99,7 +101,7 @@ Conditions conditions_on(const casefile::Case &asked, const std::string &boundar
   add_entries(add_others);
   for (const casefile::ElectrodeCase &electrode : asked.electrodes)
     if (names(electrode.on, boundary))
-      conditions.texts.push_back(electrode_text(electrode));
+      conditions.texts.push_back(electrode_text(electrode, asked.dimension));
   return conditions;
 }
 

@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <map>
+#include <span>
+#include <utility>
 
 #include "tourmaline/error.h"
 #include "tourmaline/output/place.h"
@@ -44,6 +48,13 @@ bool is_plane(VtkCell cell) {
          cell == VtkCell::quadratic_triangle || cell == VtkCell::quadratic_quadrilateral;
 }
 
+/// 0 for what is no number of components, which no array has.
+std::size_t number_of(const std::string &text) {
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size() && number <= 9 ? number : 0;
+}
+
 /// Collects the arrays of one .vtu file as its elements go by.
 class Piece {
  public:
@@ -74,14 +85,23 @@ class Piece {
     if (section_ == "Points")
       take_points(values);
     else if (array == "connectivity")
-      file_.grid.connectivity.assign(values.begin(), values.end());
+      take_connectivity(values);
     else if (array == "types" && !values.empty()) {
-      file_.grid.cell = static_cast<VtkCell>(values.front());
+      file_.grid.cell = static_cast<VtkCell>(values.front() < 256 ? values.front() : 0);
       has_cells_ = true;
     } else if (section_ == "PointData" || section_ == "CellData") {
       const std::string components = element.attribute("NumberOfComponents");
-      file_.arrays.push_back({array, components.empty() ? 1 : std::stoul(components),
+      file_.arrays.push_back({array, components.empty() ? 1 : number_of(components),
                               section_ == "PointData", std::move(values)});
+    }
+  }
+
+  void take_connectivity(const std::vector<double> &values) {
+    file_.grid.connectivity.clear();
+    for (const double value : values) {
+      if (!(value >= 0 && value < 4294967295.))
+        throw CaseError(name_ + ": a cell refers to a point that there is not");
+      file_.grid.connectivity.push_back(static_cast<std::uint32_t>(value));
     }
   }
 
@@ -91,6 +111,12 @@ class Piece {
   }
 
   void check_sizes() const {
+    if (file_.grid.connectivity.empty() ||
+        file_.grid.connectivity.size() % file_.grid.nodes_per_cell != 0)
+      throw CaseError(name_ + ": the list of its cells is not whole");
+    for (const output::Vector &point : file_.grid.points)
+      if (!std::isfinite(point[0]) || !std::isfinite(point[1]) || !std::isfinite(point[2]))
+        throw CaseError(name_ + ": a point has no place");
     for (const std::uint32_t node : file_.grid.connectivity)
       if (node >= file_.grid.points.size())
         throw CaseError(name_ + ": a cell refers to a point that there is not");
@@ -144,29 +170,76 @@ bool same_place(const output::Vector &a, const output::Vector &b, double toleran
   return true;
 }
 
-/// Points by place, each once, with the values of the first piece that has it.
-void merge_points(FieldFile &file) {
-  const std::vector<std::size_t> order = output::sorted_by_place(file.grid.points);
-  const double tolerance = 1e-9 * extent(file.grid.points);  // that of sorted_by_place
-  std::vector<std::size_t> kept;
-  std::vector<std::uint32_t> number(order.size());
-  for (const std::size_t i : order) {
-    if (kept.empty() || !same_place(file.grid.points[kept.back()], file.grid.points[i], tolerance))
-      kept.push_back(i);
-    number[i] = static_cast<std::uint32_t>(kept.size() - 1);
+/// The region of each point: a point of a piece belongs to cells of one. 0 where there is but one.
+std::vector<double> regions_of_points(const FieldFile &file) {
+  std::vector<double> regions(file.grid.points.size(), 0);
+  for (const FieldArray &array : file.arrays)
+    if (array.name == "region" && !array.on_points && array.components == 1)
+      for (std::size_t i = 0; i < file.grid.connectivity.size(); ++i)
+        regions[file.grid.connectivity[i]] = array.values[i / file.grid.nodes_per_cell];
+  return regions;
+}
+
+/// Points by place and region, each once, with the values of the first piece that has it: first
+/// those of the least region at each place, in the order of nodes.csv, then the others.
+class Merged {
+ public:
+  explicit Merged(const FieldFile &file) : number_(file.grid.points.size()) {
+    const std::vector<output::Vector> &points = file.grid.points;
+    const std::vector<std::size_t> order = output::sorted_by_place(points);
+    const std::vector<double> regions = regions_of_points(file);
+    const double tolerance = 1e-9 * extent(points);  // that of sorted_by_place
+    for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+      while (end < order.size() && same_place(points[order[begin]], points[order[end]], tolerance))
+        ++end;
+      add({&order[begin], end - begin}, regions);
+    }
+    for (auto &[point, others] : copies_)
+      add_copy(point, others);
   }
+
+  /// The points that are kept, and the place among them of each one.
+  const std::vector<std::size_t> &kept() const { return kept_; }
+  std::uint32_t number(std::size_t point) const { return number_[point]; }
+
+ private:
+  void add(std::span<const std::size_t> here, const std::vector<double> &regions) {
+    std::map<double, std::vector<std::size_t>> by_region;
+    for (const std::size_t point : here)
+      by_region[regions[point]].push_back(point);
+    for (const auto &[region, points] : by_region)
+      if (region == by_region.begin()->first)
+        add_copy(points.front(), points);
+      else
+        copies_.emplace_back(points.front(), points);
+  }
+
+  void add_copy(std::size_t point, const std::vector<std::size_t> &all) {
+    for (const std::size_t one : all)
+      number_[one] = static_cast<std::uint32_t>(kept_.size());
+    kept_.push_back(point);
+  }
+
+  std::vector<std::size_t> kept_;
+  std::vector<std::uint32_t> number_;
+  std::vector<std::pair<std::size_t, std::vector<std::size_t>>> copies_;
+};
+
+void merge_points(FieldFile &file) {
+  const Merged merged(file);
+  // Points of one node stand at one place to the last bit, by which they are known as such.
   std::vector<output::Vector> points;
-  points.reserve(kept.size());
-  for (const std::size_t i : kept)
+  points.reserve(merged.kept().size());
+  for (const std::size_t i : merged.kept())
     points.push_back(file.grid.points[i]);
   file.grid.points = std::move(points);
   for (std::uint32_t &node : file.grid.connectivity)
-    node = number[node];
+    node = merged.number(node);
   for (FieldArray &array : file.arrays) {
     if (!array.on_points)
       continue;
     std::vector<double> values;
-    for (const std::size_t i : kept)
+    for (const std::size_t i : merged.kept())
       values.insert(values.end(), &array.values[i * array.components],
                     &array.values[i * array.components] + array.components);
     array.values = std::move(values);

@@ -63,6 +63,11 @@ void Figure::say_scale() {
                Canvas::Align::right, 7);
 }
 
+void Figure::say_origin(const std::string &text) {
+  canvas_.text(text, {left_margin - 20, top_ + height_ + (result_.dimension == 2 ? 26 : 30)},
+               Canvas::Align::left, 7);
+}
+
 void Figure::axes() {
   axis(0, "x");
   axis(1, "y");
@@ -155,11 +160,12 @@ void Figure::field(const Field &field, std::size_t component) {
   const std::vector<float> &all = field.values[component];
   const std::size_t first =
       all.size() - (field.on_points ? result_.skin.nodes : result_.skin.cells).size();
-  const auto [least, greatest] = std::minmax_element(all.begin() + first, all.end());
-  const double usual = usual_range(result_, field, component).high;
-  // Singular corners would leave nothing to be seen of the rest.
-  const bool clipped = !field.on_points && *least >= 0 && usual > 0 && *greatest > 1.5 * usual;
-  const ColourRange range = colour_range(*least, clipped ? usual : *greatest);
+  const ShownRange shown = shown_range(result_, field, component);
+  if (!shown.instead.empty()) {
+    put(bare_surface());
+    return say_instead_of_bar(shown.instead);
+  }
+  const ColourRange range = colour_range(shown.low, shown.high);
   Raster raster(view_, per_metre_ * raster_pixels);
   for (std::size_t i = 0; i < result_.skin.triangles.size(); ++i) {
     const auto &t = result_.skin.triangles[i];
@@ -173,7 +179,7 @@ void Figure::field(const Field &field, std::size_t component) {
                     });
   }
   put(raster);
-  colour_bar(range, field.unit, clipped);
+  colour_bar(range, field.unit, shown);
 }
 
 namespace {
@@ -301,7 +307,12 @@ double rounded(double value, double size, int power) {
 
 }  // namespace
 
-void Figure::colour_bar(const ColourRange &range, const std::string &unit, bool clipped) {
+void Figure::say_instead_of_bar(const std::string &text) {
+  canvas_.text(text, {left_margin, top_ + height_ + axis_room + 10}, Canvas::Align::left, 7.5);
+}
+
+void Figure::colour_bar(const ColourRange &range, const std::string &unit,
+                        const ShownRange &shown) {
   const double top = top_ + height_ + axis_room, width = body_size - 40;
   const double size = std::max(std::abs(range.low), std::abs(range.high));
   const int power = shown_power(size);
@@ -310,7 +321,8 @@ void Figure::colour_bar(const ColourRange &range, const std::string &unit, bool 
     const double at = i / 4., value = range.low + at * (range.high - range.low);
     canvas_.lines({{{left_margin + at * width, top + 7}, {left_margin + at * width, top + 10}}},
                   grey, 0.5);
-    canvas_.text((clipped && i == 4 ? "≥ " : "") + number_text(rounded(value, size, power), 3),
+    const char *beyond = i == 4 && shown.cut_above ? "≥ " : i == 0 && shown.cut_below ? "≤ " : "";
+    canvas_.text(beyond + number_text(rounded(value, size, power), 3),
                  {left_margin + at * width, top + 18}, Canvas::Align::middle, 7);
   }
   canvas_.text(unit_text(power, unit), {left_margin + width + 8, top + 6.5}, Canvas::Align::left,

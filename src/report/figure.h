@@ -5,6 +5,7 @@
 
 #include "tourmaline/report/canvas.h"
 #include "tourmaline/report/result.h"
+#include "tourmaline/report/scale.h"
 #include "tourmaline/report/view.h"
 
 namespace tourmaline::report {
@@ -18,6 +19,8 @@ class Figure {
   void title(const std::string &text);
   /// "displacement × 6·10⁷", or that nothing is deformed.
   void say_scale();
+  /// How the values drawn come about, if there is something to say.
+  void say_origin(const std::string &text);
   /// A field's component with its colour bar.
   void field(const Field &field, std::size_t component);
   /// The body in one colour with the sides of its cells.
@@ -37,7 +40,8 @@ class Figure {
   void put(const Raster &raster);
   void paint_sides(const Boundary &boundary, const Colour &colour);
   void paint_faces(Raster &raster, const Boundary &boundary, const Colour &colour) const;
-  void colour_bar(const ColourRange &range, const std::string &unit, bool clipped);
+  void colour_bar(const ColourRange &range, const std::string &unit, const ShownRange &shown);
+  void say_instead_of_bar(const std::string &text);
   void poling();
   void arrow(const Canvas::Point &tail, const Canvas::Point &tip);
   void legend();

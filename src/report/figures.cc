@@ -42,24 +42,27 @@ class Set {
     write(figure, "deformed");
   }
 
-  void field(const Field &field, std::size_t component) {
+  void field(const Field &field, std::size_t component, const std::string &file) {
     const std::string &name = field.components[component];
     Figure figure(result_, format_, scale_, colour_bar_height);
     figure.title(title_of(field.name) + (name.empty() ? "" : " " + name) + ", " + moment_);
     figure.say_scale();
+    figure.say_origin(field.origin());
     figure.field(field, component);
     figure.outline();
-    write(figure, field.name + (name.empty() ? "" : "_" + name));
+    write(figure, file + (name.empty() ? "" : "_" + name));
   }
 
   std::vector<fs::path> files;
 
  private:
   static std::string title_of(std::string name) {
-    if (name == "von_mises")
+    if (name == "von_mises" || name == "recovered_von_mises")
       return "von Mises stress";
     if (name == "potential")
       return "Electric potential";
+    if (name == "recovered_stress")
+      name = "stress";
     std::replace(name.begin(), name.end(), '_', ' ');
     name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
     return name;
@@ -86,13 +89,14 @@ std::string all_fields(const Result &result) {
 }
 
 /// NAME or NAME.COMPONENT
-void draw_named(Set &set, const Result &result, const std::string &wanted) {
+void draw_named(Set &set, const Result &result, const std::string &wanted,
+                const std::string &file = "") {
   const std::size_t dot = wanted.find('.');
   const std::string component = dot == std::string::npos ? "" : wanted.substr(dot + 1);
   if (const Field *field = result.field(wanted.substr(0, dot)))
     for (std::size_t c = 0; c < field->components.size(); ++c)
       if (field->components[c] == component)
-        return set.field(*field, c);
+        return set.field(*field, c, file.empty() ? field->name : file);
   throw CaseError(fmt::format("there is no field \"{}\" in the results; there are {}", wanted,
                               all_fields(result)));
 }
@@ -109,7 +113,7 @@ void make(const fs::path &directory) {
 
 std::vector<fs::path> write_figures(const fs::path &folder, const fs::path &directory,
                                     const FigureRequest &request) {
-  const Result result = read_result(folder, {0, request.time});
+  const Result result = read_result(folder, {0, request.time, true});
   if (result.points.empty())
     throw CaseError(folder.string() +
                     ": holds no fields to draw; run the case with output.fields = true");
@@ -121,9 +125,14 @@ std::vector<fs::path> write_figures(const fs::path &folder, const fs::path &dire
     return set.files;
   set.setting();
   set.deformed();
-  for (const char *name : {"potential", "temperature", "von_mises"})
+  for (const char *name : {"potential", "temperature"})
     if (result.field(name))
       draw_named(set, result, name);
+  for (const char *name : {"recovered_von_mises", "von_mises"})
+    if (result.field(name)) {
+      draw_named(set, result, name, "von_mises");
+      break;
+    }
   return set.files;
 }
 

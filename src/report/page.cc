@@ -39,23 +39,25 @@ Json grid_json(Packing &packing, const Result &result) {
   for (const output::Vector &point : result.points)
     points.insert(points.end(), point.begin(), point.end());
   return {{"points", packing.floats(points, 1)},
-          {"nodes", packing.integers(result.skin.nodes)},
+          {"nodes", packing.integers(result.skin.names)},
           {"cells", packing.integers(result.skin.cells)},
           {"triangles", indices(packing, result.skin.triangles)},
           {"triangleCells", packing.integers(result.skin.triangle_cells)},
           {"edges", indices(packing, result.skin.edges)}};
 }
 
-/// Values at nodes are exact to single precision, so that they can be compared with nodes.csv;
-/// those of cells, which are many more, are rounded.
+/// The unknowns are exact to single precision, so that they can be compared with nodes.csv; what is
+/// derived from them is rounded.
 Json field_json(Packing &packing, const Field &field, std::size_t states) {
   Json values = Json::array();
   for (const std::vector<float> &component : field.values)
-    values.push_back(field.on_points ? packing.floats(component, states)
-                                     : packing.levels(component, states));
+    values.push_back(field.is_unknown() ? packing.floats(component, states)
+                                        : packing.levels(component, states));
   return {{"name", field.name},
           {"unit", field.unit},
           {"on", field.on_points ? "points" : "cells"},
+          {"origin", field.origin()},
+          {"belowRoundOff", field.below_round_off},
           {"components", field.components},
           {"values", values}};
 }
@@ -78,6 +80,14 @@ Json boundary_json(Packing &packing, const Boundary &boundary) {
           {"conditions", boundary.conditions.texts},
           {"sizes", packing.integers(sizes)},
           {"nodes", packing.integers(nodes)}};
+}
+
+Json piece_json(Packing &packing, const ContactPiece &piece) {
+  return {{"name", piece.name},
+          {"abscissa", piece.abscissa},
+          {"origin", piece.origin},
+          {"rows", packing.integers(piece.rows)},
+          {"along", packing.floats(as_floats(piece.along), 1)}};
 }
 
 /// Tail and tip of each arrow; null where nothing is poled.
@@ -127,6 +137,7 @@ Json result_json(Packing &packing, const Result &result) {
             {"steps", result.steps},
             {"fields", Json::array()},
             {"boundaries", Json::array()},
+            {"contactPieces", Json::array()},
             {"parts", Json::array()}};
   if (json["summary"].is_discarded())
     json["summary"] = nullptr;
@@ -139,6 +150,8 @@ Json result_json(Packing &packing, const Result &result) {
   json["parts"] = parts_json(result, json["summary"]);
   for (const Boundary &boundary : result.boundaries)
     json["boundaries"].push_back(boundary_json(packing, boundary));
+  for (const ContactPiece &piece : result.contact_pieces)
+    json["contactPieces"].push_back(piece_json(packing, piece));
   if (result.history)
     json["history"] = table_json(packing, *result.history);
   if (result.contact)

@@ -20,6 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char *recovered = "recovered_";
+
 void check_folder(const fs::path &folder) {
   if (!fs::is_directory(folder))
     throw CaseError(folder.string() + ": there is no such folder");
@@ -80,11 +82,11 @@ struct State {
   fs::path file;
 };
 
-double time_in(const std::string &text, const fs::path &file) {
+double time_of(const std::string &text, const fs::path &path) {
   double time = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), time);
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(time))
-    throw CaseError(file.string() + ": timestep=\"" + text + "\" is no number");
+    throw CaseError(fmt::format("{}: the time \"{}\" is no number", path.string(), text));
   return time;
 }
 
@@ -96,7 +98,7 @@ std::vector<State> series_of(const fs::path &folder) {
   const std::string text = read_text_file(path);
   for_each_element(text, path.string(), [&](const XmlElement &e) {
     if (e.name == "DataSet")
-      series.push_back({time_in(e.attribute("timestep"), path), folder / e.attribute("file")});
+      series.push_back({time_of(e.attribute("timestep"), path), folder / e.attribute("file")});
   });
   return series;
 }
@@ -108,6 +110,24 @@ int step_of(const fs::path &file) {
   int step = 0;
   std::from_chars(stem.data() + digits, stem.data() + stem.size(), step);
   return step;
+}
+
+/// What stands in the files twice is shown once.
+void drop_means_of_recovered(FieldFile &file) {
+  const auto has = [&](const std::string &name) {
+    return std::any_of(file.arrays.begin(), file.arrays.end(),
+                       [&](const FieldArray &array) { return array.name == name; });
+  };
+  for (const char *name : {"stress", "von_mises"})
+    if (has(recovered + std::string(name)))
+      std::erase_if(file.arrays, [&](const FieldArray &array) { return array.name == name; });
+}
+
+FieldFile read_state(const fs::path &path, const States &states) {
+  FieldFile file = read_field_file(path);
+  if (!states.means_of_recovered)
+    drop_means_of_recovered(file);
+  return file;
 }
 
 std::size_t numbers_of(const FieldFile &file, const Skin &skin) {
@@ -146,6 +166,8 @@ std::string unit_of(const std::string &field) {
                                                         {"temperature", "K"},
                                                         {"stress", "Pa"},
                                                         {"von_mises", "Pa"},
+                                                        {"recovered_stress", "Pa"},
+                                                        {"recovered_von_mises", "Pa"},
                                                         {"electric_field", "V/m"},
                                                         {"electric_displacement", "C/m²"},
                                                         {"heat_flux", "W/m²"}};
@@ -155,6 +177,8 @@ std::string unit_of(const std::string &field) {
 
 void begin_fields(Result &result, const FieldFile &file) {
   result.dimension = file.grid.dimension;
+  result.n_points = file.grid.points.size();
+  result.n_cells = file.grid.n_cells();
   result.skin = skin_of(file.grid);
   for (const std::uint32_t node : result.skin.nodes)
     result.points.push_back(file.grid.points[node]);
@@ -165,7 +189,14 @@ void begin_fields(Result &result, const FieldFile &file) {
 }
 
 void add_state(Result &result, const FieldFile &file, const fs::path &path) {
-  if (file.arrays.size() != result.fields.size())
+  const bool alike =
+      file.grid.points.size() == result.n_points && file.grid.n_cells() == result.n_cells &&
+      std::equal(file.arrays.begin(), file.arrays.end(), result.fields.begin(), result.fields.end(),
+                 [](const FieldArray &array, const Field &field) {
+                   return array.name == field.name && array.on_points == field.on_points &&
+                          array.components == field.values.size();
+                 });
+  if (!alike)
     throw CaseError(path.string() + ": does not hold the arrays of the other field files");
   for (std::size_t i = 0; i < file.arrays.size(); ++i) {
     const FieldArray &array = file.arrays[i];
@@ -210,7 +241,7 @@ void read_fields(Result &result, const fs::path &folder, const States &states) {
     return say_why_no_fields(result);
   if (states.time)
     series = nearest(series, *states.time);
-  const FieldFile last = read_field_file(series.back().file);
+  const FieldFile last = read_state(series.back().file, states);
   begin_fields(result, last);
   const std::size_t most =
       std::max<std::size_t>(1, states.most_numbers / numbers_of(last, result.skin));
@@ -221,41 +252,118 @@ void read_fields(Result &result, const fs::path &folder, const States &states) {
   for (const State &state : kept) {
     result.times.push_back(state.time);
     result.steps.push_back(step_of(state.file));
-    add_state(result, &state == &kept.back() ? last : read_field_file(state.file), state.file);
+    add_state(result, &state == &kept.back() ? last : read_state(state.file, states), state.file);
   }
   if (result.dimension == 2)
     for (Field &field : result.fields)
       drop_empty_components(field);
 }
 
+std::vector<NamedFacets> facets_of(const fs::path &path) {
+  std::vector<NamedFacets> boundaries;
+  try {
+    const auto json = nlohmann::json::parse(read_text_file(path));
+    for (const auto &entry : json.at("boundaries"))
+      boundaries.push_back({entry.at("name").get<std::string>(),
+                            entry.at("facets").get<std::vector<std::vector<std::uint32_t>>>()});
+  } catch (const nlohmann::json::exception &) {
+    throw CaseError(path.string() + ": is not what a run writes there");
+  }
+  return boundaries;
+}
+
+/// The facets that are seen, by places on the skin.
+Boundary seen_boundary(const NamedFacets &named, const Result &result,
+                       const std::map<std::uint32_t, std::uint32_t> &place) {
+  Boundary boundary;
+  boundary.name = named.name;
+  if (result.asked)
+    boundary.conditions = conditions_on(*result.asked, boundary.name);
+  for (const auto &nodes : named.facets) {
+    std::vector<std::uint32_t> facet;
+    for (const std::uint32_t node : nodes)
+      if (const auto found = place.find(node); found != place.end())
+        facet.push_back(found->second);
+    if (facet.size() == nodes.size())
+      boundary.facets.push_back(std::move(facet));
+  }
+  return boundary;
+}
+
+void add_contact_pieces(Result &result, std::vector<NamedFacets> boundaries) {
+  if (result.dimension != 2 || !result.contact || !result.asked || !result.asked->contact)
+    return;
+  const std::vector<double> *step = result.contact->find("step"), *x = result.contact->find("x"),
+                            *y = result.contact->find("y");
+  if (!step || !x || !y || step->empty())
+    return;
+  const std::vector<std::string> &on = result.asked->contact->on;
+  std::erase_if(boundaries, [&](const NamedFacets &boundary) {
+    return std::find(on.begin(), on.end(), boundary.name) == on.end();
+  });
+  std::vector<std::pair<double, double>> places;
+  for (std::size_t i = 0; i < step->size() && (*step)[i] == step->front(); ++i)
+    places.emplace_back((*x)[i], (*y)[i]);
+  result.contact_pieces = contact_pieces(boundaries, places);
+}
+
 void read_boundaries(Result &result, const fs::path &folder) {
   const fs::path path = folder / "boundaries.json";
-  if (!fs::exists(path) || result.points.empty())
+  if (!fs::exists(path))
     return;
-  const auto json = nlohmann::json::parse(read_text_file(path), nullptr, false);
-  if (json.is_discarded() || !json.contains("boundaries"))
-    throw CaseError(path.string() + ": is not what a run writes there");
+  std::vector<NamedFacets> boundaries = facets_of(path);
   std::map<std::uint32_t, std::uint32_t> place;
   for (std::size_t i = 0; i < result.skin.nodes.size(); ++i)
-    place[result.skin.nodes[i]] = static_cast<std::uint32_t>(i);
-  for (const auto &entry : json["boundaries"]) {
-    Boundary boundary;
-    boundary.name = entry.value("name", "");
-    if (result.asked)
-      boundary.conditions = conditions_on(*result.asked, boundary.name);
-    for (const auto &nodes : entry["facets"]) {
-      std::vector<std::uint32_t> facet;
-      for (const auto &node : nodes)
-        if (const auto found = place.find(node.get<std::uint32_t>()); found != place.end())
-          facet.push_back(found->second);
-      if (facet.size() == nodes.size())
-        boundary.facets.push_back(std::move(facet));
-    }
-    result.boundaries.push_back(std::move(boundary));
-  }
+    place.emplace(result.skin.names[i], static_cast<std::uint32_t>(i));
+  if (!result.points.empty())
+    for (const NamedFacets &named : boundaries)
+      result.boundaries.push_back(seen_boundary(named, result, place));
+  add_contact_pieces(result, std::move(boundaries));
+}
+
+void remark_on_contact(Result &result) {
+  if (result.dimension == 2 && result.contact && result.contact->n_rows() > 0 &&
+      result.contact_pieces.empty())
+    result.remarks.push_back(
+        "There are no curves along the contact: the folder does not tell its facets "
+        "(boundaries.json, resolved.toml).");
+}
+
+/// The greatest value of a column of the history; 0 when it is not there.
+double greatest(const Table &history, const std::string &name) {
+  const std::vector<double> *column = history.find(name);
+  double most = 0;
+  for (std::size_t i = 0; column && i < column->size(); ++i)
+    most = std::max(most, std::abs((*column)[i]));
+  return most;
+}
+
+/// A field's energy is a quadratic form in its values, so an energy of 1e-28 of all energies says
+/// that the values are 1e-14 of those that the others would need for theirs: what is left of the
+/// linear solve.
+void judge_round_off(Result &result) {
+  if (!result.history)
+    return;
+  double all = 0;
+  for (const char *name : {"elastic_energy", "electric_energy", "thermal_energy"})
+    all = std::max(all, greatest(*result.history, name));
+  const std::map<std::string, const char *> energies{{"potential", "electric_energy"},
+                                                     {"electric_field", "electric_energy"},
+                                                     {"temperature", "thermal_energy"},
+                                                     {"heat_flux", "thermal_energy"}};
+  for (Field &field : result.fields)
+    if (const auto found = energies.find(field.name); found != energies.end())
+      field.below_round_off = result.history->find(found->second) &&
+                              greatest(*result.history, found->second) < 1e-28 * all;
 }
 
 }  // namespace
+
+std::string Field::origin() const {
+  if (name.starts_with(recovered))
+    return "recovered at the nodes";
+  return on_points || name == "region" || name == "poling" ? "" : "mean of each cell";
+}
 
 const Field *Result::field(const std::string &wanted) const {
   for (const Field &f : fields)
@@ -273,6 +381,8 @@ Result read_result(const fs::path &folder, const States &states) {
   evaluate_friction_bound(result);
   read_fields(result, folder, states);
   read_boundaries(result, folder);
+  remark_on_contact(result);
+  judge_round_off(result);
   return result;
 }
 

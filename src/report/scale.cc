@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tourmaline/report/number_text.h"
+
 namespace tourmaline::report {
 namespace {
 
@@ -42,6 +44,44 @@ Quantiles usual_range(const Result &result, const Field &field, std::size_t comp
   const double end = static_cast<double>(last.size() - 1);
   return {last[static_cast<std::size_t>(0.01 * end)],
           last[static_cast<std::size_t>(std::ceil(0.99 * end))]};
+}
+
+namespace {
+
+/// Values differ by less than what single precision tells apart.
+constexpr double same = 4e-7;
+
+/// Empty where the values between `low` and `high` have a range to be shown.
+std::string no_range(double low, double high, const Field &field) {
+  const double size = std::max(-low, high);
+  const auto with_unit = [&](double value) {
+    return number_text(value, 4) + (field.unit.empty() ? "" : " " + field.unit);
+  };
+  if (low == 0 && high == 0)
+    return "0 everywhere";
+  if (high - low <= same * size)
+    return "constant, " + with_unit((low + high) / 2);
+  return field.below_round_off ? "below round-off, at most " + with_unit(size) : "";
+}
+
+}  // namespace
+
+ShownRange shown_range(const Result &result, const Field &field, std::size_t component) {
+  const std::vector<float> &all = field.values[component];
+  const auto places = static_cast<std::ptrdiff_t>(all.size() / result.times.size());
+  const auto [low, high] = std::minmax_element(all.end() - places, all.end());
+  ShownRange range{*low, *high, false, false, no_range(*low, *high, field)};
+  if (field.is_unknown() || !range.instead.empty())
+    return range;
+  const Quantiles usual = usual_range(result, field, component);
+  const double size = std::max(-usual.low, usual.high);
+  range.cut_above = usual.high > 0 && range.high - usual.high > size / 2;
+  range.cut_below = usual.low < 0 && usual.low - range.low > size / 2;
+  if (range.cut_above)
+    range.high = usual.high;
+  if (range.cut_below)
+    range.low = usual.low;
+  return range;
 }
 
 double size_of(const Result &result) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <numeric>
 
 namespace tourmaline::report {
 namespace {
@@ -55,12 +56,27 @@ struct Face {
 
 using Corners = std::array<std::uint32_t, 4>;
 
-Corners key_of(const Face &face) {
+/// Regions that meet at a face have points of their own there.
+Corners key_of(const Face &face, const std::vector<std::uint32_t> &names) {
   Corners key;
   key.fill(std::numeric_limits<std::uint32_t>::max());  // of a triangle's fourth
-  std::copy_n(face.nodes.begin(), corners_of(face.nodes.size()), key.begin());
+  for (std::size_t i = 0; i < corners_of(face.nodes.size()); ++i)
+    key[i] = names[face.nodes[i]];
   std::sort(key.begin(), key.end());
   return key;
+}
+
+/// Of each point the first one at its place.
+std::vector<std::uint32_t> names_of(const std::vector<output::Vector> &points) {
+  std::vector<std::uint32_t> order(points.size()), names(points.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return points[a] != points[b] ? points[a] < points[b] : a < b;
+  });
+  for (std::size_t i = 0; i < order.size(); ++i)
+    names[order[i]] = i > 0 && points[order[i]] == points[order[i - 1]] ? names[order[i - 1]]
+                                                                        : order[i];
+  return names;
 }
 
 std::vector<Face> all_faces(const output::Grid &grid) {
@@ -76,11 +92,11 @@ std::vector<Face> all_faces(const output::Grid &grid) {
 }
 
 /// Those that belong to one cell only, in the order of the cells.
-std::vector<Face> outer(const std::vector<Face> &faces) {
+std::vector<Face> outer(const std::vector<Face> &faces, const std::vector<std::uint32_t> &names) {
   std::vector<std::pair<Corners, std::size_t>> keys;
   keys.reserve(faces.size());
   for (std::size_t i = 0; i < faces.size(); ++i)
-    keys.emplace_back(key_of(faces[i]), i);
+    keys.emplace_back(key_of(faces[i], names), i);
   std::sort(keys.begin(), keys.end());
   std::vector<std::size_t> single;
   for (std::size_t i = 0; i < keys.size(); ++i)
@@ -126,14 +142,17 @@ void add_sides(Skin &skin, const std::vector<std::uint32_t> &nodes) {
 
 Skin skin_of(const output::Grid &grid) {
   std::vector<Face> faces = all_faces(grid);
+  const std::vector<std::uint32_t> names = names_of(grid.points);
   if (grid.dimension == 3)
-    faces = outer(faces);
+    faces = outer(faces, names);
   Skin skin;
   for (const Face &face : faces) {
     skin.nodes.insert(skin.nodes.end(), face.nodes.begin(), face.nodes.end());
     skin.cells.push_back(face.cell);
   }
   sort_once(skin.nodes);
+  for (const std::uint32_t node : skin.nodes)
+    skin.names.push_back(names[node]);
   sort_once(skin.cells);
   for (Face &face : faces) {
     for (std::uint32_t &node : face.nodes)

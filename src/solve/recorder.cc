@@ -36,10 +36,7 @@ Vector<dim> tangential(const Vector<dim> &v, const Vector<dim> &normal) {
 
 template <int dim>
 Recorder<dim>::Recorder(const Model<dim> &model, output::ResultFolder &folder)
-    : model_(model),
-      folder_(folder),
-      grid_(model.body.grid()),
-      nodes_(output::keep_used_points(grid_)) {}
+    : model_(model), folder_(folder) {}
 
 template <int dim>
 void Recorder<dim>::initial(std::span<const double> state) {
@@ -108,13 +105,42 @@ void Recorder<dim>::finish(std::span<const double> state) {
   seconds_ += watch.lap();
 }
 
+// The grid of the files has a point for each region that a node belongs to, as stresses jump there.
+template <int dim>
+void Recorder<dim>::prepare_fields() {
+  if (recovery_)
+    return;
+  recovery_.emplace(model_.body);
+  const body::RegionalNodes &regional = recovery_->nodes();
+  grid_ = model_.body.grid();
+  for (std::size_t i = grid_.points.size(); i < regional.size(); ++i)
+    grid_.points.push_back(grid_.points[regional.node(i)]);
+  for (std::size_t i = 0; i < grid_.connectivity.size(); ++i)
+    grid_.connectivity[i] = regional.number(
+        grid_.connectivity[i], regional.regions_of_cells()[i / grid_.nodes_per_cell]);
+  nodes_ = output::keep_used_points(grid_);
+}
+
 template <int dim>
 void Recorder<dim>::put_fields(int n, std::span<const double> state) {
   if (!model_.asked.output.fields)
     return;
+  prepare_fields();
+  output::CellFields cells;
+  parallel::together(
+      [&] { cells = body::derived_fields(model_.body, model_.composition, state); });
+  const std::vector<output::SymmetricTensor> stress =
+      (*recovery_)(model_.composition, state, cells.stress);
   parallel::together([&] {
-    folder_.put_fields(n, model_.time(n), grid_, point_fields(state, nodes_),
-                       body::derived_fields(model_.body, model_.composition, state));
+    std::vector<body::Node> nodes;
+    for (const std::uint32_t number : nodes_)
+      nodes.push_back(recovery_->nodes().node(number));
+    output::PointFields points = point_fields(state, nodes);
+    for (const std::uint32_t number : nodes_) {
+      points.stress.push_back(stress[number]);
+      points.von_mises.push_back(body::von_mises(stress[number]));
+    }
+    folder_.put_fields(n, model_.time(n), grid_, points, cells);
   });
   parallel::on_first([&] { folder_.list_fields(n, model_.time(n)); });
 }

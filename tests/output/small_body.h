@@ -43,6 +43,7 @@ inline CellFields cell_fields(std::size_t n) {
         {value(i, 10), value(i, 11), value(i, 12), value(i, 13), value(i, 14), value(i, 15)});
     fields.von_mises.push_back(std::abs(value(i, 9)));
     fields.strain.push_back({value(i, 1), value(i, 2), 0, value(i, 3), 0, -0.});
+    fields.electric_field.push_back({value(i, 3), value(i, 4), 0});
     fields.electric_displacement.push_back({value(i, 5), value(i, 6), 0});
     fields.heat_flux.push_back({value(i, 7), value(i, 8), 0});
   }

@@ -21,6 +21,7 @@
 
 #include "../cases/read_table.h"
 #include "../output/temporary_folder.h"
+#include "tourmaline/report/field_file.h"
 
 namespace tourmaline::testing {
 namespace {
@@ -338,6 +339,50 @@ INSTANTIATE_TEST_SUITE_P(Two, Interrupted, ::testing::Values(2));
 
 INSTANTIATE_TEST_SUITE_P(Two, Ranks, ::testing::Values(2));
 INSTANTIATE_TEST_SUITE_P(Four, Ranks, ::testing::Values(4));
+
+// Of each rank's cells, joined, with a point for each region that a node belongs to.
+TEST(RecoveredStress, IsTheSameOnOneRankAndSeveral) {
+  const output::TemporaryFolder folder;
+  const fs::path file = folder / "column.toml";
+  std::ofstream(file) << R"(
+mesh.box = { min = [0, 0], max = [0.01, 0.02], cells = [6, 12] }
+time = { end = 1, steps = 1 }
+boundary = [ { on = "bottom", displacement = [0, 0], potential = 0, temperature = 0 },
+             { on = "top", traction = ["100*y", -1000], temperature = 0 } ]
+[[region]]
+where = "y < 0.01"
+material.library = "BaTiO3-Liu2014"
+[[region]]
+where = "y >= 0.01"
+material.library = "steel"
+)";
+  for (const std::string degree : {"1", "2"}) {
+    const auto fields = [&](int ranks) {
+      const fs::path out = folder / ("on" + std::to_string(ranks) + "-" + degree);
+      EXPECT_EQ(run(ranks, "'" + file.string() + "' --set mesh.degree=" + degree, out).status, 0);
+      return report::read_field_file(out / (ranks == 1 ? "result_0001.vtu" : "result_0001.pvtu"));
+    };
+    const report::FieldFile one = fields(1);
+    for (const int ranks : {2, 4}) {
+      SCOPED_TRACE(std::to_string(ranks) + " ranks, degree " + degree);
+      const report::FieldFile several = fields(ranks);
+      ASSERT_EQ(several.grid.points, one.grid.points);
+      ASSERT_EQ(several.arrays.size(), one.arrays.size());
+      for (std::size_t a = 0; a < one.arrays.size(); ++a) {
+        const report::FieldArray &wanted = one.arrays[a], &found = several.arrays[a];
+        if (!wanted.on_points)
+          continue;  // cells stand in the order of the ranks
+        double size = 0, difference = 0;
+        ASSERT_EQ(found.values.size(), wanted.values.size()) << wanted.name;
+        for (std::size_t i = 0; i < wanted.values.size(); ++i) {
+          size = std::max(size, std::abs(wanted.values[i]));
+          difference = std::max(difference, std::abs(found.values[i] - wanted.values[i]));
+        }
+        EXPECT_LE(difference, 1e-9 * size) << wanted.name;
+      }
+    }
+  }
+}
 
 }  // namespace
 }  // namespace tourmaline::testing

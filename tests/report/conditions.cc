@@ -52,8 +52,22 @@ TEST(Conditions, AnElectrodeIsNamedWithItsCircuit) {
   electrode.resistor = 1e6;
   electrode.to = "ground";
   asked.electrodes = {electrode};
+  asked.dimension = 3;
   EXPECT_THAT(conditions_on(asked, "top").texts,
               ElementsAre("electrode signal, 1000000 Ω, to ground"));
+}
+
+TEST(Conditions, OfAPlaneBodyACircuitHoldsForAMetreOfDepth) {
+  casefile::Case asked;
+  casefile::ElectrodeCase electrode;
+  electrode.name = "signal";
+  electrode.on = {"top"};
+  electrode.resistor = 1e6;
+  electrode.capacitor = 1e-9;
+  asked.electrodes = {electrode};
+  asked.dimension = 2;
+  EXPECT_THAT(conditions_on(asked, "top").texts,
+              ElementsAre("electrode signal, 1000000 Ω m, 1e-09 F/m"));
 }
 
 }  // namespace

@@ -103,8 +103,8 @@ export class Body {
     if (this.scale === undefined) {
       const strain = this.result.field('strain');
       const largest = Math.max(0, ...(strain?.components ?? []).map((c) => {
-        const { low, high } = strain!.values(c).usual();
-        return Math.max(-low, high);
+        const { least, greatest } = strain!.values(c).usual();
+        return Math.max(-least, greatest);
       }));
       const wanted = Math.min((0.1 * this.size) / this.largestDisplacement, 0.9 / largest);
       const power = 10 ** Math.floor(Math.log10(wanted));

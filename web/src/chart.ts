@@ -30,6 +30,11 @@ export interface ChartOptions {
 
 const charts: Chart[] = [];
 
+export function allZero(values: ArrayLike<number | null>): boolean {
+  for (let i = 0; i < values.length; ++i) if (values[i] !== 0 && values[i] !== null) return false;
+  return true;
+}
+
 export class Chart {
   readonly box: HTMLElement;
   private readonly place = element('div', { class: 'plot' });
@@ -37,7 +42,7 @@ export class Chart {
   private power = 0;
 
   constructor(private readonly options: ChartOptions, private x: number[], private curves: Curve[]) {
-    this.box = element('figure', { class: 'chart' }, element('figcaption', {}, options.title), this.place);
+    this.box = element('figure', { class: 'chart', 'data-unit': options.unit }, element('figcaption', {}, options.title), this.place);
     charts.push(this);
     new ResizeObserver(() => this.resize()).observe(this.place);
   }

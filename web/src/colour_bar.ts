@@ -11,13 +11,17 @@ export class ColourBar {
   /** `small`: only the ends, the unit between them. */
   constructor(private readonly small = false) { this.box = element('div', { class: 'colourbar' }, this.strip, this.ticks); }
 
-  /** `clipped`: there are greater values than the range's. */
-  show(range: Range, unitOfField: string, clipped = false) {
+  show(range: Range, unitOfField: string) {
+    this.strip.hidden = !!range.instead;
+    if (range.instead) {
+      this.ticks.replaceChildren(element('span', { class: 'instead' }, range.instead));
+      return;
+    }
     const power = thousands(Math.max(Math.abs(range.low), Math.abs(range.high)));
     this.strip.style.background = mapGradient(range.signed, 'to right');
     // To three digits of the greatest: beside 1.24 the end of a bar is 0, not 9.6e-5.
     const step = 10 ** (Math.floor(Math.log10(Math.max(Math.abs(range.low), Math.abs(range.high)))) - 2);
-    const tick = (at: number) => element('span', {}, (clipped && at === 1 ? '≥ ' : '') +
+    const tick = (at: number) => element('span', {}, (range.cutAbove && at === 1 ? '≥ ' : range.cutBelow && at === 0 ? '≤ ' : '') +
       shown((Math.round((range.low + at * (range.high - range.low)) / step) * step) / 10 ** power, 3));
     const unit = element('span', { class: 'unit' }, unitWith(power, unitOfField));
     this.ticks.replaceChildren(...(this.small ? [tick(0), unit, tick(1)]

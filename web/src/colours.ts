@@ -1,6 +1,15 @@
 // Colour maps come from the program, so that page and figures agree.
 
-export interface Range { low: number; high: number; signed: boolean }
+export interface Range {
+  low: number;
+  high: number;
+  signed: boolean;
+  /** there are lower or greater values than the range's */
+  cutBelow?: boolean;
+  cutAbove?: boolean;
+  /** said where there is no range to be shown: constant, or below round-off */
+  instead?: string;
+}
 
 /** The counterpart of colour_range in src/report/colour_map.cc. */
 export function colourRange(least: number, greatest: number): Range {

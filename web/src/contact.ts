@@ -1,88 +1,109 @@
-// Along the contact boundary of a plane body: tractions with the bound, slip, temperature, and a map of
-// stick and slip over place and time.
-import { Chart, Curve } from './chart';
-import { ContactLine, contactLine, contactNodes } from './contact_line';
+// Along the contact boundary of a plane body, each connected piece apart: tractions with the bound, slip,
+// temperature, and a map of stick and slip over place and time.
+import { allZero, Chart, Curve } from './chart';
+import { ContactLine, contactLines, contactNodes } from './contact_line';
 import { lineColours } from './colours';
+import { element } from './dom';
+import { shown } from './numbers';
 import { Result } from './results';
 import { StatusMap } from './status_map';
 import { Timeline } from './timeline';
 
+type Series = { label: string; values: (row: number, at: number) => number; colour: string; dashed?: boolean };
+
 export class Contact {
-  readonly charts: HTMLElement[] = [];
+  /** one for each piece */
+  readonly groups: HTMLElement[] = [];
   private readonly updates: (() => void)[] = [];
-  private readonly line: ContactLine;
   private readonly nodes: number;
-  private readonly steps: number[];
+  private readonly ends: number[];
 
   constructor(private readonly result: Result, private readonly timeline: Timeline, private readonly sync: string) {
     this.nodes = contactNodes(result);
-    this.line = contactLine(result);
-    const step = result.contact!.column('step')!;
-    this.steps = Array.from({ length: step.length / this.nodes }, (_, k) => step[k * this.nodes]);
-    this.add('Normal traction on the body', 'N/m²', [
-      { label: 'σν·ν', column: this.column('normal_traction'), colour: lineColours[0] }]);
-    this.add(result.frictionBound ? 'Tangential traction and the bound ±S' : 'Tangential traction on the body', 'N/m²', [
-      { label: 'tangential', column: this.tangential('tangential_traction_'), colour: lineColours[1] },
-      ...this.bounds(),
-    ]);
-    this.add('Slip', 'm', [{ label: 'slip', column: this.tangential('slip_'), colour: lineColours[1] }]);
-    this.add('Temperature', 'K', [{ label: 'θ', column: this.column('temperature'), colour: lineColours[3] }]);
-    const flux = this.column('heat_flux');
-    if (flux.some((v) => v !== 0))
-      this.add('Heat flux out of the body', 'W/m²', [{ label: 'q·ν', column: flux, colour: lineColours[3] }]);
-    const map = new StatusMap(result, this.line, this.steps, timeline);
-    this.charts.push(map.box);
-    this.updates.push(() => map.redraw());
+    const time = result.contact!.column('time')!;
+    this.ends = Array.from({ length: time.length / this.nodes }, (_, k) => time[k * this.nodes]);
+    const lines = contactLines(result);
+    lines.forEach((line, i) => this.groups.push(this.piece(line, i, lines.length > 1)));
   }
 
   update() { for (const update of this.updates) update(); }
 
-  private add(title: string, unit: string, series: { label: string; column: Float32Array; colour: string; dashed?: boolean }[]) {
-    const curves = (): Curve[] => series.map((s) => ({ ...s, values: this.now(s.column) }));
+  private piece(line: ContactLine, number: number, several: boolean): HTMLElement {
+    const charts: HTMLElement[] = [];
+    const add = (title: string, unit: string, series: Series[], noise = false) =>
+      charts.push(this.chart(line, `${number} ${this.sync}`, title, unit, series, noise));
+    const theta = !!this.result.field('temperature')?.belowRoundOff;
+    add('Normal traction on the body', 'N/m²', [
+      { label: 'σν·ν', values: this.of('normal_traction'), colour: lineColours[0] }]);
+    add(this.result.frictionBound ? 'Tangential traction and the bound ±S' : 'Tangential traction on the body', 'N/m²', [
+      { label: 'tangential', values: this.tangential('tangential_traction_', line), colour: lineColours[1] },
+      ...this.bounds(),
+    ]);
+    add('Slip', 'm', [{ label: 'slip', values: this.tangential('slip_', line), colour: lineColours[1] }]);
+    add('Temperature', 'K', [{ label: 'θ', values: this.of('temperature'), colour: lineColours[3] }], theta);
+    if (this.result.contact!.column('heat_flux')!.some((v) => v !== 0))
+      add('Heat flux out of the body', 'W/m²', [{ label: 'q·ν', values: this.of('heat_flux'), colour: lineColours[3] }], theta);
+    const map = new StatusMap(this.result, line, this.nodes, this.ends, this.timeline);
+    charts.push(map.box);
+    this.updates.push(() => map.redraw());
+    const from = [line.name, line.origin].filter((text) => text).join(': ');
+    return element('div', { class: 'piece', 'data-piece': line.name },
+      (several || line.origin !== '') && element('h4', {}, several ? from : line.origin),
+      element('div', { class: 'charts' }, ...charts));
+  }
+
+  private chart(line: ContactLine, sync: string, title: string, unit: string, series: Series[], noise: boolean): HTMLElement {
+    const at = (k: number, s: Series) => line.order.map((row, j) => s.values(k * this.nodes + row, j));
+    const all = series.filter((s) => !s.dashed).flatMap((s) => this.ends.flatMap((_, k) => at(k, s)));
+    if (allZero(all)) return said(title, `0 everywhere, at all moments`);
+    if (noise) return said(title, `below round-off, at most ${shown(Math.max(...all.map(Math.abs)), 2)} ${unit}`);
     let least = 0, greatest = 0;
     for (const s of series)
-      for (const v of s.column) { if (v < least) least = v; if (v > greatest) greatest = v; }
-    const chart = new Chart({ title, xLabel: this.line.label, unit, sync: 'place' + this.sync, least, greatest },
-      this.line.along, curves());
-    this.charts.push(chart.box);
+      for (let k = 0; k < this.ends.length; ++k)
+        for (const v of at(k, s)) { if (v < least) least = v; if (v > greatest) greatest = v; }
+    const curves = (): Curve[] => {
+      const k = this.shownStep();
+      return series.map((s) => ({ ...s, points: line.order.length < 3 && !s.dashed,
+        values: k < 0 ? line.order.map(() => null) : at(k, s) }));
+    };
+    const chart = new Chart({ title, xLabel: line.label, unit, sync: 'place' + sync, least, greatest }, line.along, curves());
     this.updates.push(() => chart.update(curves()));
+    return chart.box;
   }
 
-  // The rows of the shown moment, along the line. The initial state has none.
-  private now(column: Float32Array): (number | null)[] {
-    const time = this.result.contact!.column('time')!;
-    let k = -1, away = Infinity;
-    for (let i = 0; i < this.steps.length; ++i) {
-      const d = Math.abs(time[i * this.nodes] - this.timeline.time);
-      if (d < away) { away = d; k = i; }
-    }
-    if (this.timeline.time < time[0] / 2) return this.line.order.map(() => null);
-    return this.line.order.map((i) => column[k * this.nodes + i]);
+  /** The step of the shown moment; -1 for the initial state, which has no rows. */
+  private shownStep(): number {
+    const { time } = this.timeline;
+    if (time < this.ends[0] / 2) return -1;
+    let best = 0;
+    for (let k = 1; k < this.ends.length; ++k)
+      if (Math.abs(this.ends[k] - time) < Math.abs(this.ends[best] - time)) best = k;
+    return best;
   }
 
-  private column(name: string): Float32Array { return this.result.contact!.column(name)!; }
+  private of(name: string) {
+    const column = this.result.contact!.column(name)!;
+    return (row: number) => column[row];
+  }
 
   /** The part of a vector along the line. */
-  private tangential(name: string): Float32Array {
-    const x = this.column(name + 'x'), y = this.column(name + 'y');
-    const values = new Float32Array(x.length);
-    const tangents: [number, number][] = [];
-    this.line.order.forEach((i, k) => (tangents[i] = this.line.tangents[k]));
-    for (let i = 0; i < x.length; ++i) {
-      const t = tangents[i % this.nodes];
-      values[i] = x[i] * t[0] + y[i] * t[1];
-    }
-    return values;
+  private tangential(name: string, line: ContactLine) {
+    const x = this.of(name + 'x'), y = this.of(name + 'y');
+    return (row: number, at: number) => x(row) * line.tangents[at][0] + y(row) * line.tangents[at][1];
   }
 
-  private bounds() {
+  private bounds(): Series[] {
     const bound = this.result.frictionBound;
     if (!bound) return [];
     const colour = lineColours[2];
     return [
-      { label: '+S', column: bound, colour, dashed: true },
-      { label: '−S', column: bound.map((s) => -s), colour, dashed: true },
+      { label: '+S', values: (row) => bound[row], colour, dashed: true },
+      { label: '−S', values: (row) => -bound[row], colour, dashed: true },
     ];
   }
 }
 
+/** In the place of a chart that would have nothing to draw. */
+function said(title: string, text: string): HTMLElement {
+  return element('figure', { class: 'chart' }, element('figcaption', {}, title), element('p', { class: 'note' }, text));
+}

@@ -4,6 +4,7 @@ import { colourRange, mapBytes, Range } from './colours';
 import { ColourBar } from './colour_bar';
 import { contactNodes } from './contact_line';
 import { element } from './dom';
+import { shown } from './numbers';
 import { Result } from './results';
 import { fitted } from './stage';
 import { statusColours, statusNames } from './status_map';
@@ -25,7 +26,8 @@ function planOf(result: Result, nodes: number): Plan {
 }
 
 export class ContactFace {
-  readonly charts: HTMLElement[] = [];
+  readonly groups: HTMLElement[];
+  private readonly charts: HTMLElement[] = [];
   private readonly updates: (() => void)[] = [];
   private readonly nodes: number;
   private readonly plan: Plan;
@@ -40,7 +42,8 @@ export class ContactFace {
     this.add('Normal traction on the body', 'N/m²', this.column('normal_traction'));
     this.add('Tangential traction, size', 'N/m²', this.size('tangential_traction_'));
     this.add('Slip, size', 'm', this.size('slip_'));
-    this.add('Temperature', 'K', this.column('temperature'));
+    this.add('Temperature', 'K', this.column('temperature'), !!result.field('temperature')?.belowRoundOff);
+    this.groups = [element('div', { class: 'charts' }, ...this.charts)];
     onTheme(() => this.update());
   }
 
@@ -97,14 +100,17 @@ export class ContactFace {
     (row) => statusColours[status[row]] ?? '#888');
   }
 
-  private add(title: string, unit: string, values: Float32Array) {
+  private add(title: string, unit: string, values: Float32Array, noise = false) {
     let least = Infinity, greatest = -Infinity;
     for (const v of values) { least = Math.min(least, v); greatest = Math.max(greatest, v); }
-    const range: Range = colourRange(least, greatest);
+    const range: Range = { ...colourRange(least, greatest),
+      instead: least === 0 && greatest === 0 ? '0 everywhere, at all moments' : noise
+        ? `below round-off, at most ${shown(Math.max(-least, greatest), 2)} ${unit}` : undefined };
     const bar = new ColourBar(true);
     bar.show(range, unit);
     const bytes = mapBytes(range.signed);
     this.frame(title, bar.box, (row) => {
+      if (range.instead) return colour('--body');
       const level = Math.round(255 * Math.min(1, Math.max(0, (values[row] - range.low) / (range.high - range.low))));
       return `rgb(${bytes[4 * level]} ${bytes[4 * level + 1]} ${bytes[4 * level + 2]})`;
     });

@@ -8,6 +8,7 @@ import { Picture } from './picture';
 import { ColourBar } from './colour_bar';
 import { colourRange, Range } from './colours';
 import { choice, element, tick } from './dom';
+import { Extremes, shownRange, wholeRange } from './shown_range';
 import { fieldTitle, shown, shownWithin, symbols, unitWith } from './numbers';
 import { homeCamera } from './overview';
 import { Timeline } from './timeline';
@@ -22,6 +23,13 @@ interface View {
   readout: HTMLElement;
 }
 
+const nothing = (): Extremes => ({ least: Infinity, greatest: -Infinity });
+
+function include(range: Extremes, other: Extremes) {
+  range.least = Math.min(range.least, other.least);
+  range.greatest = Math.max(range.greatest, other.greatest);
+}
+
 /** Cells above which the mesh would only darken the picture. */
 const mostCellsWithMesh = 20000;
 
@@ -29,7 +37,7 @@ export class Explorer {
   readonly box: HTMLElement;
   private field: string;
   private component = '';
-  private rangeOver: 'all' | 'usual' | 'step' | 'hand' = 'all';
+  private rangeOver: 'all' | 'peaks' | 'step' | 'hand' = 'all';
   private byHand: [number, number] = [0, 1];
   private linked = true;
   private stretch = 1;
@@ -126,7 +134,7 @@ export class Explorer {
       type: 'range', id: 'stretch', min: 0, max: 3, step: 0.1, value: 1,
       oninput: () => { this.stretch = Number(stretch.value); this.refresh(); },
     });
-    const range = choice('Colour range', [['all', 'all moments'], ['usual', 'without the extreme 1 %'], ['step', 'this moment'],
+    const range = choice('Colour range', [['all', 'all moments'], ['peaks', 'all moments, with peaks'], ['step', 'this moment'],
       ['hand', 'by hand']], 'all',
       (over) => {
         const current = this.range(this.views[0]);
@@ -156,19 +164,19 @@ export class Explorer {
 
   private fieldOf(view: View): Field | undefined { return view.result.field(this.field); }
 
-  private extremes(view: View): [number, number] {
-    const field = this.fieldOf(view);
-    if (!field || !field.has(this.component)) return [Infinity, -Infinity];
-    const values = field.values(this.component);
-    if (this.rangeOver === 'all') return [values.least, values.greatest];
-    if (this.rangeOver === 'usual') return [values.usual().low, values.usual().high];
-    const state = view.result.stateAt(this.timeline.time);
-    let low = Infinity, high = -Infinity;
-    for (const v of values.data.subarray(state * values.places, (state + 1) * values.places)) {
-      low = Math.min(low, v);
-      high = Math.max(high, v);
+  /** Of the views that share their colours. */
+  private valuesOf(views: View[]): { all: Extremes; usual: Extremes; error: number } {
+    const found = { all: nothing(), usual: nothing(), error: 0 };
+    for (const view of views) {
+      const field = this.fieldOf(view);
+      if (!field?.has(this.component)) continue;
+      const values = field.values(this.component);
+      const state = view.result.stateAt(this.timeline.time);
+      include(found.all, this.rangeOver === 'step' ? values.of(state) : values);
+      include(found.usual, values.usual(this.rangeOver === 'step' ? state : undefined));
+      found.error = Math.max(found.error, values.error);
     }
-    return [low, high];
+    return found;
   }
 
   private range(view: View): Range {
@@ -176,15 +184,18 @@ export class Explorer {
       const [low, high] = this.byHand;
       return { low, high: high > low ? high : low + 1e-30, signed: low < 0 && high === -low };
     }
-    const own = (this.linked ? this.views : [view]).map((v) => this.extremes(v));
-    return colourRange(Math.min(...own.map((e) => e[0])), Math.max(...own.map((e) => e[1])));
+    const field = this.fieldOf(view);
+    if (!field) return colourRange(0, 0);
+    const { all, usual, error } = this.valuesOf(this.linked ? this.views : [view]);
+    return this.rangeOver === 'peaks' ? wholeRange(all, field, error) : shownRange(all, usual, field, error);
   }
 
   private look(view: View): Look {
     const field = this.fieldOf(view);
+    const range = this.range(view);
     return {
       state: view.result.stateAt(this.timeline.time), scale: this.stretch * view.body.suitableScale, mesh: this.mesh,
-      field: field?.has(this.component) ? field : undefined, component: this.component, range: this.range(view),
+      field: field?.has(this.component) && !range.instead ? field : undefined, component: this.component, range,
     };
   }
 
@@ -193,7 +204,9 @@ export class Explorer {
       const look = this.look(view);
       view.picture.show(look);
       view.bar.show(look.range, this.fieldOf(view)?.unit ?? '');
-      view.note.textContent = this.stretch === 0 ? 'not deformed' : `displacement × ${shown(look.scale, 2)}`;
+      const { origin } = this.fieldOf(view) ?? { origin: '' };
+      view.note.textContent = (this.stretch === 0 ? 'not deformed' : `displacement × ${shown(look.scale, 2)}`) +
+        (origin ? ` · values: ${origin}` : '');
     }
   }
 

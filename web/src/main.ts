@@ -78,12 +78,12 @@ if (touching.length > 0) {
   const contacts = new Map(touching.map((r, i) =>
     [r, r.dimension === 2 ? new Contact(r, timeline, String(i)) : new ContactFace(r, timeline)] as const));
   page.append(section('contact', 'Along the contact', beside((r) => !!contacts.get(r) &&
-    element('div', { class: 'charts' }, ...contacts.get(r)!.charts))));
+    element('div', {}, ...contacts.get(r)!.groups))));
   timeline.onChange(() => { for (const contact of contacts.values()) contact.update(); });
 }
 if (results.some((r) => r.history)) {
   page.append(section('history', 'Over time', beside((r) => !!r.history &&
-    element('div', { class: 'charts' }, ...new History(r, timeline, String(results.indexOf(r))).charts))));
+    new History(r, timeline, String(results.indexOf(r))).content)));
   timeline.onChange(redrawMarks);
 }
 page.append(section('run', 'The run', beside((r) => runSection(r))));

@@ -46,7 +46,9 @@ export function seconds(value: number): string {
 export function fieldTitle(name: string): string {
   const titles: Record<string, string> = {
     displacement: 'Displacement', potential: 'Electric potential', temperature: 'Temperature',
-    von_mises: 'von Mises stress', stress: 'Stress', strain: 'Strain',
+    von_mises: 'von Mises stress', stress: 'Stress',
+    recovered_von_mises: 'von Mises stress', recovered_stress: 'Stress',
+    strain: 'Strain',
     electric_displacement: 'Electric displacement', electric_field: 'Electric field', heat_flux: 'Heat flux',
   };
   const plain = name.replace(/_/g, ' ');
@@ -54,6 +56,7 @@ export function fieldTitle(name: string): string {
 }
 
 export const symbols: Record<string, string> = {
-  displacement: 'u', potential: 'φ', temperature: 'θ', von_mises: 'σ_vM', stress: 'σ', strain: 'ε',
+  displacement: 'u', potential: 'φ', temperature: 'θ', von_mises: 'σ_vM', stress: 'σ',
+  recovered_von_mises: 'σ_vM', recovered_stress: 'σ', strain: 'ε',
   electric_displacement: 'D', electric_field: 'E', heat_flux: 'q',
 };

@@ -2,10 +2,10 @@
 // and von Mises stress.
 import { Body, Look } from './body';
 import { Camera } from './stage';
-import { Field, Result, Values } from './results';
+import { Field, Result } from './results';
+import { shownRange } from './shown_range';
 import { Picture } from './picture';
 import { ColourBar } from './colour_bar';
-import { colourRange, Range } from './colours';
 import { element } from './dom';
 import { fieldTitle, shown } from './numbers';
 import { coloursOf, groupsOf, legend } from './setting';
@@ -29,16 +29,6 @@ export function homeCamera(body: Body): Camera {
   }
   const room = 0.04 * Math.max(...half);
   return new Camera(2, middle, half[0] + room, half[1] + room);
-}
-
-/**
- * The range of all moments; of cells' values without the highest hundredth where singular corners would leave
- * nothing to be seen of the rest.
- */
-function withoutPeaks(field: Field, values: Values): { range: Range; clipped: boolean } {
-  const { high } = values.usual();
-  const clipped = !field.onPoints && values.least >= 0 && high > 0 && values.greatest > 1.5 * high;
-  return { range: colourRange(values.least, clipped ? high : values.greatest), clipped };
 }
 
 interface Card { picture: Picture; look: (state: number) => Look; bar?: ColourBar; field?: Field }
@@ -75,15 +65,17 @@ export class Overview {
         (state) => ({ state, scale, mesh: true, component: '', range: even }),
         element('p', { class: 'note' },
           body.largestDisplacement > 0 ? `displacement × ${shown(scale, 1)}` : 'nothing moves'));
-    for (const name of ['potential', 'temperature', 'von_mises']) {
+    const stress = result.field('recovered_von_mises') ? 'recovered_von_mises' : 'von_mises';
+    for (const name of ['potential', 'temperature', stress]) {
       const field = result.field(name);
       if (!field) continue;
       const values = field.values('');
-      const { range, clipped } = withoutPeaks(field, values);
+      const range = shownRange(values, values.usual(), field, values.error);
       const bar = new ColourBar(true);
-      bar.show(range, field.unit, clipped);
+      bar.show(range, field.unit);
       add(fieldTitle(name), new Picture(body, camera),
-        (state) => ({ state, scale, mesh: false, field, component: '', range }), bar.box, field, bar);
+        (state) => ({ state, scale, mesh: false, field: range.instead ? undefined : field, component: '', range }),
+        element('div', {}, bar.box, field.origin !== '' && element('p', { class: 'note' }, field.origin)), field, bar);
     }
     this.box = element('div', { class: 'cards' }, ...figures);
   }

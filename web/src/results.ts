@@ -12,8 +12,10 @@ interface PackedResult {
   remarks: string[];
   times: number[];
   steps: number[];
-  fields: { name: string; unit: string; on: 'points' | 'cells'; components: string[]; values: Packed[] }[];
+  fields: { name: string; unit: string; on: 'points' | 'cells'; origin: string; belowRoundOff: boolean;
+    components: string[]; values: Packed[] }[];
   boundaries: { name: string; kind: string; conditions: string[]; sizes: Packed; nodes: Packed }[];
+  contactPieces: { name: string; abscissa: string; origin: string; rows: Packed; along: Packed }[];
   parts: { name: string; material: string }[];
   poling: Packed | null;
   grid?: Record<'points' | 'nodes' | 'cells' | 'triangles' | 'triangleCells' | 'edges', Packed>;
@@ -32,13 +34,22 @@ export interface Grid {
   edges: Uint32Array;
 }
 
+/** A connected piece of the contact of a plane body; `rows` of one step of contact.csv. */
+export interface ContactPiece {
+  name: string;
+  abscissa: string;
+  origin: string;
+  rows: Uint32Array;
+  along: Float32Array;
+}
+
 export interface Boundary { name: string; kind: string; conditions: string[]; facets: Uint32Array[] }
 
 /** A component of a field, or its size, over all states. */
 export class Values {
   least = Infinity;
   greatest = -Infinity;
-  private ends?: { low: number; high: number };
+  private ends?: { least: number; greatest: number };
 
   /** `error`: largest error by rounding for the page */
   constructor(readonly data: Float32Array, readonly places: number, readonly error: number) {
@@ -48,19 +59,36 @@ export class Values {
     }
   }
 
-  /** The range over all states, each without its lowest and highest hundredth. */
-  usual(): { low: number; high: number } {
+  /** The range of one state. */
+  of(state: number): { least: number; greatest: number } {
+    const range = { least: Infinity, greatest: -Infinity };
+    for (const value of this.data.subarray(state * this.places, (state + 1) * this.places)) {
+      if (value < range.least) range.least = value;
+      if (value > range.greatest) range.greatest = value;
+    }
+    return range;
+  }
+
+  /** The range of one state, or over all of them, each without its lowest and highest hundredth. */
+  usual(state?: number): { least: number; greatest: number } {
+    if (state !== undefined) return this.usualOf(state);
     if (!this.ends) {
-      this.ends = { low: Infinity, high: -Infinity };
-      const stride = Math.ceil(this.places / 5000);
-      for (let first = 0; first < this.data.length; first += this.places) {
-        const sorted = this.data.subarray(first, first + this.places).filter((_, i) => i % stride === 0).sort();
-        const last = sorted.length - 1;
-        this.ends.low = Math.min(this.ends.low, sorted[Math.floor(0.01 * last)]);
-        this.ends.high = Math.max(this.ends.high, sorted[Math.ceil(0.99 * last)]);
+      this.ends = { least: Infinity, greatest: -Infinity };
+      for (let i = 0; i * this.places < this.data.length; ++i) {
+        const { least, greatest } = this.usualOf(i);
+        this.ends.least = Math.min(this.ends.least, least);
+        this.ends.greatest = Math.max(this.ends.greatest, greatest);
       }
     }
     return this.ends;
+  }
+
+  private usualOf(state: number): { least: number; greatest: number } {
+    const stride = Math.ceil(this.places / 5000);
+    const first = state * this.places;
+    const sorted = this.data.subarray(first, first + this.places).filter((_, i) => i % stride === 0).sort();
+    const last = sorted.length - 1;
+    return { least: sorted[Math.floor(0.01 * last)], greatest: sorted[Math.ceil(0.99 * last)] };
   }
 }
 
@@ -68,6 +96,9 @@ export class Field {
   readonly name: string;
   readonly unit: string;
   readonly onPoints: boolean;
+  /** how the values come about; empty: as computed */
+  readonly origin: string;
+  readonly belowRoundOff: boolean;
   /** components that can be shown; "size" is the length of a vector */
   readonly components: string[];
   private readonly unpacked = new Map<string, Values>();
@@ -76,6 +107,8 @@ export class Field {
     this.name = packed.name;
     this.unit = packed.unit;
     this.onPoints = packed.on === 'points';
+    this.origin = packed.origin;
+    this.belowRoundOff = packed.belowRoundOff;
     this.components = [...packed.components];
     if (packed.components.includes('x')) this.components.unshift('size');
   }
@@ -88,6 +121,8 @@ export class Field {
     }
     return values;
   }
+
+  get isUnknown(): boolean { return ['displacement', 'potential', 'temperature'].includes(this.name); }
 
   has(component: string): boolean { return this.components.includes(component); }
 
@@ -121,6 +156,7 @@ export class Result {
   readonly fields: Field[];
   readonly grid?: Grid;
   readonly boundaries: Boundary[];
+  readonly contactPieces: ContactPiece[];
   /** tail and tip [m] of arrows along the poling, six numbers each */
   readonly poling?: Float32Array;
   readonly history?: Table;
@@ -139,6 +175,7 @@ export class Result {
         edges: unpackIntegers(packed.grid.edges),
       };
     this.boundaries = packed.boundaries.map((b) => ({ ...b, facets: facetsOf(b.sizes, b.nodes) }));
+    this.contactPieces = packed.contactPieces.map((p) => ({ ...p, rows: unpackIntegers(p.rows), along: unpack(p.along) }));
     if (packed.poling) this.poling = unpack(packed.poling);
     if (packed.history) this.history = new Table(packed.history);
     if (packed.contact) this.contact = new Table(packed.contact);

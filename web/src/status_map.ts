@@ -16,14 +16,11 @@ export class StatusMap {
   private readonly place = element('div', { class: 'plot' });
   private plot?: uPlot;
   private readonly status: Float32Array;
-  private readonly ends: number[];
 
-  constructor(result: Result, private readonly line: ContactLine, private readonly steps: number[],
-    private readonly timeline: Timeline) {
+  /** `nodes`: rows of a step of contact.csv; `ends`: time at the end of each */
+  constructor(result: Result, private readonly line: ContactLine, private readonly nodes: number,
+    private readonly ends: number[], private readonly timeline: Timeline) {
     this.status = result.contact!.column('status')!;
-    const time = result.contact!.column('time')!;
-    const nodes = line.order.length;
-    this.ends = steps.map((_, k) => time[k * nodes]);
     const there = new Set(this.status);
     const key = element('ul', { class: 'legend inline' }, ...statusNames.map((name, i) => there.has(i) &&
       element('li', {}, element('span', { class: 'swatch', style: `background:${statusColours[i]}` }), name)));
@@ -63,15 +60,22 @@ export class StatusMap {
     ctx.beginPath();
     ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
     ctx.clip();
-    for (let k = 0; k < this.steps.length; ++k) {
-      const left = plot.valToPos(k > 0 ? this.ends[k - 1] : 0, 'x', true);
-      const right = plot.valToPos(this.ends[k], 'x', true);
-      for (let j = 0; j < order.length; ++j) {
-        const low = j > 0 ? (along[j - 1] + along[j]) / 2 : along[0];
-        const high = j + 1 < order.length ? (along[j] + along[j + 1]) / 2 : along[j];
-        const top = plot.valToPos(high, 'y', true), bottom = plot.valToPos(low, 'y', true);
-        ctx.fillStyle = statusColours[this.status[k * order.length + order[j]]] ?? '#888';
-        ctx.fillRect(Math.floor(left), Math.floor(top), Math.ceil(right - left) + 1, Math.ceil(bottom - top) + 1);
+    // To whole pixels, so that no node covers a part of its neighbour's; the ends, which have half of the
+    // room of others, last and at least two pixels wide.
+    const last = order.length - 1;
+    const middle = (a: number, b: number) => Math.round(plot.valToPos((along[a] + along[b]) / 2, 'y', true));
+    const foot = Math.round(plot.valToPos(along[0], 'y', true)), head = Math.round(plot.valToPos(along[last], 'y', true));
+    const places = [...Array(Math.max(0, last - 1)).keys()].map((j) => j + 1).concat(last > 0 ? [0, last] : [0]);
+    for (let k = 0; k < this.ends.length; ++k) {
+      const left = Math.round(plot.valToPos(k > 0 ? this.ends[k - 1] : 0, 'x', true));
+      const right = Math.round(plot.valToPos(this.ends[k], 'x', true));
+      for (const j of places) {
+        let bottom = j > 0 ? middle(j - 1, j) : foot;
+        let top = j < last ? middle(j, j + 1) : head;
+        if (j === 0) top = Math.min(top, foot - 2);
+        if (j === last && j > 0) bottom = Math.max(bottom, head + 2);
+        ctx.fillStyle = statusColours[this.status[k * this.nodes + order[j]]] ?? '#888';
+        ctx.fillRect(left, top, right - left, bottom - top);
       }
     }
     const x = plot.valToPos(this.timeline.time, 'x', true);

@@ -190,6 +190,22 @@ await inBrowser(desktop, async (context) => {
     await tab.locator('#stretch').fill('1');
     await goTo(tab, 50);
   });
+  await test('stresses say how they come about, and peaks do not blacken them', async () => {
+    assert.match(await tab.locator('.card', { hasText: 'von Mises stress' }).textContent(), /recovered at the nodes/);
+    await tab.selectOption('#field', 'recovered_von_mises');
+    await settled(tab);
+    assert.match(await tab.locator('.view .note').textContent(), /recovered at the nodes/);
+    const robust = await tab.locator('.view .ticks').textContent();
+    await tab.selectOption('#range', 'peaks');
+    await settled(tab);
+    const whole = await tab.locator('.view .ticks').textContent();
+    assert.match(robust, /≥/);
+    assert.ok(!whole.includes('≥') && whole !== robust);
+    await tab.selectOption('#field', 'electric_field');
+    await settled(tab);
+    assert.match(await tab.locator('.view .note').textContent(), /mean of each cell/);
+    await tab.selectOption('#range', 'all');
+  });
   await test('values under the pointer are those of nodes.csv', async () =>
     compare(await probe(tab, 12), nodesOf(conductive)));
   await test('play runs through the moments', async () => {
@@ -394,6 +410,136 @@ for (const layers of [[1, -1], [-1, 1]]) run(`poled${layers[0]}`, 'devices/bimor
 await test('arrows turn with the poling', async () => {
   const [one, other] = [await pictures(join(folder, 'poled1/report.html')), await pictures(join(folder, 'poled-1/report.html'))];
   assert.notEqual(one.light.setting, other.light.setting);
+});
+
+/** Rows of a table of a result folder as objects; what is no number stays text. */
+function tableOf(out, name) {
+  const [header, ...lines] = readFileSync(join(out, name), 'utf8').trim().split('\n');
+  const names = header.split(',');
+  return lines.map((line) => Object.fromEntries(line.split(',').map((v, i) => [names[i], Number.isNaN(Number(v)) ? v : Number(v)])));
+}
+
+function runText(name, text, ...settings) {
+  const file = join(folder, `${name}.toml`);
+  writeFileSync(file, text);
+  const out = join(folder, name);
+  execFileSync(program, ['run', file, '-q', '-o', out, ...settings.flatMap((s) => ['--set', s])]);
+  return out;
+}
+
+const plate = (on) => `mesh.box = { min = [0, 0], max = [0.02, 0.01], cells = [32, 16], cell = "quadrilateral" }
+material.library = "BaTiO3-Liu2014"
+time = { end = 1, steps = 10 }
+boundary = [ { on = "left", displacement = ["1e-9*t", "free"], potential = 0 } ]
+[contact]
+on = ${on}
+friction = { law = "tresca", bound = 500 }
+`;
+
+/** The colour in a map of stick and slip at a moment and a place along the piece, both from 0 to 1. */
+const mapColour = (tab, piece, time, along) => tab.locator(`[data-piece="${piece}"] .chart`).last().evaluate((chart, [t, s]) => {
+  const canvas = chart.querySelector('canvas'), frame = canvas.getBoundingClientRect();
+  const over = chart.querySelector('.u-over').getBoundingClientRect();
+  const ratio = canvas.width / frame.width;
+  const x = (over.left - frame.left + t * over.width) * ratio, y = (over.bottom - frame.top - s * over.height) * ratio;
+  const at = Math.min((over.bottom - frame.top) * ratio - 1, Math.max((over.top - frame.top) * ratio, y));
+  const copy = new OffscreenCanvas(1, 1).getContext('2d', { willReadFrequently: true });
+  copy.drawImage(canvas, -Math.floor(x), -Math.floor(at));
+  const [r, g, b] = copy.getImageData(0, 0, 1, 1).data;
+  return '#' + [r, g, b].map((v) => v.toString(16).padStart(2, '0')).join('');
+}, [time, along]);
+
+/** What the legend of a chart says with the pointer there, as numbers. */
+async function hovered(tab, piece, chart, across) {
+  const over = tab.locator(`[data-piece="${piece}"] .chart`).nth(chart).locator('.u-over');
+  await over.evaluate((e) => e.scrollIntoView({ block: 'center', behavior: 'instant' }));
+  const box = await over.boundingBox();
+  await tab.mouse.move(box.x + across * (box.width - 1), box.y + box.height / 2);
+  await settled(tab);
+  const texts = await tab.locator(`[data-piece="${piece}"] .chart`).nth(chart).locator('.u-value').allTextContents();
+  return texts.map((text) => numberIn(`x ${text}`));
+}
+
+const two = runText('two', plate('["bottom", "top"]'));
+await inBrowser(desktop, async (context) => {
+  const { tab, complaints } = await open(context, join(two, 'report.html'));
+  const rows = tableOf(two, 'contact.csv');
+  const of = { bottom: rows.filter((r) => r.y === 0), top: rows.filter((r) => r.y > 0) };
+  await test('two contacts have curves of their own', async () => {
+    assert.deepEqual(await tab.locator('.piece h4').allTextContents(), ['bottom', 'top']);
+    for (const piece of ['bottom', 'top']) {
+      const last = of[piece].filter((r) => r.step === 10);
+      for (const across of [0, 0.4, 1]) {
+        const [x, traction] = await hovered(tab, piece, 0, across);
+        const row = last.find((r) => Math.abs(r.x - x) < 1e-5);
+        assert.ok(row, `nothing stands at x = ${x}`);
+        const power = 1e3 ** Math.round(Math.log10(row.normal_traction / traction) / 3);
+        assert.ok(Math.abs(traction * power - row.normal_traction) <= 1e-3 * Math.abs(row.normal_traction),
+          `${piece} at ${x}: ${traction}, contact.csv has ${row.normal_traction}`);
+      }
+    }
+  });
+  await test('every node of the map has the status of contact.csv, those at the ends too', async () => {
+    const colour = { stick: '#3f7fb5', slip: '#e07b39' };
+    await goTo(tab, 0);
+    await settled(tab);
+    const seen = new Set();
+    for (const piece of ['bottom', 'top'])
+      for (const row of of[piece]) {
+        seen.add(row.status);
+        assert.equal(await mapColour(tab, piece, (row.step - 0.4) / 10, row.x / 0.02), colour[row.status],
+          `${piece}, x = ${row.x}, step ${row.step}: ${row.status}`);
+      }
+    assert.equal(seen.size, 2);
+    await goTo(tab, 10);
+  });
+  await test('of a plane body units are those of a metre of depth', async () => {
+    const units = await tab.locator('#history .chart').evaluateAll((charts) => charts.map((c) =>
+      [c.querySelector('figcaption').textContent, c.dataset.unit]));
+    for (const [title, unit] of [['Energies', 'J/m'], ['Power and losses', 'W/m'], ['Charge', 'C/m']])
+      assert.equal(new Map(units).get(title), unit);
+  });
+  await test('of two contacts nothing is complained of', () => assert.deepEqual(complaints, []));
+});
+
+const isothermal = runText('isothermal', plate('"bottom"'), 'material.m11=0', 'material.m33=0', 'material.pyroelectric=[0, 0]');
+await inBrowser(desktop, async (context) => {
+  const { tab, complaints } = await open(context, join(isothermal, 'report.html'));
+  await test('a temperature that is 0 everywhere has no invented scale', async () => {
+    assert.ok(nodesOf(isothermal).every((row) => row.temperature === 0));
+    assert.equal(await tab.locator('.card', { hasText: 'Temperature' }).locator('.ticks').textContent(), '0 everywhere');
+    assert.match(await tab.locator('#contact .chart', { hasText: 'Temperature' }).textContent(), /0 everywhere/);
+    await tab.selectOption('#field', 'temperature');
+    await settled(tab);
+    assert.equal(await tab.locator('.view .ticks').textContent(), '0 everywhere');
+    assert.deepEqual(complaints, []);
+  });
+});
+
+await test('a case of one step has a table instead of curves', async () => {
+  const out = join(folder, 'bimorph');
+  await inBrowser(desktop, async (context) => {
+    const { tab } = await open(context, join(out, 'report.html'));
+    assert.equal(await tab.locator('#history canvas').count(), 0);
+    const said = new Map(await tab.locator('#history tbody tr').evaluateAll((rows) => rows.map((r) =>
+      [r.querySelector('th').textContent, [Number(r.querySelector('td').dataset.value), r.querySelector('td').textContent]])));
+    const [row] = tableOf(out, 'history.csv');
+    for (const [name, column, unit] of [['Energies: elastic', 'elastic_energy', 'J/m'], ['Largest displacement', 'max_displacement', 'm']]) {
+      const [value, text] = said.get(name);
+      assert.ok(Math.abs(value - row[column]) <= 1e-6 * Math.abs(row[column]), `${name}: ${value}, history.csv has ${row[column]}`);
+      assert.ok(text.endsWith(` ${unit}`), text);
+    }
+  });
+});
+
+await test('what the run warns of stands first on the page', async () => {
+  const warned = join(folder, 'warned.html');
+  const text = readFileSync(join(two, 'report.html'), 'utf8');
+  writeFileSync(warned, text.replace('"warnings":[]', '"warnings":["the energies do not balance"]'));
+  await inBrowser(desktop, async (context) => {
+    const { tab } = await open(context, warned);
+    assert.match(await tab.locator('.notices').textContent(), /the energies do not balance/);
+  });
 });
 
 rmSync(folder, { recursive: true, force: true });

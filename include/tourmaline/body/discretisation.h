@@ -70,6 +70,10 @@ class Discretisation {
   /// Calls `visit` for every cell of this rank, with a quadrature exact for the mass matrix on
   /// affine cells.
   void for_each_cell(const std::function<void(const Quadrature<dim> &)> &visit) const;
+  /// The same at the points where derivatives of the fields are one order more accurate than
+  /// elsewhere (Barlow 1976): the centre for degree 1; for degree 2 Gauss's points, two in each
+  /// direction or as many on a simplex as it has corners.
+  void for_each_cell_sampled(const std::function<void(const Quadrature<dim> &)> &visit) const;
   /// Calls `visit` for every facet of the named boundaries on this rank. Throws CaseError for an
   /// unknown name.
   void for_each_facet(const std::vector<std::string> &boundaries,
@@ -81,6 +85,10 @@ class Discretisation {
   /// others.
   std::vector<output::NamedBoundary> boundaries() const;
 
+  /// The first nodes of a cell are its corners; entry (a, v) is the share of corner v in node a,
+  /// the corner's linear shape function there. Shares of a node add up to 1.
+  std::vector<std::vector<double>> corner_shares() const;
+
   /// The grid as the output wants it: all nodes, and this rank's cells in the order of
   /// `for_each_cell`.
   output::Grid grid() const;
@@ -88,6 +96,10 @@ class Discretisation {
  private:
   struct Parts;
   std::unique_ptr<Parts> parts_;
+
+  template <class Rule>
+  void visit_cells(const Rule &rule,
+                   const std::function<void(const Quadrature<dim> &)> &visit) const;
 };
 
 }  // namespace tourmaline::body

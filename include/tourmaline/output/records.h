@@ -52,6 +52,9 @@ struct PointFields {
   std::vector<Vector> displacement;  // m
   std::vector<double> potential;     // V
   std::vector<double> temperature;   // K
+  // Recovered at the nodes inside each region; empty where only the unknowns are wanted.
+  std::vector<SymmetricTensor> stress;  // Pa
+  std::vector<double> von_mises;        // Pa, of that stress
 };
 
 /// Means over each cell, by the constitutive law (1)-(3).
@@ -59,6 +62,7 @@ struct CellFields {
   std::vector<SymmetricTensor> stress;        // Pa
   std::vector<double> von_mises;              // Pa
   std::vector<SymmetricTensor> strain;        // 1
+  std::vector<Vector> electric_field;         // E = -grad phi, V/m
   std::vector<Vector> electric_displacement;  // C/m^2
   std::vector<Vector> heat_flux;              // W/m^2
   // Empty where there is nothing to tell: of one material, of nothing poled.

@@ -94,7 +94,7 @@ class ResultFolder {
   int dimension_;
   Piece piece_;
   std::optional<VtuWriter> vtu_;
-  ConstantArrays constant_;
+  OptionalArrays optional_;
   std::vector<PvdEntry> series_;
   std::vector<std::string> unsynced_;  // field files since the last checkpoint
   std::unique_ptr<AtomicFile> contact_, history_;

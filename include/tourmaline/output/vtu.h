@@ -31,13 +31,13 @@ class VtuWriter {
 };
 
 /// Which of the arrays that not every case has the field files hold.
-struct ConstantArrays {
-  bool region = false, poling = false;
+struct OptionalArrays {
+  bool region = false, poling = false, recovered = false;
 };
 
 /// The file (.pvtu) that joins the pieces of one step, given by their names, and the arrays in
 /// them.
 std::string pvtu_text(double time, std::span<const std::string> pieces,
-                      const ConstantArrays &constant = {});
+                      const OptionalArrays &optional = {});
 
 }  // namespace tourmaline::output

@@ -8,6 +8,7 @@
 #include "tourmaline/case/case.h"
 #include "tourmaline/output/records.h"
 #include "tourmaline/report/conditions.h"
+#include "tourmaline/report/contact_line.h"
 #include "tourmaline/report/skin.h"
 #include "tourmaline/report/table.h"
 
@@ -21,6 +22,15 @@ struct Field {
   bool on_points = true;
   std::vector<std::string> components;  ///< x, y, ...; xx, yy, ...; one empty name for a scalar
   std::vector<std::vector<float>> values;
+  /// Its differences are smaller than round-off in the run's energies.
+  bool below_round_off = false;
+
+  /// An unknown of the body, not derived from one.
+  bool is_unknown() const {
+    return name == "displacement" || name == "potential" || name == "temperature";
+  }
+  /// How its values come about: "mean of each cell", "recovered at the nodes"; empty: as computed.
+  std::string origin() const;
 };
 
 /// A named part of the boundary, its facets by the skin's nodes: corners in a circle, in 2D along
@@ -40,10 +50,12 @@ struct Result {
   std::optional<casefile::Case> asked;  ///< the same, read
   std::string summary;                  ///< summary.json
   std::optional<Table> history, contact;
+  std::vector<ContactPiece> contact_pieces;  ///< of a plane body
   std::vector<double> friction_bound;  ///< S at each row of `contact` [N/m^2]; empty: no friction
   std::vector<std::string> remarks;
 
   Skin skin;
+  std::size_t n_points = 0, n_cells = 0;  ///< of the body
   std::vector<output::Vector> points;  ///< of the skin's nodes [m]
   std::vector<Boundary> boundaries;
   std::vector<double> times;  ///< of the states [s]
@@ -59,6 +71,7 @@ struct Result {
 struct States {
   std::size_t most_numbers = 0;
   std::optional<double> time;
+  bool means_of_recovered = false;  ///< means over cells, too, of what is recovered at the nodes
 };
 
 /// Reads the folder that a run left. Throws CaseError when it is no result folder or a file in it

@@ -17,6 +17,16 @@ struct Quantiles {
 };
 Quantiles usual_range(const Result &result, const Field &field, std::size_t component);
 
+/// What the colours of a field's component stand for in the last state: its least to its greatest
+/// value; of what is derived, without the lowest or the highest hundredth where that reaches half as
+/// far again, as at singular corners, which would leave nothing to be seen of the rest.
+struct ShownRange {
+  double low = 0, high = 0;
+  bool cut_below = false, cut_above = false;
+  std::string instead;  ///< said where there is no range: constant, or below round-off
+};
+ShownRange shown_range(const Result &result, const Field &field, std::size_t component);
+
 /// Largest extent of the undeformed body along an axis [m].
 double size_of(const Result &result);
 

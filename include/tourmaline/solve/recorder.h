@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "tourmaline/body/recovery.h"
 #include "tourmaline/output/result_folder.h"
 #include "tourmaline/solve/balance.h"
 #include "tourmaline/solve/model.h"
@@ -37,13 +38,16 @@ class Recorder {
   std::vector<output::ContactRow> contact_rows(int n, const StepOutcome &outcome,
                                                std::span<const double> before,
                                                std::span<const double> state) const;
+  void prepare_fields();
   void put_fields(int n, std::span<const double> state);
   double heat_coefficient(const output::Vector &point) const;
 
   const Model<dim> &model_;
   output::ResultFolder &folder_;
-  output::Grid grid_;              // this rank's cells and the nodes they use
-  std::vector<body::Node> nodes_;  // of the grid
+  // Of the field files, if any are written.
+  std::optional<body::Recovery<dim>> recovery_;
+  output::Grid grid_;                 // this rank's cells and the nodes they use, by region
+  std::vector<std::uint32_t> nodes_;  // of the grid: regional nodes
   std::optional<Balance<dim>> balance_;
   double seconds_ = 0;
 };
