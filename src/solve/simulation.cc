@@ -17,6 +17,7 @@
 #include "tourmaline/report/page.h"
 #include "tourmaline/solve/condensed_route.h"
 #include "tourmaline/solve/iterative_route.h"
+#include "tourmaline/solve/locking.h"
 #include "tourmaline/solve/memory.h"
 #include "tourmaline/solve/monolithic_route.h"
 #include "tourmaline/solve/process.h"
@@ -63,6 +64,7 @@ class Simulation {
   std::optional<output::ResultFolder> folder_;
   std::optional<Recorder<dim>> recorder_;
   std::unique_ptr<Route> route_;
+  std::optional<LockingWatch<dim>> locking_;
   int newton_total_ = 0, newton_max_ = 0, newton_first_ = 0;
   double step_seconds_ = 0, seconds_before_ = 0;  // before: of the processes that it goes on from
 };
@@ -101,6 +103,7 @@ Simulation<dim>::Simulation(const casefile::Case &asked, const std::filesystem::
     model_.friction = options.friction;
   open_folder(directory);
   recorder_.emplace(model_, *folder_);
+  locking_.emplace(model_);
   progress_.stage(iterative_ ? "preconditioner" : "factorisation");
   route_ = make_route(model_, iterative_);
 }
@@ -161,7 +164,9 @@ void Simulation<dim>::step(int n) {
   if (n == 1)
     newton_first_ = outcome.newton_iterations;
   step_seconds_ += watch.lap();
-  progress_.step(recorder_->step(n, outcome, loads_, state_, next_));
+  const output::HistoryRow row = recorder_->step(n, outcome, loads_, state_, next_);
+  locking_->step(row, next_);
+  progress_.step(row);
   std::swap(state_, next_);
 }
 
@@ -220,6 +225,7 @@ void Simulation<dim>::save(int n) {
     numbers.put("seconds", {step_seconds_, seconds_before_ + process_age()});
     route_->save(numbers);
     recorder_->save(numbers);
+    locking_->save(numbers);
     folder_->put_checkpoint(std::move(checkpoint));
   });
 }
@@ -237,6 +243,7 @@ void Simulation<dim>::restore() {
   seconds_before_ = seconds[1];
   route_->restore(numbers);
   recorder_->restore(state_, numbers);
+  locking_->restore(numbers);
 }
 
 template <int dim>
@@ -311,6 +318,8 @@ output::Summary Simulation<dim>::summary() const {
         "solver.body = \"automatic\": the body's equations were solved iteratively, because a "
         "factorisation needs about {:.3g} GiB, more than half of what is available",
         factorised_memory(model_.asked) / (1 << 30)));
+  if (const std::string text = locking_->warning(); !text.empty())
+    summary.warnings.push_back(text);
   summary.peak_memory_bytes = parallel::sum(peak_memory());
   return summary;
 }

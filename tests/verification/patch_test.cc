@@ -17,6 +17,7 @@ template <int dim>
 void expect_reproduction(const Study &study) {
   Problem<dim> problem = held_on_all_sides<dim>(study.degree == 1 ? line : square);
   problem.on_mesh(study.shape, study.degree, study.cells.front());
+  problem.asked.mesh.modes = study.modes;
   mesh::Mesh<dim> mesh = mesh::build<dim>(problem.asked.mesh);
   dealii::GridTools::distort_random(0.15, *mesh.cells, true, 7);
   const solve::Model<dim> model(problem.asked, std::move(mesh));
@@ -42,6 +43,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Study{"Quadrilaterals", CellShape::quadrilateral, 1, {5}},
                       Study{"Tetrahedra", CellShape::tetrahedron, 1, {3}},
                       Study{"Hexahedra", CellShape::hexahedron, 1, {3}},
+                      Study{"QuadrilateralsWithModes", CellShape::quadrilateral, 1, {5}, "incompatible"},
+                      Study{"HexahedraWithModes", CellShape::hexahedron, 1, {3}, "incompatible"},
                       Study{"TrianglesOfDegree2", CellShape::triangle, 2, {4}},
                       Study{"QuadrilateralsOfDegree2", CellShape::quadrilateral, 2, {4}},
                       Study{"TetrahedraOfDegree2", CellShape::tetrahedron, 2, {2}},
