@@ -32,7 +32,7 @@ struct Trial {
   Strains<dim> strain;
   Strains<dim> stress;                     // F B
   Eigen::Matrix<double, dim, dim> charge;  // E B
-  Eigen::Matrix<double, dim, 1> electric;                    // beta g
+  Eigen::Matrix<double, dim, 1> electric;  // beta g
   Eigen::Matrix<double, 1, dim> heat;      // M^T B
   double pyroelectric;                     // P . g
 };

@@ -55,7 +55,8 @@ CellModes<dim>::Blocks::Blocks(const Quadrature<dim> &cell,
 
 template <int dim>
 CellModes<dim>::CellModes(const Quadrature<dim> &cell, const Blocks &blocks)
-    : stiffness(blocks.stiffness), response(-blocks.stiffness.partialPivLu().solve(blocks.coupling)) {
+    : stiffness(blocks.stiffness),
+      response(-blocks.stiffness.partialPivLu().solve(blocks.coupling)) {
   std::copy(cell.nodes.begin(), cell.nodes.end(), nodes.begin());
 }
 
@@ -79,11 +80,11 @@ Energies CellModes<dim>::energy_shift(std::span<const double> x) const {
   phi.template head<n_displacement>().setZero();
   const Amplitudes forces_u = stiffness * by_u, forces_phi = stiffness * by_phi,
                    forces_theta = stiffness * by_theta;
-  return {.elastic = by_u.dot(forces_u) / 2 - u.dot(forces_u) + u.dot(stiffness * u) / 2,
-          .electric = -by_phi.dot(forces_phi) / 2 + phi.dot(forces_phi) -
-                      phi.dot(stiffness * phi) / 2,
-          .thermal = -by_theta.dot(forces_theta) / 2,
-          .coupling = -by_phi.dot(forces_theta) + phi.dot(forces_theta)};
+  return {
+      .elastic = by_u.dot(forces_u) / 2 - u.dot(forces_u) + u.dot(stiffness * u) / 2,
+      .electric = -by_phi.dot(forces_phi) / 2 + phi.dot(forces_phi) - phi.dot(stiffness * phi) / 2,
+      .thermal = -by_theta.dot(forces_theta) / 2,
+      .coupling = -by_phi.dot(forces_theta) + phi.dot(forces_theta)};
 }
 
 template struct CellModes<2>;

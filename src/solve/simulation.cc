@@ -204,6 +204,10 @@ void Simulation<dim>::run() {
   recorder_->finish(state_);
   const output::Summary done = summary();
   parallel::on_first([&] { folder_->put_summary(done); });
+  progress_.done();
+  if (parallel::is_first())
+    for (const std::string &warning : done.warnings)
+      std::cerr << "tourmaline: warning: " << warning << '\n';
   put_report();
   parallel::on_first([&] { folder_->remove_checkpoint(); });
   progress_.done();

@@ -8,6 +8,7 @@
 #include "tourmaline/case/sides.h"
 #include "tourmaline/material/composition.h"
 #include "tourmaline/mesh/mesh.h"
+#include "tourmaline/solve/locking.h"
 
 namespace tourmaline::solve {
 
@@ -128,9 +129,12 @@ std::string survey_in(const casefile::Case &asked) {
 }  // namespace
 
 std::string survey(const casefile::Case &asked) {
-  if (!asked.mesh.content && asked.regions.empty() && !varies(asked.material))
-    return "";
-  return asked.dimension == 2 ? survey_in<2>(asked) : survey_in<3>(asked);
+  std::string text;
+  if (asked.mesh.content || !asked.regions.empty() || varies(asked.material))
+    text = asked.dimension == 2 ? survey_in<2>(asked) : survey_in<3>(asked);
+  if (const std::string warning = slender_warning(asked); !warning.empty())
+    text += "\n# warning: " + warning + "\n";
+  return text;
 }
 
 }  // namespace tourmaline::solve

@@ -73,8 +73,7 @@ TEST(CellModes, InAPurelyBentSquareEveryEnergyIsTheOneByHand) {
   const Eigen::Vector2d strain(kappa, slope[0]);
   const Energies e = energies(op, x);
   const auto close = [](double a, double b) { EXPECT_NEAR(a, b, 1e-9 * std::abs(b)); };
-  close(e.elastic,
-        second_moment / 2 * strain.dot(c.stiffness.topLeftCorner<2, 2>() * strain));
+  close(e.elastic, second_moment / 2 * strain.dot(c.stiffness.topLeftCorner<2, 2>() * strain));
   close(e.electric, second_moment / 2 * c.permittivity(1, 1) * slope[1] * slope[1]);
   close(e.thermal, second_moment / 2 * c.heat_capacity * tau * tau);
   close(e.coupling, -second_moment * c.pyroelectric[1] * slope[1] * tau);
@@ -90,8 +89,8 @@ void expect_shift_without_sum(CellShape shape) {
   for (std::size_t i = 0; i < x.size(); ++i)
     x[i] = normal(random) * (i % Fields<dim>::count < dim ? 1e-9 : 1);
   const Energies shift = op.energy_shift(x);
-  const double size = std::abs(shift.elastic) + std::abs(shift.electric) +
-                      std::abs(shift.thermal) + std::abs(shift.coupling);
+  const double size = std::abs(shift.elastic) + std::abs(shift.electric) + std::abs(shift.thermal) +
+                      std::abs(shift.coupling);
   EXPECT_GT(size, 0);
   EXPECT_LT(std::abs(shift.sum()), 1e-11 * size);
 }

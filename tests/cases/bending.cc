@@ -57,9 +57,10 @@ std::string plane_mesh(const std::string &cell, int along, int through, const st
 }
 
 std::string solid_mesh(const std::string &cell, const std::string &more) {
-  return fmt::format("{}\nbox = {{ min = [0, 0, -0.5e-3], max = [20e-3, 4e-3, 0.5e-3], cells = "
-                     "[20, 4, 2], cell = \"{}\" }}",
-                     more, cell);
+  return fmt::format(
+      "{}\nbox = {{ min = [0, 0, -0.5e-3], max = [20e-3, 4e-3, 0.5e-3], cells = "
+      "[20, 4, 2], cell = \"{}\" }}",
+      more, cell);
 }
 
 double tip(const RunCase &run) {
@@ -96,7 +97,8 @@ TEST(IncompatibleModes, ABimorphOfFewHexahedraBendsAsOneOfDegree2) {
 std::string cantilever(const std::string &mesh) {
   return R"(
 [mesh]
-)" + mesh + R"(
+)" + mesh +
+         R"(
 [material]
 c11 = 120e9
 c12 = 40e9
@@ -143,8 +145,8 @@ TEST(IncompatibleModes, ACantileverOfTenSlenderQuadrilateralsInOneLayerBendsByTh
 
 // Two regions, contact with friction, electrodes held and a body that bends over its foundation.
 casefile::Case bent_in_contact(int dimension, const std::string &solver) {
-  const std::string mesh = dimension == 2 ? plane_mesh("quadrilateral", 20, 4, modes)
-                                          : solid_mesh("hexahedron", modes);
+  const std::string mesh =
+      dimension == 2 ? plane_mesh("quadrilateral", 20, 4, modes) : solid_mesh("hexahedron", modes);
   return read(bimorph(dimension, mesh) +
               "[contact]\non = \"right\"\nfriction = { law = \"tresca\", bound = 2e3 }\n"
               "heat = { law = \"exchange\", coefficient = 5, foundation_temperature = -10 }\n" +

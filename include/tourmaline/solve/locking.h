@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "tourmaline/output/records.h"
 #include "tourmaline/output/checkpoint.h"
+#include "tourmaline/output/records.h"
 #include "tourmaline/solve/model.h"
 
 namespace tourmaline::solve {
