@@ -164,10 +164,9 @@ void expect_one_answer(int dimension, const std::string &solver) {
 }
 
 TEST(IncompatibleModes, EveryRouteGivesOneAnswer) {
-  for (const int dimension : {2, 3}) {
+  for (const int dimension : {2, 3})
     expect_one_answer(dimension, "[solver]\nmethod = \"monolithic\"\n");
-    expect_one_answer(dimension, "[solver]\nbody = \"iterative\"\n");
-  }
+  expect_one_answer(3, "[solver]\nbody = \"iterative\"\n");
 }
 
 TEST(IncompatibleModes, BalancesCloseAndThePivotsHaveTheirSigns) {
