@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include "tourmaline/error.h"
@@ -199,6 +200,16 @@ std::size_t Discretisation<dim>::n_cells() const {
 }
 
 template <int dim>
+bool Discretisation<dim>::has_simplices() const {
+  return parts_->mesh.simplices;
+}
+
+template <int dim>
+int Discretisation<dim>::degree() const {
+  return static_cast<int>(parts_->element->degree);
+}
+
+template <int dim>
 const std::vector<output::Vector> &Discretisation<dim>::points() const {
   return parts_->points;
 }
@@ -231,16 +242,40 @@ NodeGraph Discretisation<dim>::graph() const {
   return graph;
 }
 
+namespace {
+
+// The modes 1 - xi_m^2 of Wilson on the reference cell (-1, 1)^dim, with the gradients of Taylor,
+// Beresford and Wilson: (j_0 / j) J_0^-T grad_xi, where J_0 and j_0 are those of the cell's centre.
+// Their integral over the cell is zero whatever its shape, so that a uniform stress does no work on
+// them and the patch test holds.
 template <int dim>
-void Discretisation<dim>::for_each_cell(
-    const std::function<void(const Quadrature<dim> &)> &visit) const {
-  visit_cells(parts_->cell_rule, visit);
+void fill_mode_gradients(const dealii::FEValues<dim> &centre, const dealii::FEValues<dim> &shape,
+                         Quadrature<dim> &cell) {
+  const auto inverse = centre.inverse_jacobian(0);
+  const double j0 = centre.JxW(0);  // the rule's only weight is 1
+  cell.mode_gradients.resize(std::size_t{shape.n_quadrature_points} * dim);
+  for (unsigned int q = 0; q < shape.n_quadrature_points; ++q) {
+    const double ratio = j0 * shape.get_quadrature().weight(q) / shape.JxW(q);
+    for (int m = 0; m < dim; ++m) {
+      const double xi = 2 * shape.get_quadrature().point(q)[m] - 1;
+      for (int i = 0; i < dim; ++i)
+        cell.mode_gradients[q * dim + m][i] = -4 * xi * ratio * inverse[m][i];
+    }
+  }
+}
+
+}  // namespace
+
+template <int dim>
+void Discretisation<dim>::for_each_cell(const std::function<void(const Quadrature<dim> &)> &visit,
+                                        Modes modes) const {
+  visit_cells(parts_->cell_rule, modes, visit);
 }
 
 template <int dim>
 void Discretisation<dim>::for_each_cell_sampled(
     const std::function<void(const Quadrature<dim> &)> &visit) const {
-  visit_cells(parts_->sampling_rule, visit);
+  visit_cells(parts_->sampling_rule, Modes::none, visit);
 }
 
 template <int dim>
@@ -257,10 +292,15 @@ std::vector<std::vector<double>> Discretisation<dim>::corner_shares() const {
 template <int dim>
 template <class Rule>
 void Discretisation<dim>::visit_cells(
-    const Rule &rule, const std::function<void(const Quadrature<dim> &)> &visit) const {
+    const Rule &rule, Modes modes,
+    const std::function<void(const Quadrature<dim> &)> &visit) const {
   dealii::FEValues<dim> shape(*parts_->mapping, *parts_->element, rule,
                               dealii::update_values | dealii::update_gradients |
                                   dealii::update_JxW_values | dealii::update_quadrature_points);
+  std::optional<dealii::FEValues<dim>> centre;
+  if (modes == Modes::incompatible)
+    centre.emplace(*parts_->mapping, *parts_->element, dealii::QMidpoint<dim>(),
+                   dealii::update_inverse_jacobians | dealii::update_JxW_values);
   const unsigned int n_shapes = parts_->element->n_dofs_per_cell();
   Quadrature<dim> plain_values;
   plain_values.gradients.resize(shape.n_quadrature_points * n_shapes);
@@ -271,6 +311,10 @@ void Discretisation<dim>::visit_cells(
     for (unsigned int q = 0; q < shape.n_quadrature_points; ++q)
       for (unsigned int a = 0; a < n_shapes; ++a)
         plain_values.gradients[q * n_shapes + a] = plain<dim>(shape.shape_grad(a, q));
+    if (centre) {
+      centre->reinit(parts_->cells[i]);
+      fill_mode_gradients(*centre, shape, plain_values);
+    }
     visit(plain_values);
   }
 }

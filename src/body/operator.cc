@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cell_block.h"
 #include "tourmaline/error.h"
 #include "tourmaline/parallel/ranks.h"
 
@@ -10,71 +11,7 @@ namespace tourmaline::body {
 namespace {
 
 template <int dim>
-using Strains = Eigen::Matrix<double, material::n_strains<dim>, dim>;
-
-// Strain (engineering shear) of a displacement with shape gradient g, by component: eps(u) = B u.
-Strains<2> strain_of(const std::array<double, 2> &g) {
-  Strains<2> b;
-  b << g[0], 0, 0, g[1], g[1], g[0];
-  return b;
-}
-
-Strains<3> strain_of(const std::array<double, 3> &g) {
-  Strains<3> b;
-  b << g[0], 0, 0, 0, g[1], 0, 0, 0, g[2], 0, g[2], g[1], g[2], 0, g[0], g[1], g[0], 0;
-  return b;
-}
-
-template <int dim>
 using Vector = Eigen::Matrix<double, dim, 1>;
-
-// What one shape function does at one point: the fields' derivatives, multiplied by the constants.
-template <int dim>
-struct Trial {
-  Vector<dim> gradient;
-  Strains<dim> strain;
-  Strains<dim> stress;                     // F B
-  Eigen::Matrix<double, dim, dim> charge;  // E B
-  Vector<dim> electric;                    // beta g
-  Eigen::Matrix<double, 1, dim> heat;      // M^T B
-  double pyroelectric;                     // P . g
-};
-
-template <int dim>
-Trial<dim> trial(const material::BodyConstants<dim> &c,
-                 const std::array<double, static_cast<std::size_t>(dim)> &gradient) {
-  Trial<dim> t;
-  t.gradient = Eigen::Map<const Vector<dim>>(gradient.data());
-  t.strain = strain_of(gradient);
-  t.stress = c.stiffness * t.strain;
-  t.charge = c.piezoelectric * t.strain;
-  t.electric = c.permittivity * t.gradient;
-  t.heat = c.thermal_stress.transpose() * t.strain;
-  t.pyroelectric = c.pyroelectric.dot(t.gradient);
-  return t;
-}
-
-// Integrals of 1 and of the values of a test function a and a trial function b.
-struct Weights {
-  double one, a, b, ab;
-};
-
-// The storage operator's block between test function a and trial function b, where their gradients
-// do not change.
-template <int dim>
-void add_block(const Trial<dim> &a, const Trial<dim> &b, double heat_capacity, const Weights &w,
-               typename Operator<dim>::Block &block) {
-  constexpr int phi = Fields<dim>::potential, theta = Fields<dim>::temperature;
-  block.template topLeftCorner<dim, dim>() += w.one * a.strain.transpose() * b.stress;
-  block.template block<dim, 1>(0, phi) += w.one * a.charge.transpose() * b.gradient;
-  block.template block<1, dim>(phi, 0) += w.one * a.gradient.transpose() * b.charge;
-  block.template block<dim, 1>(0, theta) -= w.b * a.heat.transpose();
-  block.template block<1, dim>(theta, 0) -= w.a * b.heat;
-  block(phi, phi) -= w.one * a.gradient.dot(b.electric);
-  block(phi, theta) += w.b * a.pyroelectric;
-  block(theta, phi) += w.a * b.pyroelectric;
-  block(theta, theta) -= w.ab * heat_capacity;
-}
 
 // As on linear simplices: then one product of the constants serves the whole cell.
 template <int dim>
@@ -103,25 +40,27 @@ Weights weights(const Quadrature<dim> &cell, std::size_t a, std::size_t b) {
 
 template <int dim>
 Operator<dim>::Operator(const Discretisation<dim> &body,
-                        const material::BodyConstants<dim> &material)
+                        const material::BodyConstants<dim> &material, Modes modes)
     : graph_(body.graph()),
       storage_(graph_.column.size(), Block::Zero()),
       conduction_(graph_.column.size(), 0.),
       reference_temperature_(material.reference_temperature) {
-  body.for_each_cell([&](const Quadrature<dim> &cell) { add_cell(cell, material); });
+  body.for_each_cell([&](const Quadrature<dim> &cell) { add_cell(cell, material); }, modes);
 }
 
 template <int dim>
 Operator<dim>::Operator(const Discretisation<dim> &body,
-                        const material::Composition<dim> &composition)
+                        const material::Composition<dim> &composition, Modes modes)
     : graph_(body.graph()),
       storage_(graph_.column.size(), Block::Zero()),
       conduction_(graph_.column.size(), 0.),
       reference_temperature_(composition.reference_temperature()) {
   parallel::together([&] {
-    body.for_each_cell([&](const Quadrature<dim> &cell) {
-      add_cell(cell, composition.at(cell.region, cell.centre()));
-    });
+    body.for_each_cell(
+        [&](const Quadrature<dim> &cell) {
+          add_cell(cell, composition.at(cell.region, cell.centre()));
+        },
+        modes);
   });
 }
 
@@ -143,6 +82,36 @@ void Operator<dim>::add_cell(const Quadrature<dim> &cell,
             w.one * trials[a].gradient.dot(material.conductivity * trials[b].gradient);
       }
   }
+  if (!cell.mode_gradients.empty())
+    add_modes(cell, material);
+}
+
+// storage - K_xa K_aa^-1 K_ax, all fields at once.
+template <int dim>
+void Operator<dim>::add_modes(const Quadrature<dim> &cell,
+                              const material::BodyConstants<dim> &material) {
+  const typename CellModes<dim>::Blocks blocks(cell, material);
+  const CellModes<dim> &modes = modes_.emplace_back(cell, blocks);
+  for (int a = 0; a < CellModes<dim>::n_nodes; ++a)
+    for (int b = 0; b < CellModes<dim>::n_nodes; ++b)
+      storage_[entry_of(modes.nodes[a], modes.nodes[b])] +=
+          blocks.coupling.template middleCols<n>(n * a).transpose() *
+          modes.response.template middleCols<n>(n * b);
+}
+
+template <int dim>
+Energies Operator<dim>::energy_shift(std::span<const double> x) const {
+  Energies shift;
+  for (const CellModes<dim> &cell : modes_) {
+    const Energies of_cell = cell.energy_shift(x);
+    shift.elastic += of_cell.elastic;
+    shift.electric += of_cell.electric;
+    shift.thermal += of_cell.thermal;
+    shift.coupling += of_cell.coupling;
+  }
+  std::array<double, 4> parts{shift.elastic, shift.electric, shift.thermal, shift.coupling};
+  parallel::sum(parts);
+  return {parts[0], parts[1], parts[2], parts[3]};
 }
 
 template <int dim>

@@ -15,6 +15,14 @@ int dimension_of(const MeshCase &mesh) {
   return mesh.box ? dimension_of(mesh.box->cell) : 2;
 }
 
+CellShape shape_of(const MeshCase &mesh) {
+  if (mesh.annulus)
+    return mesh.annulus->cell;
+  if (mesh.content)
+    return mesh.content->cell;
+  return mesh.box ? mesh.box->cell : CellShape::triangle;
+}
+
 const char *name_of(CellShape shape) {
   constexpr const char *names[] = {"triangle", "quadrilateral", "tetrahedron", "hexahedron"};
   return names[static_cast<int>(shape)];

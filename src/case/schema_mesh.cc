@@ -231,6 +231,17 @@ void declare_file(Visitor &v, MeshCase &mesh) {
         &mesh.unnamed);
 }
 
+std::string modes_complaint(const MeshCase &mesh) {
+  const CellShape cell = shape_of(mesh);
+  const bool simplices = cell == CellShape::triangle || cell == CellShape::tetrahedron;
+  if (mesh.modes == "none" || !simplices || (mesh.file && !mesh.content))
+    return "";
+  return fmt::format(
+      "incompatible modes are for quadrilaterals and hexahedra, and the cells are {}; to let these "
+      "bend, give mesh.degree = 2",
+      cell == CellShape::triangle ? "triangles" : "tetrahedra");
+}
+
 }  // namespace
 
 void declare(Visitor &v, MeshCase &mesh) {
@@ -239,6 +250,17 @@ void declare(Visitor &v, MeshCase &mesh) {
          .description = "of the finite elements for all fields",
          .range = from_to(1, 2)},
         &mesh.degree);
+  v.key({.name = "modes",
+         .description =
+             "what linear quadrilaterals and hexahedra have beside their nodes' shape functions. "
+             "none: nothing; they are far too stiff where a body bends and cells are few or long. "
+             "incompatible: bubbles inside each cell (Wilson's, as corrected by Taylor), which let "
+             "it bend, for displacement and potential. Triangles and tetrahedra bend with "
+             "degree = 2",
+         .choices = {"none", "incompatible"},
+         .used = mesh.degree == 1,
+         .used_with = "degree = 1"},
+        &mesh.modes);
   v.optional_table(
       {.name = "box",
        .description = "A rectangle or cuboid whose sides are parallel to the axes; its "
@@ -273,6 +295,7 @@ void declare(Visitor &v, MeshCase &mesh) {
     v.locate("file", *mesh.file);
   v.load(mesh);
   v.check("file", [&] { return unnamed_complaint(mesh); });
+  v.check("modes", [&] { return modes_complaint(mesh); });
 }
 
 }  // namespace tourmaline::casefile

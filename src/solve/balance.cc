@@ -9,6 +9,7 @@
 
 namespace tourmaline::solve {
 
+using body::Energies;
 using body::Fields;
 using body::LoadKind;
 
@@ -33,12 +34,6 @@ bool add_once(std::vector<std::string> &names, const std::string &name) {
 
 const char *const axes[] = {"x", "y", "z"};
 
-// The stored energy's parts for the increment or state x with products y.
-struct Energy {
-  double elastic = 0, electric = 0, thermal = 0, coupling = 0;
-  double sum() const { return elastic + electric + thermal + coupling; }
-};
-
 }  // namespace
 
 template <int dim>
@@ -56,15 +51,15 @@ struct Balance<dim>::Step {
   double product_change(int field, std::size_t i) const {
     return products.of[field][i] - products_before.of[field][i];
   }
-  Energy energy() const;
-  Energy energy_of_change() const;
+  Energies energy() const;
+  Energies energy_of_change() const;
 };
 
 namespace {
 
 template <int dim, class Value, class Product>
-Energy energy_of(std::size_t n, const Value &value, const Product &product) {
-  Energy energy;
+Energies energy_of(std::size_t n, const Value &value, const Product &product) {
+  Energies energy;
   for (std::size_t i = 0; i < n; ++i) {
     const int component = static_cast<int>(i % Fields<dim>::count);
     if (component < dim) {
@@ -82,14 +77,14 @@ Energy energy_of(std::size_t n, const Value &value, const Product &product) {
 }  // namespace
 
 template <int dim>
-Energy Balance<dim>::Step::energy() const {
+Energies Balance<dim>::Step::energy() const {
   return energy_of<dim>(
       state.size(), [&](std::size_t i) { return state[i]; },
       [&](int field, std::size_t i) { return products.of[field][i]; });
 }
 
 template <int dim>
-Energy Balance<dim>::Step::energy_of_change() const {
+Energies Balance<dim>::Step::energy_of_change() const {
   return energy_of<dim>(
       state.size(), [&](std::size_t i) { return change(i); },
       [&](int field, std::size_t i) { return product_change(field, i); });
@@ -231,7 +226,7 @@ void Balance<dim>::add_energy(const Step &step, Columns &columns) {
       conduction -= per_watt * step.state[i] * step.conducted[node];
     }
   }
-  const Energy energy = step.energy();
+  const Energies energy = step.energy(), shift = model_.op.energy_shift(step.state);
   const double lost = step.energy_of_change().sum();
   const double before = std::exchange(stored_, energy.sum());
   Sum imbalance;
@@ -239,10 +234,10 @@ void Balance<dim>::add_energy(const Step &step, Columns &columns) {
        {energy.sum(), -before, lost, -load, -electric, -thermal, friction, conduction})
     imbalance.add(term);
   const double k = model_.step;
-  columns.insert(columns.end(), {{"elastic_energy", energy.elastic},
-                                 {"electric_energy", energy.electric},
-                                 {"thermal_energy", energy.thermal},
-                                 {"coupling_energy", energy.coupling},
+  columns.insert(columns.end(), {{"elastic_energy", energy.elastic + shift.elastic},
+                                 {"electric_energy", energy.electric + shift.electric},
+                                 {"thermal_energy", energy.thermal + shift.thermal},
+                                 {"coupling_energy", energy.coupling + shift.coupling},
                                  {"stored_energy_rate", (energy.sum() - before) / k},
                                  {"load_power", load / k},
                                  {"electric_power", electric / k},

@@ -19,6 +19,7 @@
 #include "tourmaline/solve/condensed_route.h"
 #include "tourmaline/solve/ending.h"
 #include "tourmaline/solve/iterative_route.h"
+#include "tourmaline/solve/locking.h"
 #include "tourmaline/solve/memory.h"
 #include "tourmaline/solve/monolithic_route.h"
 #include "tourmaline/solve/process.h"
@@ -80,6 +81,7 @@ class Simulation {
   int done_ = 0;        // steps
   int saved_step_ = 0;  // of the checkpoint that is there; 0: none
   Highlights highlights_;
+  std::optional<LockingWatch<dim>> locking_;
   int newton_total_ = 0, newton_max_ = 0, newton_first_ = 0;
   double step_seconds_ = 0, seconds_before_ = 0;  // before: of the processes that it goes on from
 };
@@ -131,6 +133,7 @@ Simulation<dim>::Simulation(const casefile::Case &asked, const std::filesystem::
     model_.friction = options.friction;
   open_folder(directory, std::move(lock));
   recorder_.emplace(model_, *folder_);
+  locking_.emplace(model_);
   progress_.stage(iterative_ ? "preconditioner" : "factorisation");
   route_ = make_route(model_, iterative_);
 }
@@ -223,6 +226,7 @@ void Simulation<dim>::step(int n) {
   step_seconds_ += watch.lap();
   const output::HistoryRow row = recorder_->step(n, outcome, loads_, state_, next_);
   highlights_.see(row);
+  locking_->step(row, next_);
   progress_.step(row);
   std::swap(state_, next_);
   done_ = n;
@@ -321,6 +325,13 @@ void Simulation<dim>::tell(const output::Summary &done, int signal) const {
   if (!quiet_)
     std::cout << ending_text(dim, highlights_, done.extremes) << places_text(folder_->directory())
               << std::flush;
+  progress_.done();
+  if (parallel::is_first())
+    for (const std::string &warning : done.warnings)
+      std::cerr << "tourmaline: warning: " << warning << '\n';
+  put_report();
+  parallel::on_first([&] { folder_->remove_checkpoint(); });
+  progress_.done();
 }
 
 // Everything that later steps, or what is told of the run at its end, depend on.
@@ -341,6 +352,7 @@ void Simulation<dim>::save(int n) {
     route_->save(numbers);
     recorder_->save(numbers);
     highlights_.save(numbers);
+    locking_->save(numbers);
     folder_->put_checkpoint(std::move(checkpoint));
   });
   saved_step_ = n;
@@ -361,6 +373,7 @@ void Simulation<dim>::restore() {
   route_->restore(numbers);
   recorder_->restore(state_, numbers);
   highlights_.restore(numbers);
+  locking_->restore(numbers);
 }
 
 template <int dim>
@@ -442,6 +455,8 @@ output::Summary Simulation<dim>::summary() const {
         fmt::format("solver.body = \"automatic\": the iterative solution of the body's equations, "
                     "taken to save memory, failed in step {}; from there on they were factorised",
                     direct_from_));
+  if (const std::string text = locking_->warning(); !text.empty())
+    summary.warnings.push_back(text);
   summary.peak_memory_bytes = parallel::sum(peak_memory());
   return summary;
 }

@@ -10,6 +10,7 @@
 #include "tourmaline/material/composition.h"
 #include "tourmaline/material/constants.h"
 #include "tourmaline/mesh/mesh.h"
+#include "tourmaline/solve/locking.h"
 
 namespace tourmaline::solve {
 
@@ -162,10 +163,12 @@ std::vector<output::MaterialRecord> materials_of(const casefile::Case &asked) {
 }
 
 std::string survey(const casefile::Case &asked) {
-  const std::string materials = materials_in_words(asked);
-  if (!asked.mesh.content && asked.regions.empty() && !varies(asked.material))
-    return materials;
-  return materials + (asked.dimension == 2 ? survey_in<2>(asked) : survey_in<3>(asked));
+  std::string text = materials_in_words(asked);
+  if (asked.mesh.content || !asked.regions.empty() || varies(asked.material))
+    text += asked.dimension == 2 ? survey_in<2>(asked) : survey_in<3>(asked);
+  if (const std::string warning = slender_warning(asked); !warning.empty())
+    text += "\n# warning: " + warning + "\n";
+  return text;
 }
 
 }  // namespace tourmaline::solve

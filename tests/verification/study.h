@@ -12,6 +12,7 @@ struct Study {
   casefile::CellShape shape;
   int degree;
   std::vector<int> cells;
+  std::string modes = "none";
 };
 
 inline void PrintTo(const Study &study, std::ostream *out) {
@@ -82,6 +83,7 @@ inline void expect_orders_of_the_element(const Study &study, const std::vector<E
 template <int dim>
 void expect_orders(const Study &study, Problem<dim> problem) {
   std::vector<Errors> errors;
+  problem.asked.mesh.modes = study.modes;
   for (const int n : affordable_cells(study)) {
     problem.on_mesh(study.shape, study.degree, n);
     errors.push_back(errors_of_run(problem, RunCase(problem.asked)));

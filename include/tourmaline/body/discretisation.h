@@ -19,6 +19,9 @@ namespace tourmaline::body {
 
 using Node = unsigned int;
 
+/// What a linear quadrilateral or hexahedron has beside its nodes' shape functions.
+enum class Modes { none, incompatible };
+
 /// Shape functions on one cell or one boundary facet: `nodes[a]` is the node of shape function a,
 /// `value(q, a)` and `gradient(q, a)` [1/m] belong to quadrature point q with weight `jxw[q]`
 /// [m^dim, facets m^(dim-1)].
@@ -31,6 +34,8 @@ struct Quadrature {
   std::vector<std::array<double, dim>> gradients;  ///< empty on facets
   std::vector<std::array<double, dim>> normals;    ///< outward nu at each point; empty on cells
   std::size_t region = 0;                          ///< of the cell, an index of the case's regions
+  /// of the dim incompatible modes [1/m], point by point; empty unless asked for
+  std::vector<std::array<double, dim>> mode_gradients;
 
   double value(std::size_t q, std::size_t a) const { return values[q * nodes.size() + a]; }
   const std::array<double, dim> &gradient(std::size_t q, std::size_t a) const {
@@ -63,13 +68,16 @@ class Discretisation {
 
   std::size_t n_nodes() const;
   std::size_t n_cells() const;
+  bool has_simplices() const;
+  int degree() const;
   /// Places of the nodes [m]; z = 0 in 2D.
   const std::vector<output::Vector> &points() const;
   NodeGraph graph() const;
 
   /// Calls `visit` for every cell of this rank, with a quadrature exact for the mass matrix on
-  /// affine cells.
-  void for_each_cell(const std::function<void(const Quadrature<dim> &)> &visit) const;
+  /// affine cells. Incompatible modes are there for quadrilaterals and hexahedra of degree 1 only.
+  void for_each_cell(const std::function<void(const Quadrature<dim> &)> &visit,
+                     Modes modes = Modes::none) const;
   /// The same at the points where derivatives of the fields are one order more accurate than
   /// elsewhere (Barlow 1976): the centre for degree 1; for degree 2 Gauss's points, two in each
   /// direction or as many on a simplex as it has corners.
@@ -98,7 +106,7 @@ class Discretisation {
   std::unique_ptr<Parts> parts_;
 
   template <class Rule>
-  void visit_cells(const Rule &rule,
+  void visit_cells(const Rule &rule, Modes modes,
                    const std::function<void(const Quadrature<dim> &)> &visit) const;
 };
 

@@ -4,23 +4,12 @@
 #include <span>
 #include <vector>
 
-#include "tourmaline/body/discretisation.h"
+#include "tourmaline/body/cell_modes.h"
+#include "tourmaline/body/fields.h"
 #include "tourmaline/case/formula.h"
 #include "tourmaline/material/composition.h"
 
 namespace tourmaline::body {
-
-/// Unknowns of one node: u_1 ... u_dim, phi, theta, in this order.
-template <int dim>
-struct Fields {
-  static constexpr int potential = dim, temperature = dim + 1, count = dim + 2;
-};
-
-/// Index of an unknown in vectors over the whole body, `node * (dim + 2) + component`.
-template <int dim>
-constexpr std::size_t unknown(Node node, int component) {
-  return std::size_t{node} * Fields<dim>::count + component;
-}
 
 /// Products of the storage operator with one field of a state at a time: `of[f]` has an entry for
 /// each unknown, f = 0 for u, 1 for phi, 2 for theta. Their sum is the operator's product with the
@@ -45,6 +34,10 @@ struct FieldProducts {
 /// so that the step of (31)-(33) has the operator storage - (k / theta_ref) G, and its heat rows
 /// see the state before through the heat rows of `storage`.
 ///
+/// With `Modes::incompatible` the cells' modes (`CellModes`) are condensed out of `storage`, all
+/// fields at once: what is left is symmetric, as definite as before, and its heat rows are those of
+/// the whole, as the modes have no memory of their own.
+///
 /// Every rank holds what its cells contribute; products are summed over the ranks, so all of them
 /// must ask for one.
 template <int dim>
@@ -54,8 +47,10 @@ class Operator {
   using Block = Eigen::Matrix<double, n, n, Eigen::RowMajor>;
 
   /// Of one material everywhere.
-  Operator(const Discretisation<dim> &body, const material::BodyConstants<dim> &material);
-  Operator(const Discretisation<dim> &body, const material::Composition<dim> &composition);
+  Operator(const Discretisation<dim> &body, const material::BodyConstants<dim> &material,
+           Modes modes = Modes::none);
+  Operator(const Discretisation<dim> &body, const material::Composition<dim> &composition,
+           Modes modes = Modes::none);
 
   /// Adds (k_c theta, eta) on the named boundaries (18); `coefficient` is k_c [W/(K m^2)], by
   /// place.
@@ -93,16 +88,23 @@ class Operator {
   /// storage x, field by field; `products` is overwritten.
   void multiply_by_field(std::span<const double> x, FieldProducts &products) const;
 
+  /// What the modes of state x shift between the parts of the stored energy [J]: the forms of the
+  /// condensed `storage` add up to the whole, but each form is the energy of its own field only
+  /// together with this. Its sum is zero; without modes it is nothing.
+  Energies energy_shift(std::span<const double> x) const;
+
   /// G theta by node [W], what conduction and exchange take from each node.
   std::vector<double> conducted(std::span<const double> x) const;
 
  private:
   void add_cell(const Quadrature<dim> &cell, const material::BodyConstants<dim> &material);
+  void add_modes(const Quadrature<dim> &cell, const material::BodyConstants<dim> &material);
   std::size_t entry_of(Node row, Node column) const;
 
   NodeGraph graph_;
   std::vector<Block, Eigen::aligned_allocator<Block>> storage_;
   std::vector<double> conduction_;
+  std::vector<CellModes<dim>> modes_;  // of this rank's cells
   double reference_temperature_;
 };
 

@@ -46,10 +46,12 @@ struct MeshCase {
   double scale = 1;                         ///< the file's unit of length [m]
   std::string unnamed = "error";            ///< error | natural: boundary facets without a name
   int degree = 1;                           ///< of the finite elements, 1 or 2
+  std::string modes = "none";               ///< none | incompatible: of linear cells
   std::shared_ptr<const MeshFile> content;  ///< of `file`
 };
 
 int dimension_of(const MeshCase &mesh);
+CellShape shape_of(const MeshCase &mesh);
 
 /// [material], [region.material], and an entry of a file of materials: constants in crystal axes,
 /// of the stress-charge or the strain-charge form. What is not given is taken from the library's
