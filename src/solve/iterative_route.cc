@@ -9,6 +9,7 @@
 #include "tourmaline/contact/friction.h"
 #include "tourmaline/error.h"
 #include "tourmaline/krylov/body_system.h"
+#include "tourmaline/larger.h"
 #include "tourmaline/stopwatch.h"
 
 namespace tourmaline::solve {
@@ -45,6 +46,11 @@ class IterativeRoute : public Route {
 
   StepOutcome advance(double time, std::span<const double> right_side,
                       std::span<const double> before, std::span<double> state) override;
+  Accuracy accuracy(std::span<const double>, std::span<const double>,
+                    const StepOutcome &) override {
+    return {.backward_error = backward_error_};
+  }
+  Accuracy accuracy_so_far() const override { return {.backward_error = backward_error_}; }
   RouteReport report() const override;
   void save(output::SavedNumbers &numbers) const override;
   void restore(const output::SavedNumbers &numbers) override;
@@ -197,7 +203,7 @@ template <int dim>
 double IterativeRoute<dim>::largest_force() const {
   double largest = 1e-300;
   for (std::size_t i = 0; i < points_.size(); ++i)
-    largest = std::max(largest, force(i).norm());
+    largest = larger(largest, force(i).norm());
   return largest;
 }
 
@@ -234,7 +240,7 @@ std::array<double, 3> IterativeRoute<dim>::field_sizes(std::span<const double> s
       squares[std::max(0, static_cast<int>(i % Fields<dim>::count) - dim + 1)] +=
           product[i] * product[i];
     for (int f = 0; f < 3; ++f)
-      sizes[f] = std::max(sizes[f], std::sqrt(squares[f]));
+      sizes[f] = larger(sizes[f], std::sqrt(squares[f]));
   }
   return sizes;
 }
@@ -264,7 +270,7 @@ bool IterativeRoute<dim>::body_is_solved(std::span<const double> state) const {
   for (std::size_t i = 0; i < r.size(); ++i)
     squares[std::max(0, static_cast<int>(i % Fields<dim>::count) - dim + 1)] += r[i] * r[i];
   for (int f = 0; f < 3; ++f)
-    if (std::sqrt(squares[f]) > model_.asked.solver.linear_tolerance * sizes[f])
+    if (!(relative_to(std::sqrt(squares[f]), sizes[f]) <= model_.asked.solver.linear_tolerance))
       return false;
   return true;
 }
@@ -333,8 +339,8 @@ StepOutcome IterativeRoute<dim>::advance(double time, std::span<const double> ri
     if (iterations_ > 0) {
       double worst = 0;
       for (std::size_t i = 0; i < points_.size(); ++i)
-        worst = std::max(worst, contact_residual(i));
-      if (worst <= 10 * tolerance * largest_force() && body_is_solved(state))
+        worst = larger(worst, contact_residual(i));
+      if (relative_to(worst, largest_force()) <= 10 * tolerance && body_is_solved(state))
         break;
       if (iterations_ >= model_.asked.solver.max_iterations)
         give_up(time);
@@ -348,7 +354,7 @@ StepOutcome IterativeRoute<dim>::advance(double time, std::span<const double> ri
     impose(state);
   }
   backward_error_ =
-      std::max(backward_error_, system_.backward_error(newton_residual(), right_side, state));
+      larger(backward_error_, system_.backward_error(newton_residual(), right_side, state));
   return outcome();
 }
 
@@ -369,7 +375,7 @@ StepOutcome IterativeRoute<dim>::outcome() const {
     }
     outcome.contact_forces.segment<dim>(dim * static_cast<Eigen::Index>(i)) = q;
     outcome.status.push_back(p.slips ? ContactStatus::slip : ContactStatus::stick);
-    worst = std::max(worst, contact_residual(i));
+    worst = larger(worst, contact_residual(i));
   }
   outcome.residual = worst / largest_force();
   return outcome;
@@ -379,7 +385,7 @@ template <int dim>
 void IterativeRoute<dim>::give_up(double time) const {
   double worst = 0;
   for (std::size_t i = 0; i < points_.size(); ++i)
-    worst = std::max(worst, contact_residual(i));
+    worst = larger(worst, contact_residual(i));
   throw SolveError(fmt::format(
       "the iteration did not converge at t = {:g} s: after {} Newton iterations the contact's "
       "residual is {:.3g} of the largest force; take smaller time steps, raise "

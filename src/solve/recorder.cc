@@ -6,6 +6,7 @@
 
 #include "tourmaline/body/derived.h"
 #include "tourmaline/parallel/ranks.h"
+#include "tourmaline/solve/step_check.h"
 #include "tourmaline/stopwatch.h"
 
 namespace tourmaline::solve {
@@ -47,7 +48,9 @@ void Recorder<dim>::initial(std::span<const double> state) {
   balance_.emplace(model_, state);
   const std::vector<output::NamedBoundary> boundaries = model_.body.boundaries();
   parallel::on_first([&] { folder_.put_boundaries(boundaries); });
-  put_fields(0, state);
+  StepCheck(0, 0).state(dim, model_.body.points(), state);
+  if (has_fields(0))
+    put_fields(0, state, checked_fields(0, state));
   seconds_ += watch.lap();
 }
 
@@ -55,12 +58,14 @@ template <int dim>
 void Recorder<dim>::restore(std::span<const double> state, const output::SavedNumbers &numbers) {
   balance_.emplace(model_, state);
   balance_->restore(numbers);
+  judgement_.restore(numbers);
   seconds_ = numbers.get("output seconds", 1)[0];
 }
 
 template <int dim>
 void Recorder<dim>::save(output::SavedNumbers &numbers) const {
   balance_->save(numbers);
+  judgement_.save(numbers);
   numbers.put("output seconds", {seconds_});
 }
 
@@ -68,9 +73,12 @@ template <int dim>
 output::HistoryRow Recorder<dim>::step(int n, const StepOutcome &outcome,
                                        std::span<const double> loads,
                                        std::span<const double> before,
-                                       std::span<const double> state) {
+                                       std::span<const double> state, const Route &route,
+                                       const std::function<Accuracy()> &measure) {
   Stopwatch watch;
   const double time = model_.time(n);
+  const StepCheck check(n, time);
+  check.state(dim, model_.body.points(), state);
   output::HistoryRow row;
   row.step = n;
   row.time = time;
@@ -80,20 +88,47 @@ output::HistoryRow Recorder<dim>::step(int n, const StepOutcome &outcome,
       std::count(outcome.status.begin(), outcome.status.end(), output::ContactStatus::stick);
   row.slip = std::count(outcome.status.begin(), outcome.status.end(), output::ContactStatus::slip);
   row.open = std::count(outcome.status.begin(), outcome.status.end(), output::ContactStatus::open);
-  if (model_.asked.contact) {
-    const std::vector<output::ContactRow> rows = contact_rows(n, outcome, before, state);
-    parallel::on_first([&] { folder_.put_contact(n, time, rows); });
-  }
-  row.quantities = balance_->step(time, loads, outcome.contact_forces, state);
+  std::vector<output::ContactRow> rows;
+  if (model_.asked.contact)
+    rows = contact_rows(n, outcome, before, state);
+  check.contact(rows);
+  row.quantities = balance_->step(time, loads, outcome.contact_forces, state, route.is_refined());
   for (const output::Extreme &e : extremes(state)) {
     row.quantities.emplace_back("min_" + e.field, e.minimum);
     row.quantities.emplace_back("max_" + e.field, e.maximum);
   }
-  parallel::on_first([&] { folder_.put_history(row); });
-  if (n % model_.asked.output.every == 0 || n == model_.asked.time.steps)
-    put_fields(n, state);
+  check.quantities(row.quantities);
+  check.quantities({{"residual", row.residual}});
+  judgement_.step(n, time, balance_->judged(), measure);
+  judgement_.forward_error(n, time, route.accuracy_so_far());
+  output::CellFields cells;
+  if (has_fields(n))
+    cells = checked_fields(n, state);
+  parallel::on_first([&] {
+    if (model_.asked.contact)
+      folder_.put_contact(n, time, rows);
+    folder_.put_history(row);
+  });
+  if (has_fields(n))
+    put_fields(n, state, cells);
   seconds_ += watch.lap();
   return row;
+}
+
+template <int dim>
+bool Recorder<dim>::has_fields(int n) const {
+  return model_.asked.output.fields &&
+         (n % model_.asked.output.every == 0 || n == model_.asked.time.steps);
+}
+
+template <int dim>
+output::CellFields Recorder<dim>::checked_fields(int n, std::span<const double> state) const {
+  output::CellFields cells;
+  parallel::together([&] {
+    cells = body::derived_fields(model_.body, model_.composition, state);
+    StepCheck(n, model_.time(n)).fields(grid_, cells);
+  });
+  return cells;
 }
 
 template <int dim>
@@ -109,13 +144,10 @@ void Recorder<dim>::finish(std::span<const double> state) {
 }
 
 template <int dim>
-void Recorder<dim>::put_fields(int n, std::span<const double> state) {
-  if (!model_.asked.output.fields)
-    return;
-  parallel::together([&] {
-    folder_.put_fields(n, model_.time(n), grid_, point_fields(state, nodes_),
-                       body::derived_fields(model_.body, model_.composition, state));
-  });
+void Recorder<dim>::put_fields(int n, std::span<const double> state,
+                               const output::CellFields &cells) {
+  parallel::together(
+      [&] { folder_.put_fields(n, model_.time(n), grid_, point_fields(state, nodes_), cells); });
   parallel::on_first([&] { folder_.list_fields(n, model_.time(n)); });
 }
 

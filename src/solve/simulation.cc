@@ -23,12 +23,18 @@
 #include "tourmaline/solve/recorder.h"
 #include "tourmaline/solve/resumption.h"
 #include "tourmaline/solve/schedule.h"
+#include "tourmaline/solve/step_check.h"
 #include "tourmaline/solve/versions.h"
 #include "tourmaline/stopwatch.h"
 
 namespace tourmaline::solve {
 
 namespace {
+
+void say(const std::string &text, bool quiet) {
+  if (!quiet && parallel::is_first())
+    std::cerr << "tourmaline: " << text << '\n';
+}
 
 template <int dim>
 class Simulation {
@@ -55,6 +61,7 @@ class Simulation {
   double start_seconds_ = process_age();
   std::optional<output::Checkpoint> checkpoint_;  // to start from
   std::string inputs_;                            // of the run, for later checkpoints
+  bool quiet_;
   output::Progress progress_;
   bool iterative_;  // decided once: what is available changes with what is taken
   Model<dim> model_;
@@ -86,6 +93,7 @@ Simulation<dim>::Simulation(const casefile::Case &asked, const std::filesystem::
                             const RunOptions &options, std::optional<output::Checkpoint> checkpoint)
     : checkpoint_(std::move(checkpoint)),
       inputs_(parallel::is_first() ? inputs_of(asked) : ""),
+      quiet_(options.quiet),
       progress_(asked.time.steps, options.quiet || !parallel::is_first()),
       iterative_(checkpoint_ ? checkpoint_->numbers.get("iterative", 1)[0] != 0
                              : solves_iteratively(asked)),
@@ -151,8 +159,12 @@ template <int dim>
 void Simulation<dim>::step(int n) {
   Stopwatch watch;
   sum_loads(model_.time(n));
+  StepCheck(n, model_.time(n)).loads(dim, model_.body.points(), loads_);
   right_side_ = loads_;
-  model_.op.add_history(state_, right_side_);
+  if (route_->is_refined())
+    model_.cells.add_history(state_, right_side_);
+  else
+    model_.op.add_history(state_, right_side_);
   next_ = state_;
   prescribe(model_.time(n), next_);
   const StepOutcome outcome = route_->advance(model_.time(n), right_side_, state_, next_);
@@ -161,7 +173,8 @@ void Simulation<dim>::step(int n) {
   if (n == 1)
     newton_first_ = outcome.newton_iterations;
   step_seconds_ += watch.lap();
-  progress_.step(recorder_->step(n, outcome, loads_, state_, next_));
+  progress_.step(recorder_->step(n, outcome, loads_, state_, next_, *route_,
+                                 [&] { return route_->accuracy(right_side_, next_, outcome); }));
   std::swap(state_, next_);
 }
 
@@ -202,6 +215,8 @@ void Simulation<dim>::run() {
   put_report();
   parallel::on_first([&] { folder_->remove_checkpoint(); });
   progress_.done();
+  for (const std::string &warning : done.warnings)
+    say("warning: " + warning, quiet_);
 }
 
 // Everything that later steps, or what is told of the run at its end, depend on.
@@ -295,6 +310,9 @@ output::Summary Simulation<dim>::summary() const {
   if (report.negative_pivots >= 0)
     summary.negative_pivots = report.negative_pivots;
   summary.backward_error = report.backward_error;
+  summary.forward_error = report.forward_error;
+  summary.is_refined = report.is_refined;
+  summary.warnings = recorder_->warnings();
   summary.extremes = recorder_->extremes(state_);
   summary.seconds.mesh = model_.mesh_seconds;
   summary.seconds.assemble = model_.assemble_seconds;
@@ -326,11 +344,6 @@ void check(const casefile::Case &asked) {
 }
 
 namespace {
-
-void say(const std::string &text, bool quiet) {
-  if (!quiet && parallel::is_first())
-    std::cerr << "tourmaline: " << text << '\n';
-}
 
 // All ranks see the same folder.
 Resumption start_in(const std::filesystem::path &directory, const casefile::Case &asked,

@@ -40,6 +40,8 @@ struct Summary {
   std::int64_t factorisations = 0;                 // of the body's operator
   std::optional<std::int64_t> negative_pivots;     // where the factorisation counts them
   double backward_error = Seconds::none;           // largest of the run's linear solves, relative
+  double forward_error = Seconds::none;            // estimate of the largest, relative
+  bool is_refined = false;                         // whether the solutions were refined
   std::vector<Extreme> extremes;
   Seconds seconds;
   std::uint64_t peak_memory_bytes = 0;  // largest resident set, all ranks together
@@ -47,8 +49,9 @@ struct Summary {
 };
 
 /// summary.json: the keys case, versions, sizes, iterations, factorisations, negative_pivots,
-/// backward_error, extremes, seconds, memory (bytes), warnings, in this order. Numbers read back as
-/// they were; what is not finite or not known is null. Places have `dimension` coordinates.
+/// backward_error, forward_error, refined, extremes, seconds, memory (bytes), warnings, in this
+/// order. Numbers read back as they were; what is not finite or not known is null. Places have
+/// `dimension` coordinates.
 std::string summary_text(int dimension, const Summary &summary);
 
 }  // namespace tourmaline::output

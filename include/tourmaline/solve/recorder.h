@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "tourmaline/output/result_folder.h"
 #include "tourmaline/solve/balance.h"
+#include "tourmaline/solve/judgement.h"
 #include "tourmaline/solve/model.h"
 #include "tourmaline/solve/route.h"
 
@@ -22,14 +24,19 @@ class Recorder {
   void restore(std::span<const double> state, const output::SavedNumbers &numbers);
   void save(output::SavedNumbers &numbers) const;
   /// Writes step n; returns its line of history. `loads` is the step's right-hand side without
-  /// history.
+  /// history, `route` the one that has taken the step. Throws SolveError, and then nothing of the
+  /// step is written, where a number is not finite or `Judgement` fails the step; `measure` is for
+  /// it.
   output::HistoryRow step(int n, const StepOutcome &outcome, std::span<const double> loads,
-                          std::span<const double> before, std::span<const double> state);
+                          std::span<const double> before, std::span<const double> state,
+                          const Route &route, const std::function<Accuracy()> &measure);
   /// The last state's nodes, and the tables into place.
   void finish(std::span<const double> state);
 
   std::vector<output::Extreme> extremes(std::span<const double> state) const;
   double seconds() const { return seconds_; }
+  /// About the steps so far.
+  std::vector<std::string> warnings() const { return judgement_.warnings(); }
 
  private:
   output::PointFields point_fields(std::span<const double> state,
@@ -37,7 +44,9 @@ class Recorder {
   std::vector<output::ContactRow> contact_rows(int n, const StepOutcome &outcome,
                                                std::span<const double> before,
                                                std::span<const double> state) const;
-  void put_fields(int n, std::span<const double> state);
+  bool has_fields(int n) const;
+  output::CellFields checked_fields(int n, std::span<const double> state) const;
+  void put_fields(int n, std::span<const double> state, const output::CellFields &cells);
   double heat_coefficient(const output::Vector &point) const;
 
   const Model<dim> &model_;
@@ -45,6 +54,7 @@ class Recorder {
   output::Grid grid_;              // this rank's cells and the nodes they use
   std::vector<body::Node> nodes_;  // of the grid
   std::optional<Balance<dim>> balance_;
+  Judgement judgement_;
   double seconds_ = 0;
 };
 
