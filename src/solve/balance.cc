@@ -222,23 +222,35 @@ typename Balance<dim>::Step Balance<dim>::step_of(double time, std::span<const d
   return step;
 }
 
-// Forces, charges and heats are rows of K x, each with the round-off of its terms in the solution.
-// An energy cell by cell has only that of the unknowns, squared: K annihilates what changes none.
+// A solution is uncertain by some round-off of its largest scaled unknown: that is what a field of
+// which there is nothing consists of. Forces, charges and heats have |K| times that; energies cell
+// by cell have its square, as K annihilates what changes none.
 template <int dim>
 void Balance<dim>::measure_round_off(Step &step) const {
-  constexpr double eps = std::numeric_limits<double>::epsilon(), several = 1e2;
-  const std::vector<double> now = model_.op.sizes(model_.step, step.state),
-                            before = model_.op.sizes(model_.step, step.before);
+  constexpr double several = 1e2 * std::numeric_limits<double>::epsilon();
+  const std::vector<double> diagonal = model_.op.diagonal(model_.step);
+  std::array<double, Fields<dim>::count> largest{};
+  for (std::size_t i = 0; i < diagonal.size(); ++i)
+    largest[i % Fields<dim>::count] =
+        larger(largest[i % Fields<dim>::count], std::abs(diagonal[i]));
+  double whole = 0;
+  for (std::size_t i = 0; i < diagonal.size(); ++i)
+    whole = larger(whole, larger(std::abs(step.state[i]), std::abs(step.before[i])) *
+                              std::sqrt(largest[i % Fields<dim>::count]));
+  std::vector<double> uncertain(diagonal.size());
+  for (std::size_t i = 0; i < diagonal.size(); ++i)
+    uncertain[i] = several * whole / std::sqrt(largest[i % Fields<dim>::count]);
+  const std::vector<double> rows = model_.op.sizes(model_.step, uncertain);
   const double watt = model_.op.reference_temperature() / model_.step;
-  for (std::size_t i = 0; i < step.state.size(); ++i) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
     const int component = static_cast<int>(i % Fields<dim>::count);
-    const double terms = several * eps * (now[i] + before[i]);
-    (component < dim                       ? step.round_off.force
-     : component == Fields<dim>::potential ? step.round_off.charge
-                                           : step.round_off.heat) +=
-        component == Fields<dim>::temperature ? watt * terms : terms;
-    step.round_off.energy +=
-        several * eps * terms * (std::abs(step.state[i]) + std::abs(step.before[i]));
+    if (component < dim)
+      step.round_off.force += rows[i];
+    else if (component == Fields<dim>::potential)
+      step.round_off.charge += rows[i];
+    else
+      step.round_off.heat += watt * rows[i];
+    step.round_off.energy += rows[i] * uncertain[i];
   }
 }
 

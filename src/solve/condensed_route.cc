@@ -200,11 +200,17 @@ InterfaceSolution CondensedRoute<dim>::solve_contact(double time, const VectorXd
 
 template <int dim>
 void CondensedRoute<dim>::give_up(double time, const InterfaceSolution &solution) const {
+  if (!std::isfinite(solution.residual))
+    throw SolveError(fmt::format(
+        "the contact problem at t = {:g} s has forces that are not finite numbers: look "
+        "for a load, a prescribed value or a constant that is too large by many powers "
+        "of ten, often a unit",
+        time));
   if (!solution.is_definite || !(error_of_slips_ <= 1e-2))
     throw SolveError(fmt::format(
-        "the contact problem at t = {:g} s is too badly conditioned to be solved: round-off alone "
-        "moves the slips by {:.1g} of themselves; {}",
-        time, error_of_slips_, ill_conditioned_advice));
+        "the contact problem at t = {:g} s is too badly conditioned to be solved: round-off leaves "
+        "no digit of the slips certain; {}",
+        time, ill_conditioned_advice));
   std::string places;
   for (std::size_t i = 0; i < std::min<std::size_t>(solution.unsettled.size(), 3); ++i) {
     const output::Vector &p = model_.interface[solution.unsettled[i]].point;
