@@ -222,12 +222,14 @@ typename Balance<dim>::Step Balance<dim>::step_of(double time, std::span<const d
   return step;
 }
 
-// A solution is uncertain by some round-off of its largest scaled unknown: that is what a field of
+// A solution is uncertain by the round-off of its largest scaled unknown: that is what a field of
 // which there is nothing consists of. Forces, charges and heats have |K| times that; energies cell
-// by cell have its square, as K annihilates what changes none.
+// by cell have its square, as K annihilates what changes none. Of sums that large nothing can be
+// asked, of larger ones the digits that round-off leaves: so it enters as the size of a sum that
+// may lack that much.
 template <int dim>
 void Balance<dim>::measure_round_off(Step &step) const {
-  constexpr double several = 1e2 * std::numeric_limits<double>::epsilon();
+  constexpr double eps = std::numeric_limits<double>::epsilon(), several = 1e2;
   const std::vector<double> diagonal = model_.op.diagonal(model_.step);
   std::array<double, Fields<dim>::count> largest{};
   for (std::size_t i = 0; i < diagonal.size(); ++i)
@@ -239,7 +241,7 @@ void Balance<dim>::measure_round_off(Step &step) const {
                               std::sqrt(largest[i % Fields<dim>::count]));
   std::vector<double> uncertain(diagonal.size());
   for (std::size_t i = 0; i < diagonal.size(); ++i)
-    uncertain[i] = several * whole / std::sqrt(largest[i % Fields<dim>::count]);
+    uncertain[i] = eps * whole / std::sqrt(largest[i % Fields<dim>::count]);
   const std::vector<double> rows = model_.op.sizes(model_.step, uncertain);
   const double watt = model_.op.reference_temperature() / model_.step;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -250,8 +252,11 @@ void Balance<dim>::measure_round_off(Step &step) const {
       step.round_off.charge += rows[i];
     else
       step.round_off.heat += watt * rows[i];
-    step.round_off.energy += rows[i] * uncertain[i];
+    step.round_off.energy += several * rows[i] * uncertain[i];
   }
+  for (double *sum : {&step.round_off.force, &step.round_off.charge, &step.round_off.heat,
+                      &step.round_off.energy})
+    *sum /= unquestioned;
 }
 
 template <int dim>
