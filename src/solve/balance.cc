@@ -240,6 +240,7 @@ void Balance<dim>::measure_round_off(Step &step) const {
     whole = larger(whole, larger(std::abs(step.state[i]), std::abs(step.before[i])) *
                               std::sqrt(largest[i % Fields<dim>::count]));
   std::vector<double> uncertain(diagonal.size());
+  std::array<double, 3> most{};  // of the prescribed values, by field
   for (std::size_t i = 0; i < diagonal.size(); ++i)
     uncertain[i] = eps * whole / std::sqrt(largest[i % Fields<dim>::count]);
   const std::vector<double> rows = model_.op.sizes(model_.step, uncertain);
@@ -254,6 +255,17 @@ void Balance<dim>::measure_round_off(Step &step) const {
       step.round_off.heat += watt * rows[i];
     step.round_off.energy += several * rows[i] * uncertain[i];
   }
+  // What moves or holds prescribed values works against that round-off.
+  for (const body::Prescribed &p : model_.prescribed) {
+    const int component = static_cast<int>(p.unknown % Fields<dim>::count);
+    if (component < dim)
+      most[0] = larger(most[0], std::abs(step.change(p.unknown)));
+    else
+      most[component - dim + 1] =
+          larger(most[component - dim + 1], std::abs(step.state[p.unknown]));
+  }
+  step.round_off.energy += most[0] * step.round_off.force + most[1] * step.round_off.charge +
+                           most[2] * step.round_off.heat / watt;
   for (double *sum : {&step.round_off.force, &step.round_off.charge, &step.round_off.heat,
                       &step.round_off.energy})
     *sum /= unquestioned;

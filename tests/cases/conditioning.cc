@@ -66,12 +66,19 @@ TEST_P(Thickness, WithoutRefinementNoWrongNumberPassesInSilence) {
 INSTANTIATE_TEST_SUITE_P(OfABeamOfOneMetre, Thickness,
                          ::testing::Values(1. / 300, 1e-3, 3e-4, 1e-4));
 
+TEST(WellConditioned, BodyThatOnlyMovesLacksNothing) {
+  for (const char *method : {"solver.method=\"condensed\"", "solver.method=\"monolithic\""})
+    EXPECT_TRUE(
+        RunCase("tests/cases/ill_conditioned/moved.toml", {method}).summary()["warnings"].empty())
+        << method;
+}
+
 TEST(IllConditioned, FrictionalEndOfAThinPlateFailsWithTheReason) {
   EXPECT_THAT(failure("tests/cases/ill_conditioned/contact.toml", {}),
               ::testing::HasSubstr("very thin"));
 }
 
-TEST(IllConditioned, WellConditionedBodyIsNotRefinedAndSaysNothing) {
+TEST(WellConditioned, BodyOfThePaperIsNotRefinedAndSaysNothing) {
   const nlohmann::json summary =
       RunCase("cases/ouafik-2020/conductive.toml", {"mesh.box.cells=[8,8]"}).summary();
   EXPECT_FALSE(summary["refined"]);
