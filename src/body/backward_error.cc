@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "tourmaline/larger.h"
 
 namespace tourmaline::body {
 
@@ -14,15 +17,36 @@ double backward_error(const Operator<dim> &op, double step, const std::vector<do
   for (std::size_t i = 0; i < scale.size(); ++i) {
     if (scale[i] == 0)
       continue;
-    norm = std::max(norm, row_sums[i] * scale[i]);
-    largest_r = std::max(largest_r, std::abs(residual[i]) * scale[i]);
-    largest_b = std::max(largest_b, std::abs(right_side[i]) * scale[i]);
-    largest_x = std::max(largest_x, std::abs(state[i]) / scale[i]);
+    norm = larger(norm, row_sums[i] * scale[i]);
+    largest_r = larger(largest_r, std::abs(residual[i]) * scale[i]);
+    largest_b = larger(largest_b, std::abs(right_side[i]) * scale[i]);
+    largest_x = larger(largest_x, std::abs(state[i]) / scale[i]);
   }
-  const double size = norm * largest_x + largest_b;
-  return size > 0 ? largest_r / size : 0;
+  return relative_to(largest_r, norm * largest_x + largest_b);
 }
 
+template <int dim>
+double relative_size(std::span<const double> change, std::span<const double> state,
+                     const std::array<double, Fields<dim>::count> &scale) {
+  constexpr double nothing = 1e-6;  // of the largest field
+  std::array<double, 3> sizes{}, changes{};
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const int component = static_cast<int>(i % Fields<dim>::count);
+    const int field = std::max(0, component - dim + 1);
+    sizes[field] = larger(sizes[field], std::abs(state[i]) / scale[component]);
+    changes[field] = larger(changes[field], std::abs(change[i]) / scale[component]);
+  }
+  const double whole = larger(larger(sizes[0], sizes[1]), sizes[2]);
+  double worst = 0;
+  for (int f = 0; f < 3; ++f)
+    worst = larger(worst, relative_to(changes[f], larger(sizes[f], nothing * whole)));
+  return std::isnan(worst) ? std::numeric_limits<double>::infinity() : worst;
+}
+
+template double relative_size<2>(std::span<const double>, std::span<const double>,
+                                 const std::array<double, 4> &);
+template double relative_size<3>(std::span<const double>, std::span<const double>,
+                                 const std::array<double, 5> &);
 template double backward_error(const Operator<2> &, double, const std::vector<double> &,
                                std::span<const double>, std::span<const double>,
                                std::span<const double>);

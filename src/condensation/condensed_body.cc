@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "gmres.h"
 #include "tourmaline/body/backward_error.h"
 #include "tourmaline/condensation/ordering.h"
+#include "tourmaline/larger.h"
 #include "tourmaline/parallel/ranks.h"
 
 namespace tourmaline::condensation {
@@ -12,6 +15,8 @@ namespace tourmaline::condensation {
 using body::Fields;
 using body::Node;
 using body::unknown;
+using Eigen::Index;
+using Eigen::VectorXd;
 
 template <int dim>
 CondensedBody<dim>::CondensedBody(const body::Operator<dim> &op, double step,
@@ -56,6 +61,9 @@ void CondensedBody<dim>::number(const std::vector<body::Prescribed> &prescribed,
   for (const Node node : contact_nodes)
     for (int c = 0; c < dim; ++c)
       contact_variables_.push_back(variable_of_[unknown<dim>(node, c)]);
+  is_contact_variable_.assign(unknown_of_.size(), false);
+  for (const int v : contact_variables_)
+    is_contact_variable_[v] = true;
 }
 
 template <int dim>
@@ -64,7 +72,7 @@ void CondensedBody<dim>::scale_fields() {
   std::array<double, Fields<dim>::count> largest{};
   for (std::size_t i = 0; i < diagonal.size(); ++i)
     largest[i % Fields<dim>::count] =
-        std::max(largest[i % Fields<dim>::count], std::abs(diagonal[i]));
+        larger(largest[i % Fields<dim>::count], std::abs(diagonal[i]));
   const double mechanical = *std::max_element(largest.begin(), largest.begin() + dim);
   std::fill(largest.begin(), largest.begin() + dim, mechanical);
   for (int c = 0; c < Fields<dim>::count; ++c)
@@ -74,13 +82,10 @@ void CondensedBody<dim>::scale_fields() {
 // Nodes in the order of nested dissection, each with its unknowns; the contact displacements last.
 template <int dim>
 std::vector<int> CondensedBody<dim>::elimination_order() const {
-  std::vector<bool> condensed(unknown_of_.size(), false);
-  for (const int v : contact_variables_)
-    condensed[v] = true;
   const std::size_t n_nodes = operator_.graph().n_nodes();
   std::vector<int> unknowns(n_nodes, 0);
   for (std::size_t v = 0; v < unknown_of_.size(); ++v)
-    unknowns[unknown_of_[v] / Fields<dim>::count] += !condensed[v];
+    unknowns[unknown_of_[v] / Fields<dim>::count] += !is_contact_variable(v);
 
   const std::vector<int> node_position = nested_dissection(operator_.graph(), unknowns);
   std::vector<Node> node_at(n_nodes);
@@ -91,7 +96,7 @@ std::vector<int> CondensedBody<dim>::elimination_order() const {
   int next = 0;
   for (const Node node : node_at)
     for (int c = 0; c < Fields<dim>::count; ++c)
-      if (const int v = variable_of_[unknown<dim>(node, c)]; v >= 0 && !condensed[v])
+      if (const int v = variable_of_[unknown<dim>(node, c)]; v >= 0 && !is_contact_variable(v))
         position[v] = next++;
   for (const int v : contact_variables_)
     position[v] = next++;
@@ -101,6 +106,8 @@ std::vector<int> CondensedBody<dim>::elimination_order() const {
 template <int dim>
 Eigen::VectorXd CondensedBody<dim>::reduce(std::span<const double> right_side,
                                            std::span<const double> state) {
+  if (is_refined())
+    return reduce_refined(right_side, state);
   lifted_.assign(right_side.begin(), right_side.end());
   operator_.subtract_columns(prescribed_, step_, state, lifted_);
   right_side_.resize(unknown_of_.size());
@@ -115,6 +122,13 @@ Eigen::VectorXd CondensedBody<dim>::reduce(std::span<const double> right_side,
 
 template <int dim>
 void CondensedBody<dim>::expand(const Eigen::VectorXd &c, std::span<double> state) {
+  if (is_refined()) {
+    for (std::size_t v = 0; v < unknown_of_.size(); ++v)
+      state[unknown_of_[v]] = inside_[unknown_of_[v]];
+    impose(c, state);
+    solve_refined(given_, state);
+    return;
+  }
   std::vector<double> scaled(c.size());
   for (Eigen::Index i = 0; i < c.size(); ++i)
     scaled[i] = c[i] / scale_[i % dim];
@@ -140,6 +154,136 @@ double CondensedBody<dim>::backward_error(std::span<const double> right_side,
   for (const std::size_t i : unknown_of_)
     scales[i] = scale(i);
   return body::backward_error(operator_, step_, scales, residual, force, state);
+}
+
+// Iterative refinement.
+
+namespace {
+
+constexpr int corrections = 6, products_a_correction = 40;
+constexpr double reduction = 1e-8;  // of a correction's preconditioned residual
+constexpr double enough = 1e-15;    // a correction that changes no digit
+
+}  // namespace
+
+// b - K x in scaled variables, 0 at the contact displacements.
+template <int dim>
+VectorXd CondensedBody<dim>::residual_inside(const body::CellProducts<dim> &cells,
+                                             std::span<const double> right_side,
+                                             std::span<const double> state) const {
+  std::vector<double> product(state.size());
+  cells.multiply(step_, state, product);
+  VectorXd residual = VectorXd::Zero(static_cast<Index>(unknown_of_.size()));
+  for (std::size_t v = 0; v < unknown_of_.size(); ++v)
+    if (const std::size_t i = unknown_of_[v]; !is_contact_variable(v))
+      residual[static_cast<Index>(v)] = (right_side[i] - product[i]) * scale(i);
+  return residual;
+}
+
+// By the factor: an approximate inverse.
+template <int dim>
+VectorXd CondensedBody<dim>::solve_inside(const VectorXd &residual) {
+  right_side_.assign(residual.begin(), residual.end());
+  factorisation_->reduce(right_side_);
+  factorisation_->expand(std::vector<double>(contact_variables_.size(), 0.));
+  VectorXd x = Eigen::Map<const VectorXd>(right_side_.data(), residual.size());
+  for (const int v : contact_variables_)
+    x[v] = 0;
+  return x;
+}
+
+template <int dim>
+VectorXd CondensedBody<dim>::product_inside(const VectorXd &x) const {
+  std::vector<double> state(variable_of_.size(), 0.);
+  const std::vector<double> zero(state.size(), 0.);
+  for (std::size_t v = 0; v < unknown_of_.size(); ++v)
+    if (!is_contact_variable(v))
+      state[unknown_of_[v]] = x[static_cast<Index>(v)] * scale(unknown_of_[v]);
+  return -residual_inside(*cells_, zero, state);
+}
+
+template <int dim>
+double CondensedBody<dim>::relative_size(const VectorXd &correction,
+                                         std::span<const double> state) const {
+  std::vector<double> change(state.size(), 0.);
+  for (std::size_t v = 0; v < unknown_of_.size(); ++v)
+    change[unknown_of_[v]] = correction[static_cast<Index>(v)] * scale(unknown_of_[v]);
+  return body::relative_size<dim>(change, state, scale_);
+}
+
+template <int dim>
+double CondensedBody<dim>::forward_error(const body::CellProducts<dim> &cells,
+                                         std::span<const double> right_side,
+                                         std::span<const double> state) {
+  return relative_size(solve_inside(residual_inside(cells, right_side, state)), state);
+}
+
+// Corrects what `state` has inside, for its contact displacements and prescribed values.
+template <int dim>
+void CondensedBody<dim>::solve_refined(std::span<const double> right_side,
+                                       std::span<double> state) {
+  double before = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < corrections; ++k) {
+    const VectorXd correction =
+        gmres([&](const VectorXd &x) { return product_inside(x); },
+              [&](const VectorXd &r) { return solve_inside(r); },
+              residual_inside(*cells_, right_side, state), reduction, products_a_correction);
+    for (std::size_t v = 0; v < unknown_of_.size(); ++v)
+      state[unknown_of_[v]] += correction[static_cast<Index>(v)] * scale(unknown_of_[v]);
+    const double size = relative_size(correction, state);
+    const bool is_last = size <= enough || k + 1 == corrections || !(size < before / 2);
+    if (is_last) {
+      left_by_refinement_ = larger(left_by_refinement_, size);
+      return;
+    }
+    before = size;
+  }
+}
+
+template <int dim>
+void CondensedBody<dim>::impose(const VectorXd &c, std::span<double> state) const {
+  for (Index i = 0; i < c.size(); ++i)
+    state[unknown_of_[contact_variables_[i]]] = c[i];
+}
+
+// K x at the contact displacements [N].
+template <int dim>
+VectorXd CondensedBody<dim>::contact_rows(std::span<const double> state) const {
+  std::vector<double> product(state.size());
+  cells_->multiply(step_, state, product);
+  VectorXd rows(static_cast<Index>(contact_variables_.size()));
+  for (Index i = 0; i < rows.size(); ++i)
+    rows[i] = product[unknown_of_[contact_variables_[i]]];
+  return rows;
+}
+
+template <int dim>
+void CondensedBody<dim>::refine(const body::CellProducts<dim> &cells) {
+  cells_ = &cells;
+  const auto n = static_cast<Index>(contact_variables_.size());
+  const std::vector<double> zero(variable_of_.size(), 0.);
+  Eigen::MatrixXd columns(n, n);
+  for (Index j = 0; j < n; ++j) {
+    std::vector<double> x = zero;
+    impose(VectorXd::Unit(n, j), x);
+    solve_refined(zero, x);
+    columns.col(j) = contact_rows(x);
+  }
+  if (stiffness_.size() > 0)  // on the first rank
+    stiffness_ = (columns + columns.transpose()) / 2;
+}
+
+template <int dim>
+VectorXd CondensedBody<dim>::reduce_refined(std::span<const double> right_side,
+                                            std::span<const double> state) {
+  given_.assign(right_side.begin(), right_side.end());
+  inside_.assign(state.begin(), state.end());
+  impose(VectorXd::Zero(static_cast<Index>(contact_variables_.size())), inside_);
+  solve_refined(given_, inside_);
+  VectorXd s = -contact_rows(inside_);
+  for (Index i = 0; i < s.size(); ++i)
+    s[i] += given_[unknown_of_[contact_variables_[i]]];
+  return s;
 }
 
 template class CondensedBody<2>;

@@ -54,7 +54,8 @@ void Mumps::check() const {
   if (code == singular)
     throw SolveError(advice_.matrix +
                      " is singular: some displacement or the potential is not held; check the "
-                     "boundary conditions");
+                     "boundary conditions, and constants or units that differ by many powers of "
+                     "ten");
   if (code == little_work_space || code == little_main_space || code == no_memory ||
       code == no_work_memory)
     throw MachineError(

@@ -78,6 +78,8 @@ std::string summary_text(int dimension, const Summary &summary) {
   json["negative_pivots"] =
       summary.negative_pivots ? Json(*summary.negative_pivots) : Json(nullptr);
   json["backward_error"] = number(summary.backward_error);
+  json["forward_error"] = number(summary.forward_error);
+  json["refined"] = summary.is_refined;
   json["extremes"] = extremes(dimension, summary.extremes);
   json["materials"] = materials(summary.materials);
   json["seconds"] = seconds_json(summary.seconds);

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
+#include "tourmaline/larger.h"
 #include "tourmaline/parallel/ranks.h"
 #include "tourmaline/solve/electrodes.h"
 
@@ -22,7 +24,6 @@ struct Sum {
     value += term;
     size += std::abs(term);
   }
-  double relative() const { return size > 0 ? value / size : 0; }
 };
 
 bool add_once(std::vector<std::string> &names, const std::string &name) {
@@ -32,6 +33,9 @@ bool add_once(std::vector<std::string> &names, const std::string &name) {
   return true;
 }
 
+// A balance that lacks less is not looked at any closer.
+constexpr double unquestioned = 1e-6;
+
 const char *const axes[] = {"x", "y", "z"};
 
 }  // namespace
@@ -40,11 +44,16 @@ template <int dim>
 struct Balance<dim>::Step {
   double time;
   std::span<const double> loads, state, before;
-  const body::FieldProducts &products, &products_before;
+  body::FieldProducts products, products_before;
   std::vector<double> conducted;  // by node [W]
   std::vector<double> contact;    // by unknown [N]
   std::vector<double> friction;   // the part of it that opposes the slip
   std::vector<double> charges, charges_before;
+  double stored_before = 0;  // [J]
+  // Of the sums: forces [N], charges [C], heats [W], energies [J].
+  struct RoundOff {
+    double force = 0, charge = 0, heat = 0, energy = 0;
+  } round_off;
   std::vector<double> heat_supplied;  // by node, at prescribed temperatures [W]
 
   double change(std::size_t i) const { return state[i] - before[i]; }
@@ -170,18 +179,33 @@ std::vector<double> Balance<dim>::by_unknown(const Eigen::VectorXd &forces) cons
 }
 
 template <int dim>
-typename Balance<dim>::Columns Balance<dim>::step(double time, std::span<const double> loads,
-                                                  const StepOutcome &outcome,
-                                                  std::span<const double> state) {
+body::FieldProducts Balance<dim>::products(std::span<const double> state, bool cell_by_cell) const {
   body::FieldProducts products;
-  model_.op.multiply_by_field(state, products);
-  Step step{time, loads, state, state_,   products, products_, model_.op.conducted(state),
-            {},   {},    {},    charges_, {}};
+  if (cell_by_cell)
+    model_.cells.multiply_by_field(state, products);
+  else
+    model_.op.multiply_by_field(state, products);
+  return products;
+}
+
+template <int dim>
+typename Balance<dim>::Step Balance<dim>::step_of(double time, std::span<const double> loads,
+                                                  const StepOutcome &outcome,
+                                                  std::span<const double> state,
+                                                  bool cell_by_cell) {
+  Step step{time, loads, state, state_, products(state, cell_by_cell), {}, {}, {}, {}, {},
+            {},   0,     {},    {}};
+  step.products_before = cell_by_cell ? products(state_, true) : std::move(products_);
+  step.conducted = cell_by_cell ? model_.cells.conducted(state) : model_.op.conducted(state);
   step.contact = by_unknown(outcome.contact_forces);
   step.friction = by_unknown(outcome.friction_forces);
   step.charges.assign(state.size(), 0.);
-  for (std::size_t i = Fields<dim>::potential; i < state.size(); i += Fields<dim>::count)
-    step.charges[i] = is_prescribed_[i] ? products.sum(i) : loads[i];
+  step.charges_before = std::move(charges_);
+  for (std::size_t i = Fields<dim>::potential; i < state.size(); i += Fields<dim>::count) {
+    step.charges[i] = is_prescribed_[i] ? step.products.sum(i) : loads[i];
+    if (cell_by_cell && is_prescribed_[i])
+      step.charges_before[i] = step.products_before.sum(i);
+  }
   // The heat rows are scaled by -k / theta_ref; what they lack at prescribed temperatures was
   // supplied.
   const double per_watt = -model_.step / model_.op.reference_temperature();
@@ -190,18 +214,108 @@ typename Balance<dim>::Columns Balance<dim>::step(double time, std::span<const d
     const std::size_t i = body::unknown<dim>(node, Fields<dim>::temperature);
     if (is_prescribed_[i])
       step.heat_supplied[node] =
-          (products.sum(i) - products_.sum(i) - loads[i]) / per_watt + step.conducted[node];
+          (step.products.sum(i) - step.products_before.sum(i) - loads[i]) / per_watt +
+          step.conducted[node];
   }
+  step.stored_before = stored_;
+  if (cell_by_cell)
+    step.stored_before = energy_of<dim>(
+                             state_.size(), [&](std::size_t i) { return state_[i]; },
+                             [&](int f, std::size_t i) { return step.products_before.of[f][i]; })
+                             .sum();
+  return step;
+}
+
+// A solution is uncertain by the round-off of its largest scaled unknown: that is what a field of
+// which there is nothing consists of. Forces, charges and heats have |K| times that; energies cell
+// by cell have its square, as K annihilates what changes none. Of sums that large nothing can be
+// asked, of larger ones the digits that round-off leaves: so it enters as the size of a sum that
+// may lack that much.
+template <int dim>
+void Balance<dim>::measure_round_off(Step &step) const {
+  constexpr double eps = std::numeric_limits<double>::epsilon(), several = 1e2;
+  const std::vector<double> diagonal = model_.op.diagonal(model_.step);
+  std::array<double, Fields<dim>::count> largest{};
+  for (std::size_t i = 0; i < diagonal.size(); ++i)
+    largest[i % Fields<dim>::count] =
+        larger(largest[i % Fields<dim>::count], std::abs(diagonal[i]));
+  double whole = 0;
+  for (std::size_t i = 0; i < diagonal.size(); ++i)
+    whole = larger(whole, larger(std::abs(step.state[i]), std::abs(step.before[i])) *
+                              std::sqrt(largest[i % Fields<dim>::count]));
+  std::vector<double> uncertain(diagonal.size());
+  std::array<double, 3> most{};  // of the prescribed values, by field
+  for (std::size_t i = 0; i < diagonal.size(); ++i)
+    uncertain[i] = eps * whole / std::sqrt(largest[i % Fields<dim>::count]);
+  const std::vector<double> rows = model_.op.sizes(model_.step, uncertain);
+  const double watt = model_.op.reference_temperature() / model_.step;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const int component = static_cast<int>(i % Fields<dim>::count);
+    if (component < dim)
+      step.round_off.force += rows[i];
+    else if (component == Fields<dim>::potential)
+      step.round_off.charge += rows[i];
+    else
+      step.round_off.heat += watt * rows[i];
+    step.round_off.energy += several * rows[i] * uncertain[i];
+  }
+  // What moves or holds prescribed values works against that round-off.
+  for (const body::Prescribed &p : model_.prescribed) {
+    const int component = static_cast<int>(p.unknown % Fields<dim>::count);
+    if (component < dim)
+      most[0] = larger(most[0], std::abs(step.change(p.unknown)));
+    else
+      most[component - dim + 1] =
+          larger(most[component - dim + 1], std::abs(step.state[p.unknown]));
+  }
+  step.round_off.energy += most[0] * step.round_off.force + most[1] * step.round_off.charge +
+                           most[2] * step.round_off.heat / watt;
+  for (double *sum : {&step.round_off.force, &step.round_off.charge, &step.round_off.heat,
+                      &step.round_off.energy})
+    *sum /= unquestioned;
+}
+
+template <int dim>
+typename Balance<dim>::Columns Balance<dim>::step(double time, std::span<const double> loads,
+                                                  const StepOutcome &outcome,
+                                                  std::span<const double> state, bool is_refined) {
+  Step step = step_of(time, loads, outcome, state, is_refined);
+  Columns columns = columns_of(step);
+  const bool balances = std::all_of(judged_.begin(), judged_.end(), [](const auto &imbalance) {
+    return std::abs(imbalance.second) <= unquestioned;
+  });
+  if (!balances) {
+    charges_ = std::move(step.charges_before);
+    step = step_of(time, loads, outcome, state, true);
+    measure_round_off(step);
+    columns = columns_of(step);
+  }
+  if (!model_.electrodes.empty())
+    electrode_charges_ = electrode_charges(model_, step.charges, step.loads);
+  stored_ = step.energy().sum();
+  state_.assign(state.begin(), state.end());
+  charges_ = std::move(step.charges);
+  products_ = std::move(step.products);
+  return columns;
+}
+
+template <int dim>
+typename Balance<dim>::Columns Balance<dim>::columns_of(const Step &step) {
   Columns columns;
+  judged_.clear();
   add_energy(step, columns);
   add_forces(step, columns);
   add_charges(step, columns);
   add_electrodes(step, columns);
   add_heat(step, columns);
-  state_.assign(state.begin(), state.end());
-  charges_ = std::move(step.charges);
-  std::swap(products_, products);
   return columns;
+}
+
+template <int dim>
+void Balance<dim>::put_imbalance(const std::string &name, double value, double size,
+                                 double round_off, Columns &columns) {
+  columns.emplace_back(name, relative_to(value, size));
+  judged_.emplace_back(name, relative_to(value, size + round_off));
 }
 
 template <int dim>
@@ -228,7 +342,7 @@ void Balance<dim>::add_energy(const Step &step, Columns &columns) {
   }
   const Energies energy = step.energy(), shift = model_.op.energy_shift(step.state);
   const double lost = step.energy_of_change().sum();
-  const double before = std::exchange(stored_, energy.sum());
+  const double before = step.stored_before;
   Sum imbalance;
   for (const double term :
        {energy.sum(), -before, lost, -load, -electric, -thermal, friction, conduction})
@@ -244,13 +358,14 @@ void Balance<dim>::add_energy(const Step &step, Columns &columns) {
                                  {"thermal_power", thermal / k},
                                  {"friction_dissipation", friction / k},
                                  {"conduction_loss", conduction / k},
-                                 {"time_step_loss", lost / k},
-                                 {"energy_imbalance", imbalance.relative()}});
+                                 {"time_step_loss", lost / k}});
+  put_imbalance("energy_imbalance", imbalance.value, imbalance.size, step.round_off.energy,
+                columns);
 }
 
 // Global equilibrium: loads, reactions and contact forces add up to zero in every direction.
 template <int dim>
-void Balance<dim>::add_forces(const Step &step, Columns &columns) const {
+void Balance<dim>::add_forces(const Step &step, Columns &columns) {
   std::array<Sum, dim> load, reaction, contact;
   for (std::size_t i = 0; i < step.state.size(); ++i) {
     const std::size_t c = i % Fields<dim>::count;
@@ -266,15 +381,15 @@ void Balance<dim>::add_forces(const Step &step, Columns &columns) const {
     columns.emplace_back(std::string("load_") + axes[c], load[c].value);
     columns.emplace_back(std::string("reaction_") + axes[c], reaction[c].value);
     columns.emplace_back(std::string("contact_force_") + axes[c], contact[c].value);
-    worst = std::max(worst, std::abs(load[c].value + reaction[c].value + contact[c].value));
+    worst = larger(worst, std::abs(load[c].value + reaction[c].value + contact[c].value));
     size += load[c].size + reaction[c].size + contact[c].size;
   }
-  columns.emplace_back("force_imbalance", size > 0 ? worst / size : 0);
+  put_imbalance("force_imbalance", worst, size, step.round_off.force, columns);
 }
 
 // Gauss's law for the whole body: the integral of D.nu over all boundaries is the charge inside.
 template <int dim>
-void Balance<dim>::add_charges(const Step &step, Columns &columns) const {
+void Balance<dim>::add_charges(const Step &step, Columns &columns) {
   std::map<std::string, double> through;
   double on_electrodes = 0;
   Sum imbalance;
@@ -295,12 +410,12 @@ void Balance<dim>::add_charges(const Step &step, Columns &columns) const {
   double total = on_electrodes - inside;
   for (const auto &[name, charge] : through)
     total += charge;
-  const double size = imbalance.size + std::abs(inside);
-  columns.emplace_back("charge_imbalance", size > 0 ? total / size : 0);
+  put_imbalance("charge_imbalance", total, imbalance.size + std::abs(inside), step.round_off.charge,
+                columns);
 }
 
 template <int dim>
-void Balance<dim>::add_electrodes(const Step &step, Columns &columns) {
+void Balance<dim>::add_electrodes(const Step &step, Columns &columns) const {
   if (model_.electrodes.empty())
     return;
   const Eigen::VectorXd voltages = electrode_voltages(model_, step.state);
@@ -312,7 +427,6 @@ void Balance<dim>::add_electrodes(const Step &step, Columns &columns) {
     columns.emplace_back(name + "_charge", charges[i]);
     columns.emplace_back(name + "_current", (charges[i] - electrode_charges_[i]) / model_.step);
   }
-  electrode_charges_ = charges;
 }
 
 template <int dim>
@@ -326,7 +440,7 @@ double Balance<dim>::exchanged(const std::string &boundary, const Step &step) co
 
 // Heat: what is stored comes from sources and has not left through the boundaries.
 template <int dim>
-void Balance<dim>::add_heat(const Step &step, Columns &columns) const {
+void Balance<dim>::add_heat(const Step &step, Columns &columns) {
   std::map<std::string, double> out;
   Sum imbalance;
   for (const body::Prescribed &p : model_.prescribed)
@@ -364,7 +478,7 @@ void Balance<dim>::add_heat(const Step &step, Columns &columns) const {
   imbalance.size += smallest_heat_;
   columns.emplace_back("stored_heat_rate", stored);
   columns.emplace_back("heat_source", source);
-  columns.emplace_back("heat_imbalance", imbalance.relative());
+  put_imbalance("heat_imbalance", imbalance.value, imbalance.size, step.round_off.heat, columns);
 }
 
 template <int dim>

@@ -3,13 +3,18 @@
 #include <fmt/format.h>
 
 #include <Eigen/Sparse>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 
 #include "tourmaline/contact/bilateral.h"
 #include "tourmaline/error.h"
+#include "tourmaline/larger.h"
 #include "tourmaline/parallel/ranks.h"
 #include "tourmaline/solve/connected_body.h"
 #include "tourmaline/solve/interface_newton.h"
+#include "tourmaline/solve/judgement.h"
 #include "tourmaline/stopwatch.h"
 
 namespace tourmaline::solve {
@@ -19,6 +24,9 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+// Forward errors above it are worth refinement, which costs some twenty substitutions a step.
+constexpr double worth_refining = 1e-8;
 
 // From the first rank to the others.
 void share(StepOutcome &outcome) {
@@ -46,12 +54,22 @@ class CondensedRoute : public Route {
 
   StepOutcome advance(double time, std::span<const double> right_side,
                       std::span<const double> before, std::span<double> state) override;
+  Accuracy accuracy(std::span<const double> right_side, std::span<const double> state,
+                    const StepOutcome &outcome) override;
+  Accuracy accuracy_so_far() const override { return accuracy_; }
+  bool is_refined() const override { return condensed_.body().is_refined(); }
   RouteReport report() const override;
   void save(output::SavedNumbers &numbers) const override;
   void restore(const output::SavedNumbers &numbers) override;
 
  private:
   void condense_onto_slips();
+  double error_of_slips() const;
+  void refine();
+  void measure(std::span<const double> right_side, std::span<const double> state,
+               const StepOutcome &outcome);
+  StepOutcome solve(double time, std::span<const double> right_side, std::span<const double> before,
+                    std::span<double> state);
   contact::Admissible<dim> admissible(std::size_t node, std::span<const double> state) const;
   VectorXd contact_displacements(std::span<const double> state) const;
   std::vector<contact::Admissible<dim>> admissible(std::span<const double> state) const;
@@ -72,7 +90,9 @@ class CondensedRoute : public Route {
   MatrixXd slip_stiffness_;                 // T^T S T
   std::vector<ContactPoint> points_;
   VectorXd last_increment_;
-  double backward_error_ = 0, condense_seconds_ = 0;
+  double error_of_slips_ = 0;  // the contact's own share of the forward error
+  Accuracy accuracy_;          // largest of the steps in which it was measured
+  double condense_seconds_ = 0;
   double substitution_seconds_ = 0, contact_seconds_ = 0;
   bool measured_ = false;
 };
@@ -85,6 +105,32 @@ CondensedRoute<dim>::CondensedRoute(const Model<dim> &model)
   Stopwatch watch;
   parallel::on_first([&] { condense_onto_slips(); });
   condense_seconds_ = watch.lap();
+  error_of_slips_ = error_of_slips();
+  if (!(error_of_slips_ <= worth_refining))
+    refine();
+}
+
+// What round-off of the size of S's entries does to the solution of T^T S T.
+template <int dim>
+double CondensedRoute<dim>::error_of_slips() const {
+  double error = 0;
+  if (parallel::is_first() && slip_stiffness_.size() > 0) {
+    const Eigen::LLT<MatrixXd> factor(slip_stiffness_);
+    error = factor.info() == Eigen::Success
+                ? std::numeric_limits<double>::epsilon() / factor.rcond()
+                : std::numeric_limits<double>::infinity();
+  }
+  parallel::from_first(std::span(&error, 1));
+  return error;
+}
+
+template <int dim>
+void CondensedRoute<dim>::refine() {
+  Stopwatch watch;
+  condensed_.refine();
+  parallel::on_first([&] { condense_onto_slips(); });
+  condense_seconds_ += watch.lap();
+  error_of_slips_ = error_of_slips();
 }
 
 template <int dim>
@@ -92,6 +138,8 @@ void CondensedRoute<dim>::condense_onto_slips() {
   const std::vector<double> zero(model_.n_unknowns(), 0.);
   std::vector<Eigen::Triplet<double>> triplets;
   Index n_slips = 0;
+  points_.clear();
+  slip_directions_.clear();
   for (std::size_t i = 0; i < model_.interface.size(); ++i) {
     const auto directions = admissible(i, zero).directions;
     points_.push_back({n_slips, directions.cols(), model_.interface[i].weight, {}});
@@ -154,7 +202,8 @@ InterfaceSolution CondensedRoute<dim>::solve_contact(double time, const VectorXd
   const VectorXd stuck = held + directions_ * slips_before;  // the contact if no point slipped
   const VectorXd resisted = condensed_.stiffness() * stuck;
   const VectorXd force = directions_.transpose() * (s - resisted);
-  const double scale = std::max(s.cwiseAbs().maxCoeff(), resisted.cwiseAbs().maxCoeff());
+  const double scale = larger(s.cwiseAbs().maxCoeff<Eigen::PropagateNaN>(),
+                              resisted.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
   InterfaceSolution solution =
       minimise({slip_stiffness_, force, points_, scale}, last_increment_,
                {model_.asked.solver.tolerance, model_.asked.solver.max_iterations});
@@ -165,6 +214,17 @@ InterfaceSolution CondensedRoute<dim>::solve_contact(double time, const VectorXd
 
 template <int dim>
 void CondensedRoute<dim>::give_up(double time, const InterfaceSolution &solution) const {
+  if (!std::isfinite(solution.residual))
+    throw SolveError(fmt::format(
+        "the contact problem at t = {:g} s has forces that are not finite numbers: look "
+        "for a load, a prescribed value or a constant that is too large by many powers "
+        "of ten, often a unit",
+        time));
+  if (!solution.is_definite || !(error_of_slips_ <= 1e-2))
+    throw SolveError(fmt::format(
+        "the contact problem at t = {:g} s is too badly conditioned to be solved: round-off leaves "
+        "no digit of the slips certain; {}",
+        time, ill_conditioned_advice));
   std::string places;
   for (std::size_t i = 0; i < std::min<std::size_t>(solution.unsettled.size(), 3); ++i) {
     const output::Vector &p = model_.interface[solution.unsettled[i]].point;
@@ -227,8 +287,8 @@ void CondensedRoute<dim>::share_forces(const std::vector<contact::Admissible<dim
 }
 
 template <int dim>
-StepOutcome CondensedRoute<dim>::advance(double time, std::span<const double> right_side,
-                                         std::span<const double> before, std::span<double> state) {
+StepOutcome CondensedRoute<dim>::solve(double time, std::span<const double> right_side,
+                                       std::span<const double> before, std::span<double> state) {
   Stopwatch watch;
   const VectorXd s = condensed_.reduce(time, right_side, state);
   substitution_seconds_ += watch.lap();
@@ -244,11 +304,47 @@ StepOutcome CondensedRoute<dim>::advance(double time, std::span<const double> ri
   parallel::from_first(std::span(c.data(), static_cast<std::size_t>(c.size())));
   condensed_.expand(c, state);
   substitution_seconds_ += watch.lap();
-  if (!measured_) {
-    backward_error_ = condensed_.body().backward_error(right_side, state, outcome.contact_forces);
-    measured_ = true;
+  return outcome;
+}
+
+// The first step that moves anything tells whether refinement helps, and is taken again if so.
+template <int dim>
+StepOutcome CondensedRoute<dim>::advance(double time, std::span<const double> right_side,
+                                         std::span<const double> before, std::span<double> state) {
+  const VectorXd start = last_increment_;
+  StepOutcome outcome = solve(time, right_side, before, state);
+  const bool moves = std::any_of(state.begin(), state.end(), [](double x) { return x != 0; });
+  if (is_refined() || (!measured_ && moves)) {
+    measure(right_side, state, outcome);
+    if (is_refined() || !(accuracy_.forward_error > worth_refining))
+      return outcome;
+    refine();
+    last_increment_ = start;
+    outcome = solve(time, right_side, before, state);
+    accuracy_ = {};
+    measure(right_side, state, outcome);
   }
   return outcome;
+}
+
+template <int dim>
+void CondensedRoute<dim>::measure(std::span<const double> right_side, std::span<const double> state,
+                                  const StepOutcome &outcome) {
+  const Accuracy now = accuracy(right_side, state, outcome);
+  const auto largest = [](double a, double b) { return std::isnan(a) ? b : larger(a, b); };
+  accuracy_ = {largest(accuracy_.backward_error, now.backward_error),
+               largest(accuracy_.forward_error, now.forward_error)};
+  measured_ = true;
+}
+
+template <int dim>
+Accuracy CondensedRoute<dim>::accuracy(std::span<const double> right_side,
+                                       std::span<const double> state, const StepOutcome &outcome) {
+  condensation::CondensedBody<dim> &body = condensed_.body();
+  const double inside = body.is_refined() ? body.left_by_refinement()
+                                          : body.forward_error(model_.cells, right_side, state);
+  return {body.backward_error(right_side, state, outcome.contact_forces),
+          larger(inside, error_of_slips_)};
 }
 
 template <int dim>
@@ -266,7 +362,9 @@ RouteReport CondensedRoute<dim>::report() const {
   report.electric_and_thermal_unknowns = condensed_.body().n_electric_and_thermal();
   report.factor_entries = statistics.factor_entries;
   report.negative_pivots = statistics.negative_pivots;
-  report.backward_error = backward_error_;
+  report.backward_error = accuracy_.backward_error;
+  report.forward_error = accuracy_.forward_error;
+  report.is_refined = is_refined();
   return report;
 }
 
@@ -274,20 +372,22 @@ template <int dim>
 void CondensedRoute<dim>::save(output::SavedNumbers &numbers) const {
   condensed_.save(numbers);
   numbers.put("last increment", last_increment_);
-  numbers.put("route",
-              {backward_error_, double(measured_), substitution_seconds_, contact_seconds_});
+  numbers.put("route", {accuracy_.backward_error, accuracy_.forward_error, double(measured_),
+                        double(is_refined()), substitution_seconds_, contact_seconds_});
 }
 
 template <int dim>
 void CondensedRoute<dim>::restore(const output::SavedNumbers &numbers) {
+  const auto route = numbers.get("route", 6);
+  accuracy_ = {route[0], route[1]};
+  measured_ = route[2] != 0;
+  if (route[3] != 0 && !is_refined())
+    refine();
+  substitution_seconds_ = route[4];
+  contact_seconds_ = route[5];
   condensed_.restore(numbers);
   if (parallel::is_first())
     numbers.fill("last increment", last_increment_);
-  const auto route = numbers.get("route", 4);
-  backward_error_ = route[0];
-  measured_ = route[1] != 0;
-  substitution_seconds_ = route[2];
-  contact_seconds_ = route[3];
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "tourmaline/solve/connected_body.h"
 
+#include <utility>
+
 #include "tourmaline/error.h"
 #include "tourmaline/parallel/ranks.h"
 #include "tourmaline/solve/electrodes.h"
@@ -47,6 +49,8 @@ ConnectedBody<dim>::ConnectedBody(const Model<dim> &model)
   const std::vector<double> initial = body::initial_state(model.body, model.asked.initial);
   voltages_ = electrode_voltages(model, initial);
   charges_ = initial_charges(model, initial)(circuit_.free());
+  voltages_before_ = voltages_;
+  charges_before_ = charges_;
   add_responses();
 }
 
@@ -56,12 +60,12 @@ void ConnectedBody<dim>::add_responses() {
   const std::vector<double> nothing(model_.n_unknowns(), 0.);
   coupling_.resize(dim * static_cast<Index>(model_.interface.size()), m);
   for (Index e = 0; e < m; ++e) {
-    std::vector<double> psi = nothing, reaction = nothing;
+    std::vector<double> psi = nothing;
     for (const body::Node node : model_.electrodes[circuit_.free()[e]])
       psi[unknown<dim>(node, Fields<dim>::potential)] = 1;
     body_.reduce(nothing, psi);
     body_.expand(VectorXd::Zero(coupling_.rows()), psi);
-    model_.op.multiply(model_.step, psi, reaction);
+    std::vector<double> reaction = product(psi);
     for (std::size_t i = 0; i < model_.interface.size(); ++i)
       for (int c = 0; c < dim; ++c)
         coupling_(dim * static_cast<Index>(i) + c, e) =
@@ -82,6 +86,28 @@ void ConnectedBody<dim>::add_responses() {
     return;
   if (parallel::is_first())
     stiffness_ = body_.stiffness() + coupling_ * admittance_.solve(coupling_.transpose());
+}
+
+template <int dim>
+std::vector<double> ConnectedBody<dim>::product(const std::vector<double> &x) const {
+  std::vector<double> y(x.size());
+  if (body_.is_refined())
+    model_.cells.multiply(model_.step, x, y);
+  else
+    model_.op.multiply(model_.step, x, y);
+  return y;
+}
+
+template <int dim>
+void ConnectedBody<dim>::refine() {
+  body_.refine(model_.cells);
+  if (circuit_.free().empty())
+    return;
+  response_.clear();
+  reaction_.clear();
+  add_responses();
+  charges_ = charges_before_;
+  voltages_ = voltages_before_;
 }
 
 template <int dim>
@@ -128,8 +154,8 @@ void ConnectedBody<dim>::expand(const VectorXd &c, std::span<double> state) {
   for (std::size_t e = 0; e < response_.size(); ++e)
     x += v[static_cast<Index>(e)] *
          Eigen::Map<const VectorXd>(response_[e].data(), static_cast<Index>(state.size()));
-  charges_ = supplied_ - circuit_.admittance() * v;
-  voltages_ = electrode_voltages(model_, state);
+  charges_before_ = std::exchange(charges_, supplied_ - circuit_.admittance() * v);
+  voltages_before_ = std::exchange(voltages_, electrode_voltages(model_, state));
 }
 
 template <int dim>

@@ -2,6 +2,9 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
+
+#include "tourmaline/larger.h"
 
 namespace tourmaline::solve {
 
@@ -13,6 +16,11 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr int sweeps_per_iteration = 3;
+
+// NaN where an entry is.
+double largest_of(const VectorXd &v) {
+  return v.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+}
 
 // Where a point's slip may have to stop on its way: at the kink of its law, and where a known slip
 // makes a bend of it, at that.
@@ -38,6 +46,8 @@ class Iteration {
   double largest_residual() const;
   double force_size() const;
   InterfaceSolution solution() const;
+  /// Whether the last linear system could be factorised.
+  bool is_definite() const { return is_definite_; }
 
  private:
   double largest_eigenvalue(const ContactPoint &p) const;
@@ -46,7 +56,7 @@ class Iteration {
   Tangent friction_force(std::size_t i) const;
   std::vector<std::size_t> smooth_points() const;
   double dissipation(const VectorXd &d) const;
-  VectorXd newton_direction(const std::vector<std::size_t> &smooth) const;
+  std::optional<VectorXd> newton_direction(const std::vector<std::size_t> &smooth) const;
   double length_to_turn(const ContactPoint &p, const VectorXd &direction, Turns turns) const;
   VectorXd truncated(const VectorXd &direction, double length, Turns turns) const;
   bool descends(const VectorXd &next) const;
@@ -55,6 +65,7 @@ class Iteration {
   VectorXd d_;      // slip increments
   VectorXd force_;  // f - A d
   std::vector<double> curvature_;
+  bool is_definite_ = true;
 };
 
 double Iteration::largest_eigenvalue(const ContactPoint &p) const {
@@ -138,7 +149,8 @@ VectorXd Iteration::truncated(const VectorXd &direction, double length, Turns tu
   return next;
 }
 
-VectorXd Iteration::newton_direction(const std::vector<std::size_t> &smooth) const {
+// Nothing where the Hessian, positive definite by theory, is not so in its digits.
+std::optional<VectorXd> Iteration::newton_direction(const std::vector<std::size_t> &smooth) const {
   std::vector<Index> entries;
   for (const std::size_t i : smooth)
     for (Index c = 0; c < programme_.points[i].size; ++c)
@@ -153,8 +165,11 @@ VectorXd Iteration::newton_direction(const std::vector<std::size_t> &smooth) con
     descent.segment(row, p.size) -= p.weight * p.friction.gradient(d);
     row += p.size;
   }
-  const VectorXd solved = hessian.llt().solve(descent);
+  const Eigen::LLT<Eigen::MatrixXd> factor(hessian);
+  if (factor.info() != Eigen::Success)
+    return std::nullopt;
   VectorXd direction = VectorXd::Zero(d_.size());
+  const VectorXd solved = factor.solve(descent);
   direction(entries) = solved;
   return direction;
 }
@@ -171,7 +186,11 @@ bool Iteration::descends(const VectorXd &next) const {
 
 bool Iteration::newton_step() {
   const std::vector<std::size_t> smooth = smooth_points();
-  const VectorXd direction = newton_direction(smooth);
+  const std::optional<VectorXd> found = newton_direction(smooth);
+  is_definite_ = found.has_value();
+  if (!is_definite_)
+    return false;
+  const VectorXd &direction = *found;
   double length = 1;
   VectorXd next = truncated(direction, length, Turns::kinks);
   if (!descends(next))
@@ -201,16 +220,16 @@ double Iteration::residual(std::size_t i) const {
 double Iteration::largest_residual() const {
   double largest = 0;
   for (std::size_t i = 0; i < programme_.points.size(); ++i)
-    largest = std::max(largest, residual(i));
+    largest = larger(largest, residual(i));
   return largest;
 }
 
 double Iteration::force_size() const {
   double size = programme_.force_scale;
   if (d_.size() > 0)
-    size = std::max({size, programme_.force.cwiseAbs().maxCoeff(),
-                     (programme_.stiffness.cwiseAbs() * d_.cwiseAbs()).maxCoeff()});
-  return size > 0 ? size : 1;
+    size = larger(larger(size, largest_of(programme_.force)),
+                  largest_of(programme_.stiffness.cwiseAbs() * d_.cwiseAbs()));
+  return size == 0 ? 1 : size;
 }
 
 InterfaceSolution Iteration::solution() const {
@@ -222,7 +241,8 @@ InterfaceSolution Iteration::solution() const {
     solution.force.segment(p.offset, p.size) = friction_force(i);
     solution.status.push_back(p.friction.status(trial(i), curvature_[i] / p.weight));
   }
-  solution.residual = largest_residual() / force_size();
+  solution.residual = relative_to(largest_residual(), force_size());
+  solution.is_definite = is_definite_;
   return solution;
 }
 
@@ -246,8 +266,9 @@ InterfaceSolution minimise(const InterfaceProgramme &programme, VectorXd start,
   bool converged = false;
   while (true) {
     // The residual force is fresh here: no drift from the sweeps' updates enters the verdict.
-    converged = iteration.largest_residual() <= settings.tolerance * iteration.force_size();
-    if (converged || solved == settings.max_iterations)
+    converged =
+        relative_to(iteration.largest_residual(), iteration.force_size()) <= settings.tolerance;
+    if (converged || solved == settings.max_iterations || !iteration.is_definite())
       break;
     for (int k = 0; k < sweeps_per_iteration; ++k)
       iteration.sweep(k % 2 == 1);
@@ -264,7 +285,7 @@ InterfaceSolution minimise(const InterfaceProgramme &programme, VectorXd start,
     return solution;
   const double allowed = settings.tolerance * iteration.force_size();
   for (std::size_t i = 0; i < programme.points.size(); ++i)
-    if (iteration.residual(i) > allowed)
+    if (!(iteration.residual(i) <= allowed))
       solution.unsettled.push_back(i);
   return solution;
 }

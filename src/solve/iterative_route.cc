@@ -10,6 +10,7 @@
 #include "tourmaline/contact/point_law.h"
 #include "tourmaline/error.h"
 #include "tourmaline/krylov/body_system.h"
+#include "tourmaline/larger.h"
 #include "tourmaline/solve/slip_descent.h"
 #include "tourmaline/stopwatch.h"
 
@@ -42,6 +43,11 @@ class IterativeRoute : public Route, private SlipResponse {
 
   StepOutcome advance(double time, std::span<const double> right_side,
                       std::span<const double> before, std::span<double> state) override;
+  Accuracy accuracy(std::span<const double>, std::span<const double>,
+                    const StepOutcome &) override {
+    return {.backward_error = backward_error_};
+  }
+  Accuracy accuracy_so_far() const override { return {.backward_error = backward_error_}; }
   RouteReport report() const override;
   void save(output::SavedNumbers &numbers) const override;
   void restore(const output::SavedNumbers &numbers) override;
@@ -239,7 +245,7 @@ template <int dim>
 double IterativeRoute<dim>::largest_residual() const {
   double worst = 0;
   for (std::size_t i = 0; i < points_.size(); ++i)
-    worst = std::max(worst, contact_residual(i));
+    worst = larger(worst, contact_residual(i));
   return worst;
 }
 
@@ -253,7 +259,7 @@ double IterativeRoute<dim>::terms_at_contact() const {
   double largest = 0;
   for (std::size_t i = 0; i < points_.size(); ++i)
     for (const std::vector<double> &product : products.of)
-      largest = std::max(largest, displacement(product, i).norm());
+      largest = larger(largest, displacement(product, i).norm());
   return largest;
 }
 
@@ -262,7 +268,7 @@ template <int dim>
 double IterativeRoute<dim>::force_size() const {
   double largest = 1e-300;
   for (std::size_t i = 0; i < points_.size(); ++i)
-    largest = std::max(largest, nodal_force(i).norm());
+    largest = larger(largest, nodal_force(i).norm());
   return largest;
 }
 
@@ -316,7 +322,7 @@ std::array<double, 3> IterativeRoute<dim>::field_sizes() const {
   for (const std::vector<double> &product : products.of) {
     const std::array<double, 3> of_one = norms(product);
     for (int f = 0; f < 3; ++f)
-      sizes[f] = std::max(sizes[f], of_one[f]);
+      sizes[f] = larger(sizes[f], of_one[f]);
   }
   return sizes;
 }
@@ -355,8 +361,8 @@ bool IterativeRoute<dim>::body_is_solved() {
   body_lack_ = 0;
   for (int f = 0; f < 3; ++f)
     if (found[f] > 0)
-      body_lack_ = std::max(body_lack_,
-                            found[f] / (model_.asked.solver.linear_tolerance * sizes[f] + 1e-300));
+      body_lack_ =
+          larger(body_lack_, found[f] / (model_.asked.solver.linear_tolerance * sizes[f] + 1e-300));
   if (!std::isfinite(found[0] + found[1] + found[2]))
     body_lack_ = std::numeric_limits<double>::infinity();
   if (body_lack_ <= 1)
@@ -601,7 +607,7 @@ StepOutcome IterativeRoute<dim>::advance(double time, std::span<const double> ri
   if (!find_fast())
     find_safely(time);
   backward_error_ =
-      std::max(backward_error_, system_.backward_error(newton_residual(), right_side, state));
+      larger(backward_error_, system_.backward_error(newton_residual(), right_side, state));
   StepOutcome done = outcome();
   for (std::size_t i = 0; i < points_.size(); ++i)
     points_[i].slips = !points_[i].is_held() && done.status[i] == ContactStatus::slip;
@@ -635,7 +641,7 @@ StepOutcome IterativeRoute<dim>::outcome() const {
   outcome.friction_forces = outcome.contact_forces;
   for (std::size_t i = 0; i < points_.size(); ++i)
     share_forces(i, outcome);
-  outcome.residual = largest_residual() / force_size();
+  outcome.residual = relative_to(largest_residual(), force_size());
   return outcome;
 }
 

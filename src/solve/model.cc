@@ -54,6 +54,7 @@ Model<dim>::Model(const casefile::Case &asked_for, Built built)
       body(std::move(built.body)),
       op(body, composition,
          asked.mesh.modes == "incompatible" ? body::Modes::incompatible : body::Modes::none),
+      cells(body, composition, op.modes()),
       prescribed(body::prescribed_unknowns(body, asked.boundaries, asked.electrodes)),
       electrodes(body::electrode_nodes<dim>(prescribed, asked.electrodes)),
       loads(body, asked, step, composition.reference_temperature()),
@@ -62,8 +63,10 @@ Model<dim>::Model(const casefile::Case &asked_for, Built built)
   if (asked.contact) {
     interface = contact::interface_nodes(body, asked.contact->on);
     friction = contact::friction_of(asked.contact->friction);
-    if (asked.contact->heat.law == "exchange")
+    if (asked.contact->heat.law == "exchange") {
       op.add_exchange(body, asked.contact->on, asked.contact->heat.coefficient);
+      cells.add_exchange(asked.contact->on, asked.contact->heat.coefficient);
+    }
   }
   assemble_seconds = built.since_mesh.lap();
 }

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "tourmaline/body/backward_error.h"
 #include "tourmaline/contact/bilateral.h"
 #include "tourmaline/error.h"
+#include "tourmaline/larger.h"
 #include "tourmaline/parallel/ranks.h"
 #include "tourmaline/solve/saddle_newton.h"
 
@@ -43,6 +46,9 @@ class MonolithicRoute : public Route {
 
   StepOutcome advance(double time, std::span<const double> right_side,
                       std::span<const double> before, std::span<double> state) override;
+  Accuracy accuracy(std::span<const double> right_side, std::span<const double> state,
+                    const StepOutcome &outcome) override;
+  Accuracy accuracy_so_far() const override { return {backward_error_, forward_error_}; }
   RouteReport report() const override;
   void save(output::SavedNumbers &numbers) const override;
   void restore(const output::SavedNumbers &numbers) override;
@@ -66,7 +72,7 @@ class MonolithicRoute : public Route {
   SaddleSystem<dim> system_;
   double area_ = 0;  // of the contact boundary [m^(dim-1)]
   SaddlePoint x_;
-  double backward_error_ = 0;
+  double backward_error_ = 0, forward_error_ = std::numeric_limits<double>::quiet_NaN();
   // of the steps before this process, if it goes on with a run
   int factorisations_ = 0;
   double factorise_seconds_ = 0, substitution_seconds_ = 0;
@@ -124,7 +130,7 @@ StepOutcome MonolithicRoute<dim>::advance(double time, std::span<const double> r
     give_up(time, newton);
   x_ = newton.x();
   const Verdict verdict = newton.verdict();
-  backward_error_ = std::max(backward_error_, verdict.body());
+  backward_error_ = larger(backward_error_, verdict.body());
   StepOutcome outcome;
   outcome.newton_iterations = newton.iterations();
   outcome.residual = verdict.worst();
@@ -133,7 +139,29 @@ StepOutcome MonolithicRoute<dim>::advance(double time, std::span<const double> r
     settle(data, outcome.status);
   share_forces(data, outcome);
   std::copy(x_.body.begin(), x_.body.end(), state.begin());
+  if (std::isnan(forward_error_) &&
+      std::any_of(state.begin(), state.end(), [](double x) { return x != 0; }))
+    forward_error_ = accuracy(right_side, state, outcome).forward_error;
   return outcome;
+}
+
+// What the last tangent answers to what x leaves of the body's equations, over x. The residual is
+// computed cell by cell, as the round-off of assembled entries would stay unseen otherwise.
+template <int dim>
+Accuracy MonolithicRoute<dim>::accuracy(std::span<const double> right_side,
+                                        std::span<const double> state, const StepOutcome &outcome) {
+  if (system_.factorisation().count() == 0)
+    return {backward_error_, forward_error_};
+  SaddlePoint residual{std::vector<double>(state.size()), VectorXd::Zero(x_.multipliers.size())};
+  model_.cells.multiply(model_.step, state, residual.body);
+  for (std::size_t i = 0; i < state.size(); ++i)
+    residual.body[i] -= right_side[i];
+  for (std::size_t n = 0; n < model_.interface.size(); ++n)
+    for (int c = 0; c < dim; ++c)
+      residual.body[body::unknown<dim>(model_.interface[n].node, c)] -=
+          outcome.contact_forces[dim * static_cast<Index>(n) + c];
+  return {backward_error_, body::relative_size<dim>(system_.increment(residual).body, state,
+                                                    system_.field_scales())};
 }
 
 // A node slips when the multiplier's point does: itself, or any of the facets around it.
@@ -282,6 +310,7 @@ RouteReport MonolithicRoute<dim>::report() const {
   report.factor_entries = statistics.factor_entries;
   report.factor_flops = statistics.flops;
   report.backward_error = backward_error_;
+  report.forward_error = forward_error_;
   return report;
 }
 
@@ -290,18 +319,19 @@ template <int dim>
 void MonolithicRoute<dim>::save(output::SavedNumbers &numbers) const {
   const RouteReport so_far = report();
   numbers.put("multipliers", x_.multipliers);
-  numbers.put("route", {backward_error_, double(so_far.factorisations), so_far.factorise_seconds,
-                        so_far.substitution_seconds});
+  numbers.put("route", {backward_error_, forward_error_, double(so_far.factorisations),
+                        so_far.factorise_seconds, so_far.substitution_seconds});
 }
 
 template <int dim>
 void MonolithicRoute<dim>::restore(const output::SavedNumbers &numbers) {
   numbers.fill("multipliers", x_.multipliers);
-  const auto route = numbers.get("route", 4);
+  const auto route = numbers.get("route", 5);
   backward_error_ = route[0];
-  factorisations_ = static_cast<int>(route[1]);
-  factorise_seconds_ = route[2];
-  substitution_seconds_ = route[3];
+  forward_error_ = route[1];
+  factorisations_ = static_cast<int>(route[2]);
+  factorise_seconds_ = route[3];
+  substitution_seconds_ = route[4];
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "tourmaline/body/derived.h"
 #include "tourmaline/parallel/ranks.h"
+#include "tourmaline/solve/step_check.h"
 #include "tourmaline/stopwatch.h"
 
 namespace tourmaline::solve {
@@ -44,7 +45,9 @@ void Recorder<dim>::initial(std::span<const double> state) {
   balance_.emplace(model_, state);
   const std::vector<output::NamedBoundary> boundaries = model_.body.boundaries();
   parallel::on_first([&] { folder_.put_boundaries(boundaries); });
-  put_fields(0, state);
+  StepCheck(0, 0).state(dim, model_.body.points(), state);
+  if (has_fields(0))
+    put_fields(0, state, checked_fields(0, state));
   seconds_ += watch.lap();
 }
 
@@ -52,12 +55,14 @@ template <int dim>
 void Recorder<dim>::restore(std::span<const double> state, const output::SavedNumbers &numbers) {
   balance_.emplace(model_, state);
   balance_->restore(numbers);
+  judgement_.restore(numbers);
   seconds_ = numbers.get("output seconds", 1)[0];
 }
 
 template <int dim>
 void Recorder<dim>::save(output::SavedNumbers &numbers) const {
   balance_->save(numbers);
+  judgement_.save(numbers);
   numbers.put("output seconds", {seconds_});
 }
 
@@ -65,9 +70,12 @@ template <int dim>
 output::HistoryRow Recorder<dim>::step(int n, const StepOutcome &outcome,
                                        std::span<const double> loads,
                                        std::span<const double> before,
-                                       std::span<const double> state) {
+                                       std::span<const double> state, const Route &route,
+                                       const std::function<Accuracy()> &measure) {
   Stopwatch watch;
   const double time = model_.time(n);
+  const StepCheck check(n, time);
+  check.state(dim, model_.body.points(), state);
   output::HistoryRow row;
   row.step = n;
   row.time = time;
@@ -77,20 +85,48 @@ output::HistoryRow Recorder<dim>::step(int n, const StepOutcome &outcome,
       std::count(outcome.status.begin(), outcome.status.end(), output::ContactStatus::stick);
   row.slip = std::count(outcome.status.begin(), outcome.status.end(), output::ContactStatus::slip);
   row.open = std::count(outcome.status.begin(), outcome.status.end(), output::ContactStatus::open);
-  if (model_.asked.contact) {
-    const std::vector<output::ContactRow> rows = contact_rows(n, outcome, before, state);
-    parallel::on_first([&] { folder_.put_contact(n, time, rows); });
-  }
-  row.quantities = balance_->step(time, loads, outcome, state);
+  std::vector<output::ContactRow> rows;
+  if (model_.asked.contact)
+    rows = contact_rows(n, outcome, before, state);
+  check.contact(rows);
+  row.quantities = balance_->step(time, loads, outcome, state, route.is_refined());
   for (const output::Extreme &e : extremes(state)) {
     row.quantities.emplace_back("min_" + e.field, e.minimum);
     row.quantities.emplace_back("max_" + e.field, e.maximum);
   }
-  parallel::on_first([&] { folder_.put_history(row); });
-  if (n % model_.asked.output.every == 0 || n == model_.asked.time.steps)
-    put_fields(n, state);
+  check.quantities(row.quantities);
+  check.quantities({{"residual", row.residual}});
+  judgement_.step(n, time, balance_->judged(), measure);
+  judgement_.forward_error(n, time, route.accuracy_so_far());
+  output::CellFields cells;
+  if (has_fields(n))
+    cells = checked_fields(n, state);
+  parallel::on_first([&] {
+    if (model_.asked.contact)
+      folder_.put_contact(n, time, rows);
+    folder_.put_history(row);
+  });
+  if (has_fields(n))
+    put_fields(n, state, cells);
   seconds_ += watch.lap();
   return row;
+}
+
+template <int dim>
+bool Recorder<dim>::has_fields(int n) const {
+  return model_.asked.output.fields &&
+         (n % model_.asked.output.every == 0 || n == model_.asked.time.steps);
+}
+
+template <int dim>
+output::CellFields Recorder<dim>::checked_fields(int n, std::span<const double> state) {
+  prepare_fields();
+  output::CellFields cells;
+  parallel::together([&] {
+    cells = body::derived_fields(model_.body, model_.composition, state);
+    StepCheck(n, model_.time(n)).fields(grid_, cells);
+  });
+  return cells;
 }
 
 template <int dim>
@@ -116,19 +152,14 @@ void Recorder<dim>::prepare_fields() {
   for (std::size_t i = grid_.points.size(); i < regional.size(); ++i)
     grid_.points.push_back(grid_.points[regional.node(i)]);
   for (std::size_t i = 0; i < grid_.connectivity.size(); ++i)
-    grid_.connectivity[i] = regional.number(
-        grid_.connectivity[i], regional.regions_of_cells()[i / grid_.nodes_per_cell]);
+    grid_.connectivity[i] = regional.number(grid_.connectivity[i],
+                                            regional.regions_of_cells()[i / grid_.nodes_per_cell]);
   nodes_ = output::keep_used_points(grid_);
 }
 
 template <int dim>
-void Recorder<dim>::put_fields(int n, std::span<const double> state) {
-  if (!model_.asked.output.fields)
-    return;
-  prepare_fields();
-  output::CellFields cells;
-  parallel::together(
-      [&] { cells = body::derived_fields(model_.body, model_.composition, state); });
+void Recorder<dim>::put_fields(int n, std::span<const double> state,
+                               const output::CellFields &cells) {
   const std::vector<output::SymmetricTensor> stress =
       (*recovery_)(model_.composition, state, cells.stress);
   parallel::together([&] {

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "tourmaline/larger.h"
+
 namespace tourmaline::solve {
 
 using contact::AugmentedLagrangian;
@@ -19,10 +21,6 @@ constexpr int patience = 4;
 // about a tenth of the distance to the solution at most.
 constexpr double stronger = 10;
 
-double ratio(double residual, double size) {
-  return residual == 0 ? 0 : residual / size;
-}
-
 double dot(const std::vector<double> &a, const std::vector<double> &b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.);
 }
@@ -30,19 +28,20 @@ double dot(const std::vector<double> &a, const std::vector<double> &b) {
 }  // namespace
 
 double Verdict::body() const {
-  return std::max({blocks[0], blocks[1], blocks[2]});
+  return larger(larger(blocks[0], blocks[1]), blocks[2]);
 }
 
 double Verdict::without_law() const {
-  return std::max(body(), blocks[3]);
+  return larger(body(), blocks[3]);
 }
 
 double Verdict::worst() const {
-  return std::max(without_law(), blocks[4]);
+  return larger(without_law(), blocks[4]);
 }
 
 const char *Verdict::worst_name() const {
-  return names[std::max_element(blocks.begin(), blocks.end()) - blocks.begin()];
+  const auto is_worse = [](double a, double b) { return !std::isnan(a) && !(b <= a); };
+  return names[std::max_element(blocks.begin(), blocks.end(), is_worse) - blocks.begin()];
 }
 
 template <int dim>
@@ -179,15 +178,15 @@ Verdict SaddleNewton<dim>::judge(const StepData &data) const {
   const auto sizes = system_.row_sizes(data, x_);
   verdict.force_size = sizes[0];
   for (std::size_t field = 0; field < 3; ++field)
-    verdict.blocks[field] = ratio(rows[field], sizes[field]);
+    verdict.blocks[field] = relative_to(rows[field], sizes[field]);
   double gap = 0, law = 0;
   for (std::size_t p = 0; p < data.laws.size(); ++p) {
     if (data.laws[p].has_normal)
-      gap = std::max(gap, std::abs(system_.displacement(p, x_, data.before)[0]));
-    law = std::max(law, law_residual(p));
+      gap = larger(gap, std::abs(system_.displacement(p, x_, data.before)[0]));
+    law = larger(law, law_residual(p));
   }
-  verdict.blocks[3] = ratio(gap, system_.largest_displacement(x_));
-  verdict.blocks[4] = ratio(law, verdict.force_size);
+  verdict.blocks[3] = relative_to(gap, system_.largest_displacement(x_));
+  verdict.blocks[4] = relative_to(law, verdict.force_size);
   return verdict;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tourmaline/condensation/ordering.h"
+#include "tourmaline/larger.h"
 #include "tourmaline/parallel/ranks.h"
 #include "tourmaline/stopwatch.h"
 
@@ -79,8 +80,10 @@ void SaddleSystem<dim>::set_scales(const std::vector<double> &diagonal) {
   std::array<double, 3> largest{};
   for (std::size_t i = 0; i < diagonal.size(); ++i)
     largest[field_of<dim>(i)] = std::max(largest[field_of<dim>(i)], std::abs(diagonal[i]));
+  for (int c = 0; c < Fields<dim>::count; ++c)
+    field_scale_[c] = 1 / std::sqrt(largest[field_of<dim>(c)]);
   for (const std::size_t i : unknown_of_)
-    scale_.push_back(1 / std::sqrt(largest[field_of<dim>(i)]));
+    scale_.push_back(field_scale_[i % Fields<dim>::count]);
   // The coupling w dy/du between a multiplier and a displacement then has entries of the size 1.
   for (const Point &point : points_)
     scale_.insert(scale_.end(), point.n_multipliers(), std::sqrt(largest[0]) / point.weight);
@@ -194,7 +197,7 @@ double SaddleSystem<dim>::largest_displacement(const SaddlePoint &x) const {
   double largest = 0;
   for (std::size_t i = 0; i < x.body.size(); ++i)
     if (field_of<dim>(i) == 0)
-      largest = std::max(largest, std::abs(x.body[i]));
+      largest = larger(largest, std::abs(x.body[i]));
   return largest;
 }
 
@@ -205,7 +208,7 @@ std::array<double, 3> SaddleSystem<dim>::row_sizes(const StepData &data,
   std::array<double, 3> sizes{};
   for (const std::size_t i : unknown_of_)
     sizes[field_of<dim>(i)] =
-        std::max(sizes[field_of<dim>(i)], std::abs(data.right_side[i]) + terms[i]);
+        larger(sizes[field_of<dim>(i)], std::abs(data.right_side[i]) + terms[i]);
   return sizes;
 }
 
@@ -213,7 +216,7 @@ template <int dim>
 std::array<double, 3> SaddleSystem<dim>::largest_rows(const SaddlePoint &residual) const {
   std::array<double, 3> largest{};
   for (const std::size_t i : unknown_of_)
-    largest[field_of<dim>(i)] = std::max(largest[field_of<dim>(i)], std::abs(residual.body[i]));
+    largest[field_of<dim>(i)] = larger(largest[field_of<dim>(i)], std::abs(residual.body[i]));
   return largest;
 }
 

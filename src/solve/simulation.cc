@@ -26,6 +26,7 @@
 #include "tourmaline/solve/recorder.h"
 #include "tourmaline/solve/resumption.h"
 #include "tourmaline/solve/schedule.h"
+#include "tourmaline/solve/step_check.h"
 #include "tourmaline/solve/survey.h"
 #include "tourmaline/solve/versions.h"
 #include "tourmaline/stopwatch.h"
@@ -33,6 +34,11 @@
 namespace tourmaline::solve {
 
 namespace {
+
+void say(const std::string &text, bool quiet) {
+  if (!quiet && parallel::is_first())
+    std::cerr << "tourmaline: " << text << '\n';
+}
 
 template <int dim>
 class Simulation {
@@ -216,15 +222,21 @@ template <int dim>
 void Simulation<dim>::step(int n) {
   Stopwatch watch;
   sum_loads(model_.time(n));
+  StepCheck(n, model_.time(n)).loads(dim, model_.body.points(), loads_);
   right_side_ = loads_;
-  model_.op.add_history(state_, right_side_);
+  if (route_->is_refined())
+    model_.cells.add_history(state_, right_side_);
+  else
+    model_.op.add_history(state_, right_side_);
   const StepOutcome outcome = advance(n);
   newton_total_ += outcome.newton_iterations;
   newton_max_ = std::max(newton_max_, outcome.newton_iterations);
   if (n == 1)
     newton_first_ = outcome.newton_iterations;
   step_seconds_ += watch.lap();
-  const output::HistoryRow row = recorder_->step(n, outcome, loads_, state_, next_);
+  const output::HistoryRow row = recorder_->step(n, outcome, loads_, state_, next_, *route_, [&] {
+    return route_->accuracy(right_side_, next_, outcome);
+  });
   highlights_.see(row);
   locking_->step(row, next_);
   progress_.step(row);
@@ -325,13 +337,6 @@ void Simulation<dim>::tell(const output::Summary &done, int signal) const {
   if (!quiet_)
     std::cout << ending_text(dim, highlights_, done.extremes) << places_text(folder_->directory())
               << std::flush;
-  progress_.done();
-  if (parallel::is_first())
-    for (const std::string &warning : done.warnings)
-      std::cerr << "tourmaline: warning: " << warning << '\n';
-  put_report();
-  parallel::on_first([&] { folder_->remove_checkpoint(); });
-  progress_.done();
 }
 
 // Everything that later steps, or what is told of the run at its end, depend on.
@@ -433,6 +438,9 @@ output::Summary Simulation<dim>::summary() const {
   if (report.negative_pivots >= 0)
     summary.negative_pivots = report.negative_pivots;
   summary.backward_error = report.backward_error;
+  summary.forward_error = report.forward_error;
+  summary.is_refined = report.is_refined;
+  summary.warnings = recorder_->warnings();
   summary.extremes = recorder_->extremes(state_);
   summary.materials = materials_of(model_.asked);
   summary.seconds.mesh = model_.mesh_seconds;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "tourmaline/larger.h"
+
 namespace tourmaline::solve {
 
 namespace {
@@ -67,7 +69,7 @@ Tangent Descent::friction_force(std::size_t i, double r) const {
 double Descent::largest_residual() const {
   double largest = 0;
   for (std::size_t i = 0; i < points_.size(); ++i)
-    largest = std::max(largest, residual(i));
+    largest = larger(largest, residual(i));
   return largest;
 }
 

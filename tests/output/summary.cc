@@ -18,6 +18,8 @@ Summary whole_summary() {
   summary.factorisations = 1;
   summary.negative_pivots = 8;
   summary.backward_error = 0.5;
+  summary.forward_error = 0.25;
+  summary.is_refined = true;
   summary.extremes = {{"potential", -0., 0.1, {0, 0.5, 0}, {1, -0., 0}}};
   summary.seconds.mesh = 0.25;
   summary.seconds.step = {2, 0.125, 2};
@@ -47,6 +49,8 @@ TEST(SummaryText, ItHasTheKeysOfTheContractInTheirOrder) {
   "factorisations": 1,
   "negative_pivots": 8,
   "backward_error": 0.5,
+  "forward_error": 0.25,
+  "refined": true,
   "extremes": [
     {
       "field": "potential",

@@ -142,5 +142,27 @@ TEST(InterfaceNewton, WhereDirectionsOfSlipTurnTheResidualFallsQuadratically) {
   EXPECT_GE(squared, 3);
 }
 
+// Two points on lines, coupled by `coupling`.
+Problem two_points(double coupling, double force) {
+  Problem problem;
+  problem.stiffness = MatrixXd{{1, coupling}, {coupling, 1}};
+  problem.force = VectorXd::Constant(2, force);
+  for (int i = 0; i < 2; ++i) {
+    problem.points.push_back({i, 1, 1., contact::Tresca{0.1}});
+    problem.bounds.push_back(0.1);
+  }
+  return problem;
+}
+
+TEST(InterfaceNewton, ForcesThatAreNotFiniteAreNoSolution) {
+  for (const double force : {std::nan(""), HUGE_VAL})
+    EXPECT_FALSE(two_points(0.5, force).solve(VectorXd::Zero(2)).converged);
+}
+
+TEST(InterfaceNewton, StiffnessThatIsNotPositiveDefiniteIsTold) {
+  const InterfaceSolution solution = two_points(2, 1).solve(VectorXd::Ones(2));
+  EXPECT_FALSE(solution.converged && solution.is_definite);
+}
+
 }  // namespace
 }  // namespace tourmaline::solve

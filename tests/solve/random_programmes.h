@@ -26,7 +26,7 @@ struct Problem {
 // force, or, where the bend at z = 0 is sharp, as the distance to the slip that has this force,
 // times the stiffness.
 inline double lack(const VectorXd &z, const VectorXd &o, const VectorXd &f, double bound,
-            double stiffness) {
+                   double stiffness) {
   const double size = std::hypot(z.norm(), o.norm());
   if (size == 0)
     return std::max(0., f.norm() - bound);

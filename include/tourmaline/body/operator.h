@@ -88,6 +88,8 @@ class Operator {
   /// storage x, field by field; `products` is overwritten.
   void multiply_by_field(std::span<const double> x, FieldProducts &products) const;
 
+  /// The incompatible modes of this rank's cells, in the order of `for_each_cell`; empty without.
+  const std::vector<CellModes<dim>> &modes() const { return modes_; }
   /// What the modes of state x shift between the parts of the stored energy [J]: the forms of the
   /// condensed `storage` add up to the whole, but each form is the energy of its own field only
   /// together with this. Its sum is zero; without modes it is nothing.

@@ -48,6 +48,8 @@ struct Summary {
   std::int64_t factorisations = 0;                 // of the body's operator
   std::optional<std::int64_t> negative_pivots;     // where the factorisation counts them
   double backward_error = Seconds::none;           // largest of the run's linear solves, relative
+  double forward_error = Seconds::none;            // estimate of the largest, relative
+  bool is_refined = false;                         // whether the solutions were refined
   std::vector<Extreme> extremes;
   Seconds seconds;
   std::vector<MaterialRecord> materials;
@@ -56,7 +58,8 @@ struct Summary {
 };
 
 /// summary.json: the keys case, versions, inputs, sizes, iterations, factorisations,
-/// negative_pivots, backward_error, extremes, materials, seconds, memory (bytes), warnings, in this
+/// negative_pivots, backward_error, forward_error, refined, extremes, materials, seconds, memory
+/// (bytes), warnings, in this
 /// order. Numbers read back as they were; what is not finite or not known is null. Places have
 /// `dimension` coordinates.
 std::string summary_text(int dimension, const Summary &summary);

@@ -33,8 +33,14 @@ class Balance {
 
   /// Columns of history.csv for the step that ends at `time` with `state`. `loads` is the
   /// right-hand side without history; of the outcome the forces at the contact are used.
+  /// Products are computed cell by cell where the route is refined, and where round-off of the
+  /// assembled ones may be what an imbalance shows.
   Columns step(double time, std::span<const double> loads, const StepOutcome &outcome,
-               std::span<const double> state);
+               std::span<const double> state, bool is_refined);
+
+  /// The imbalances of the last step as they are to be judged: a balance all of whose terms are
+  /// round-off lacks nothing.
+  const Columns &judged() const { return judged_; }
 
   /// What the next step compares with, besides the state: that of the checkpoint is what the
   /// balance to be restored was made with.
@@ -46,10 +52,17 @@ class Balance {
   struct Step;
 
   std::vector<double> by_unknown(const Eigen::VectorXd &forces) const;
-  void add_forces(const Step &step, Columns &columns) const;
-  void add_charges(const Step &step, Columns &columns) const;
-  void add_electrodes(const Step &step, Columns &columns);
-  void add_heat(const Step &step, Columns &columns) const;
+  Step step_of(double time, std::span<const double> loads, const StepOutcome &outcome,
+               std::span<const double> state, bool cell_by_cell);
+  body::FieldProducts products(std::span<const double> state, bool cell_by_cell) const;
+  void measure_round_off(Step &step) const;
+  Columns columns_of(const Step &step);
+  void put_imbalance(const std::string &name, double value, double size, double round_off,
+                     Columns &columns);
+  void add_forces(const Step &step, Columns &columns);
+  void add_charges(const Step &step, Columns &columns);
+  void add_electrodes(const Step &step, Columns &columns) const;
+  void add_heat(const Step &step, Columns &columns);
   void add_energy(const Step &step, Columns &columns);
   std::vector<std::pair<body::Node, double>> exchange_weights(const std::string &boundary) const;
   double smallest_heat() const;
@@ -62,7 +75,8 @@ class Balance {
   std::vector<double> charges_;        // electric right-hand side of that state, reactions included
   double stored_ = 0;                  // energy of that state [J]
   double smallest_heat_ = 0;           // [W]
-  std::vector<bool> is_prescribed_;    // by unknown
+  Columns judged_;
+  std::vector<bool> is_prescribed_;  // by unknown
   std::vector<std::string> heat_boundaries_, charge_boundaries_;
   std::map<std::string, std::vector<std::pair<body::Node, double>>>
       exchange_;  // integral of k_c N_i

@@ -35,7 +35,11 @@ class ConnectedBody {
   /// Ends the step: its charges and voltages are what the next one starts from.
   void expand(const Eigen::VectorXd &c, std::span<double> state);
 
+  /// As of `CondensedBody`; the step at hand is to be solved again, from `reduce` on.
+  void refine();
+
   const condensation::CondensedBody<dim> &body() const { return body_; }
+  condensation::CondensedBody<dim> &body() { return body_; }
 
   /// As of `Route`.
   void save(output::SavedNumbers &numbers) const;
@@ -43,6 +47,7 @@ class ConnectedBody {
 
  private:
   void add_responses();
+  std::vector<double> product(const std::vector<double> &x) const;
   Eigen::VectorXd charges_at_rest(std::span<const double> right_side,
                                   std::span<const double> state) const;
 
@@ -54,7 +59,8 @@ class ConnectedBody {
   Eigen::MatrixXd coupling_;                              // G [C/m]
   Eigen::LLT<Eigen::MatrixXd> admittance_;                // C + Y [F]
   Eigen::MatrixXd stiffness_;
-  Eigen::VectorXd charges_, voltages_;   // of the last step: of the free electrodes, of all
+  Eigen::VectorXd charges_, voltages_;  // of the last step: of the free electrodes, of all
+  Eigen::VectorXd charges_before_, voltages_before_;  // of the step before it
   Eigen::VectorXd supplied_, released_;  // of this step: j, and what is left of it for V [C]
 };
 

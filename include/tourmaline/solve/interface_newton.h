@@ -41,6 +41,7 @@ struct InterfaceSolution {
   int iterations = 0;                         ///< linear systems solved
   double residual = 0;                        ///< natural residual over the size of the forces
   bool converged = false;
+  bool is_definite = true;             ///< false: a linear system could not be factorised
   std::vector<std::size_t> unsettled;  ///< points that carry the residual, if not converged
 };
 

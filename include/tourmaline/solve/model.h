@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tourmaline/body/cell_products.h"
 #include "tourmaline/body/conditions.h"
 #include "tourmaline/body/loads.h"
 #include "tourmaline/body/operator.h"
@@ -17,12 +18,14 @@ struct Model {
   /// On a mesh of the caller's, whose boundaries the case names, of one material; `asked_for.mesh`
   /// says only the degree.
   Model(const casefile::Case &asked_for, mesh::Mesh<dim> mesh);
+  Model(const Model &) = delete;  // its members refer to each other
 
   casefile::Case asked;
   double step;  ///< k [s]
   material::Composition<dim> composition;
   body::Discretisation<dim> body;
   body::Operator<dim> op;
+  body::CellProducts<dim> cells;  ///< the products of `op`, cell by cell
   std::vector<body::Prescribed> prescribed;
   std::vector<std::vector<body::Node>> electrodes;  ///< nodes by electrode of the case
   body::Loads<dim> loads;

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "tourmaline/body/recovery.h"
 #include "tourmaline/output/result_folder.h"
 #include "tourmaline/solve/balance.h"
+#include "tourmaline/solve/judgement.h"
 #include "tourmaline/solve/model.h"
 #include "tourmaline/solve/route.h"
 
@@ -23,14 +25,19 @@ class Recorder {
   void restore(std::span<const double> state, const output::SavedNumbers &numbers);
   void save(output::SavedNumbers &numbers) const;
   /// Writes step n; returns its line of history. `loads` is the step's right-hand side without
-  /// history.
+  /// history, `route` the one that has taken the step. Throws SolveError, and then nothing of the
+  /// step is written, where a number is not finite or `Judgement` fails the step; `measure` is for
+  /// it.
   output::HistoryRow step(int n, const StepOutcome &outcome, std::span<const double> loads,
-                          std::span<const double> before, std::span<const double> state);
+                          std::span<const double> before, std::span<const double> state,
+                          const Route &route, const std::function<Accuracy()> &measure);
   /// The last state's nodes, and the tables into place.
   void finish(std::span<const double> state);
 
   std::vector<output::Extreme> extremes(std::span<const double> state) const;
   double seconds() const { return seconds_; }
+  /// About the steps so far.
+  std::vector<std::string> warnings() const { return judgement_.warnings(); }
 
  private:
   output::PointFields point_fields(std::span<const double> state,
@@ -39,7 +46,9 @@ class Recorder {
                                                std::span<const double> before,
                                                std::span<const double> state) const;
   void prepare_fields();
-  void put_fields(int n, std::span<const double> state);
+  bool has_fields(int n) const;
+  output::CellFields checked_fields(int n, std::span<const double> state);
+  void put_fields(int n, std::span<const double> state, const output::CellFields &cells);
   double heat_coefficient(const output::Vector &point) const;
 
   const Model<dim> &model_;
@@ -49,6 +58,7 @@ class Recorder {
   output::Grid grid_;                 // this rank's cells and the nodes they use, by region
   std::vector<std::uint32_t> nodes_;  // of the grid: regional nodes
   std::optional<Balance<dim>> balance_;
+  Judgement judgement_;
   double seconds_ = 0;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -33,7 +34,15 @@ struct RouteReport {
   int krylov_largest = 0;             ///< of one linear system
   int preconditioners = 0;            ///< made in the run
   int safe_steps = -1;  ///< in which a safe stage followed the fast one; -1: not of this route
-  double backward_error = 0;          ///< largest over the steps in which it was measured
+  double backward_error = 0;  ///< largest over the steps in which it was measured
+  double forward_error = std::numeric_limits<double>::quiet_NaN();  ///< likewise
+  bool is_refined = false;                                          ///< by iterative refinement
+};
+
+/// How far the digits of a step's solution can be trusted; NaN where it was not measured.
+struct Accuracy {
+  double backward_error = std::numeric_limits<double>::quiet_NaN();  ///< of the linear equations
+  double forward_error = std::numeric_limits<double>::quiet_NaN();   ///< estimate, of the unknowns
 };
 
 /// A way to solve the nonlinear system of one step, (31)-(35).
@@ -46,6 +55,14 @@ class Route {
   /// the state of the last step. Throws SolveError when the iteration does not converge.
   virtual StepOutcome advance(double time, std::span<const double> right_side,
                               std::span<const double> before, std::span<double> state) = 0;
+
+  /// Of the step that `advance` has just taken, measured now.
+  virtual Accuracy accuracy(std::span<const double> right_side, std::span<const double> state,
+                            const StepOutcome &outcome) = 0;
+  /// The largest of the steps in which it was measured.
+  virtual Accuracy accuracy_so_far() const = 0;
+  /// Whether products that belong to this route's states are those of `Model::cells`.
+  virtual bool is_refined() const { return false; }
 
   virtual RouteReport report() const = 0;
 

@@ -66,6 +66,8 @@ class SaddleSystem {
   std::vector<double> body_times(const std::vector<double> &x) const;
   double largest_displacement(const SaddlePoint &x) const;  ///< of a component [m]
 
+  /// Of the components of a node.
+  const std::array<double, body::Fields<dim>::count> &field_scales() const { return field_scale_; }
   bool is_free(std::size_t unknown) const { return variable_of_[unknown] >= 0; }
   std::size_t n_variables() const { return scale_.size(); }
   std::size_t n_multipliers() const { return scale_.size() - unknown_of_.size(); }
@@ -93,7 +95,8 @@ class SaddleSystem {
   std::vector<int> variable_of_;         // by unknown of the body; -1: prescribed
   std::vector<std::size_t> unknown_of_;  // by variable; multipliers follow
   std::vector<double> scale_;            // by variable
-  std::vector<double> stiffness_;        // by point
+  std::array<double, body::Fields<dim>::count> field_scale_{};
+  std::vector<double> stiffness_;  // by point
   std::size_t n_body_entries_ = 0;
   double substitution_seconds_ = 0;
   std::optional<condensation::SaddleFactorisation> factorisation_;

@@ -1,0 +1,263 @@
+#include "tourmaline/body/cell_products.h"
+
+#include "tourmaline/parallel/ranks.h"
+
+namespace tourmaline::body {
+
+namespace {
+
+template <int dim>
+using Vector = Eigen::Matrix<double, dim, 1>;
+template <int dim>
+using Tensor = Eigen::Matrix<double, dim, dim>;
+template <int dim>
+using Strain = Eigen::Matrix<double, material::n_strains<dim>, 1>;
+
+// Engineering strain of a displacement gradient H_ij = du_i/dx_j.
+Strain<2> strain_of(const Tensor<2> &h) {
+  return {h(0, 0), h(1, 1), h(0, 1) + h(1, 0)};
+}
+
+Strain<3> strain_of(const Tensor<3> &h) {
+  Strain<3> e;
+  e << h(0, 0), h(1, 1), h(2, 2), h(1, 2) + h(2, 1), h(0, 2) + h(2, 0), h(0, 1) + h(1, 0);
+  return e;
+}
+
+Tensor<2> stress_tensor(const Strain<2> &s) {
+  Tensor<2> t;
+  t << s[0], s[2], s[2], s[1];
+  return t;
+}
+
+Tensor<3> stress_tensor(const Strain<3> &s) {
+  Tensor<3> t;
+  t << s[0], s[5], s[4], s[5], s[1], s[3], s[4], s[3], s[2];
+  return t;
+}
+
+// The fields at one quadrature point.
+template <int dim>
+struct Point {
+  Strain<dim> strain;
+  Vector<dim> potential_gradient = Vector<dim>::Zero(), temperature_gradient = Vector<dim>::Zero();
+  double temperature = 0;
+};
+
+// Of a cell's incompatible modes.
+template <int dim>
+using Amplitudes = Eigen::Matrix<double, CellModes<dim>::n_amplitudes, 1>;
+
+template <int dim>
+Vector<dim> gradient(const Quadrature<dim> &cell, std::size_t q, std::size_t a) {
+  return Eigen::Map<const Vector<dim>>(cell.gradient(q, a).data());
+}
+
+template <int dim>
+Point<dim> fields_at(const Quadrature<dim> &cell, std::size_t q, std::span<const double> x) {
+  Point<dim> p;
+  Tensor<dim> h = Tensor<dim>::Zero();
+  const double *first = &x[unknown<dim>(cell.nodes[0], 0)];
+  for (std::size_t a = 0; a < cell.nodes.size(); ++a) {
+    const double *at = &x[unknown<dim>(cell.nodes[a], 0)];
+    const Vector<dim> g = gradient(cell, q, a);
+    for (int i = 0; i < dim; ++i)
+      h.row(i) += (at[i] - first[i]) * g.transpose();
+    p.potential_gradient += (at[dim] - first[dim]) * g;
+    p.temperature_gradient += (at[dim + 1] - first[dim + 1]) * g;
+    p.temperature += cell.value(q, a) * at[dim + 1];
+  }
+  p.strain = strain_of(h);
+  return p;
+}
+
+// What of p one field makes, with the modes' amplitudes that the same field causes.
+template <int dim>
+Point<dim> part_of(const Point<dim> &p, int field, const Quadrature<dim> &cell, std::size_t q,
+                   const Amplitudes<dim> &modes) {
+  Point<dim> part;
+  part.strain = field == 0 ? p.strain : Strain<dim>::Zero().eval();
+  if (field == 1)
+    part.potential_gradient = p.potential_gradient;
+  if (field == 2)
+    part.temperature = p.temperature;
+  if (cell.mode_gradients.empty())
+    return part;
+  Tensor<dim> h = Tensor<dim>::Zero();
+  for (int m = 0; m < dim; ++m) {
+    const Vector<dim> g = Eigen::Map<const Vector<dim>>(cell.mode_gradients[q * dim + m].data());
+    h += modes.template segment<dim>(dim * m) * g.transpose();
+    part.potential_gradient += modes[CellModes<dim>::n_displacement + m] * g;
+  }
+  part.strain += strain_of(h);
+  return part;
+}
+
+// The amplitudes that each field of x causes; of u and phi only differences to the first node do.
+template <int dim>
+std::array<Amplitudes<dim>, 3> amplitudes(const CellModes<dim> &cell, std::span<const double> x) {
+  constexpr int n = Fields<dim>::count;
+  std::array<Amplitudes<dim>, 3> by_field;
+  by_field.fill(Amplitudes<dim>::Zero());
+  const double *first = &x[unknown<dim>(cell.nodes[0], 0)];
+  for (int b = 0; b < CellModes<dim>::n_nodes; ++b) {
+    const double *at = &x[unknown<dim>(cell.nodes[b], 0)];
+    for (int c = 0; c < dim + 1; ++c)
+      by_field[c < dim ? 0 : 1] += cell.response.col(n * b + c) * (at[c] - first[c]);
+    by_field[2] += cell.response.col(n * b + dim + 1) * at[dim + 1];
+  }
+  return by_field;
+}
+
+}  // namespace
+
+// Forces and charges of each node, and a heat that is not a derivative, by the field they come
+// from.
+template <int dim>
+struct CellProducts<dim>::Rows {
+  static constexpr int n = Fields<dim>::count;
+  using Row = Eigen::Matrix<double, n, 1>;
+
+  explicit Rows(std::size_t n_nodes) {
+    for (auto &rows : of)
+      rows.assign(n_nodes, Row::Zero());
+  }
+
+  // stress and charge are tested by gradients: the first node's share is what the others' lack.
+  void add(int field, const Quadrature<dim> &cell, std::size_t q, const Tensor<dim> &stress,
+           const Vector<dim> &charge, double heat) {
+    for (std::size_t a = 0; a < cell.nodes.size(); ++a) {
+      of[field][a][n - 1] += cell.jxw[q] * cell.value(q, a) * heat;
+      if (a == 0)
+        continue;
+      const Vector<dim> g = cell.jxw[q] * gradient(cell, q, a);
+      Row tested = Row::Zero();
+      tested.template head<dim>() = stress * g;
+      tested[dim] = charge.dot(g);
+      of[field][a] += tested;
+      of[field][0] -= tested;
+    }
+  }
+
+  std::array<std::vector<Row>, 3> of;
+};
+
+template <int dim>
+CellProducts<dim>::CellProducts(const Discretisation<dim> &body,
+                                const material::Composition<dim> &composition,
+                                const std::vector<CellModes<dim>> &modes)
+    : body_(body), composition_(composition), modes_(modes) {}
+
+template <int dim>
+void CellProducts<dim>::add_exchange(const std::vector<std::string> &boundaries,
+                                     const casefile::Formula &coefficient) {
+  exchanging_ = boundaries;
+  coefficient_ = &coefficient;
+}
+
+template <int dim>
+void CellProducts<dim>::storage(std::span<const double> x, FieldProducts &products) const {
+  for (std::vector<double> &product : products.of)
+    product.assign(x.size(), 0.);
+  std::size_t number = 0;
+  const auto add_cell = [&](const Quadrature<dim> &cell) {
+    const material::BodyConstants<dim> c = composition_.at(cell.region, cell.centre());
+    std::array<Amplitudes<dim>, 3> modes;
+    if (!modes_.empty())
+      modes = amplitudes(modes_[number++], x);
+    Rows rows(cell.nodes.size());
+    for (std::size_t q = 0; q < cell.jxw.size(); ++q) {
+      const Point<dim> all = fields_at(cell, q, x);
+      for (int field = 0; field < 3; ++field) {
+        const Point<dim> p = part_of(all, field, cell, q, modes[field]);
+        rows.add(field, cell, q,
+                 stress_tensor(c.stiffness * p.strain +
+                               c.piezoelectric.transpose() * p.potential_gradient -
+                               c.thermal_stress * p.temperature),
+                 c.piezoelectric * p.strain - c.permittivity * p.potential_gradient +
+                     c.pyroelectric * p.temperature,
+                 c.pyroelectric.dot(p.potential_gradient) - c.thermal_stress.dot(p.strain) -
+                     c.heat_capacity * p.temperature);
+      }
+    }
+    for (int field = 0; field < 3; ++field)
+      for (std::size_t a = 0; a < cell.nodes.size(); ++a)
+        for (int i = 0; i < Rows::n; ++i)
+          products.of[field][unknown<dim>(cell.nodes[a], i)] += rows.of[field][a][i];
+  };
+  body_.for_each_cell(add_cell, modes_.empty() ? Modes::none : Modes::incompatible);
+}
+
+template <int dim>
+void CellProducts<dim>::conduction(std::span<const double> x, std::vector<double> &taken) const {
+  body_.for_each_cell([&](const Quadrature<dim> &cell) {
+    const material::BodyConstants<dim> c = composition_.at(cell.region, cell.centre());
+    for (std::size_t q = 0; q < cell.jxw.size(); ++q) {
+      const Vector<dim> flow =
+          cell.jxw[q] * (c.conductivity * fields_at(cell, q, x).temperature_gradient);
+      for (std::size_t a = 1; a < cell.nodes.size(); ++a) {
+        const double tested = gradient(cell, q, a).dot(flow);
+        taken[cell.nodes[a]] += tested;
+        taken[cell.nodes[0]] -= tested;
+      }
+    }
+  });
+  if (!coefficient_)
+    return;
+  body_.for_each_facet(exchanging_, [&](const Quadrature<dim> &facet) {
+    for (std::size_t q = 0; q < facet.jxw.size(); ++q) {
+      double theta = 0;
+      for (std::size_t a = 0; a < facet.nodes.size(); ++a)
+        theta += facet.value(q, a) * x[unknown<dim>(facet.nodes[a], Fields<dim>::temperature)];
+      const double flow = coefficient_->value(facet.points[q], 0) * facet.jxw[q] * theta;
+      for (std::size_t a = 0; a < facet.nodes.size(); ++a)
+        taken[facet.nodes[a]] += facet.value(q, a) * flow;
+    }
+  });
+}
+
+template <int dim>
+void CellProducts<dim>::multiply_by_field(std::span<const double> x,
+                                          FieldProducts &products) const {
+  parallel::together([&] { storage(x, products); });
+  for (std::vector<double> &product : products.of)
+    parallel::sum(product);
+}
+
+template <int dim>
+std::vector<double> CellProducts<dim>::conducted(std::span<const double> x) const {
+  std::vector<double> taken(body_.n_nodes(), 0.);
+  parallel::together([&] { conduction(x, taken); });
+  parallel::sum(taken);
+  return taken;
+}
+
+template <int dim>
+void CellProducts<dim>::multiply(double step, std::span<const double> x,
+                                 std::span<double> y) const {
+  FieldProducts products;
+  std::vector<double> taken(body_.n_nodes(), 0.);
+  parallel::together([&] {
+    storage(x, products);
+    conduction(x, taken);
+  });
+  for (std::size_t i = 0; i < x.size(); ++i)
+    y[i] = products.sum(i);
+  for (Node node = 0; node < taken.size(); ++node)
+    y[unknown<dim>(node, Fields<dim>::temperature)] -=
+        step / composition_.reference_temperature() * taken[node];
+  parallel::sum(y);
+}
+
+template <int dim>
+void CellProducts<dim>::add_history(std::span<const double> x, std::span<double> y) const {
+  FieldProducts products;
+  multiply_by_field(x, products);
+  for (std::size_t i = Fields<dim>::temperature; i < y.size(); i += Fields<dim>::count)
+    y[i] += products.sum(i);
+}
+
+template class CellProducts<2>;
+template class CellProducts<3>;
+
+}  // namespace tourmaline::body

@@ -1,0 +1,100 @@
+#include "tourmaline/body/cell_products.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "tourmaline/mesh/mesh.h"
+
+namespace tourmaline::body {
+namespace {
+
+using casefile::CellShape;
+
+template <int dim>
+casefile::Case asked(CellShape shape, std::vector<double> size) {
+  casefile::Case asked;
+  asked.dimension = dim;
+  asked.material.library = "BaTiO3-Liu2014";
+  asked.mesh.box =
+      casefile::Box{std::vector<double>(dim, 0.), std::move(size), std::vector<int>(dim, 3), shape};
+  return asked;
+}
+
+template <int dim>
+struct Body {
+  Body(CellShape shape, int degree, std::vector<double> size, Modes modes = Modes::none)
+      : of(asked<dim>(shape, std::move(size))),
+        composition(of),
+        body(mesh::build<dim>(of), degree),
+        op(body, composition, modes),
+        cells(body, composition, op.modes()) {}
+
+  std::size_t n() const { return body.n_nodes() * Fields<dim>::count; }
+
+  casefile::Case of;
+  material::Composition<dim> composition;
+  Discretisation<dim> body;
+  Operator<dim> op;
+  CellProducts<dim> cells;
+};
+
+double largest(const std::vector<double> &v) {
+  double largest = 0;
+  for (const double x : v)
+    largest = std::max(largest, std::abs(x));
+  return largest;
+}
+
+template <int dim>
+void expect_products_of_the_operator(CellShape shape, int degree, Modes modes = Modes::none) {
+  Body<dim> of(shape, degree, std::vector<double>(dim, 0.1), modes);
+  const casefile::Formula coefficient(3.);
+  of.op.add_exchange(of.body, {"left"}, coefficient);
+  of.cells.add_exchange({"left"}, coefficient);
+  std::mt19937 random(5);
+  std::vector<double> x(of.n()), expected(of.n()), found(of.n());
+  for (double &v : x)
+    v = std::normal_distribution<double>()(random);
+  of.op.multiply(0.01, x, expected);
+  of.cells.multiply(0.01, x, found);
+  const std::vector<double> sizes = of.op.sizes(0.01, x);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    EXPECT_NEAR(found[i], expected[i], 1e-13 * sizes[i]) << i;
+  std::fill(expected.begin(), expected.end(), 0.);
+  std::fill(found.begin(), found.end(), 0.);
+  of.op.add_history(x, expected);
+  of.cells.add_history(x, found);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    EXPECT_NEAR(found[i], expected[i], 1e-13 * sizes[i]) << i;
+}
+
+TEST(CellProducts, TheyAreThoseOfTheOperator) {
+  for (const int degree : {1, 2}) {
+    expect_products_of_the_operator<2>(CellShape::triangle, degree);
+    expect_products_of_the_operator<2>(CellShape::quadrilateral, degree);
+    expect_products_of_the_operator<3>(CellShape::tetrahedron, degree);
+    expect_products_of_the_operator<3>(CellShape::hexahedron, degree);
+  }
+}
+
+TEST(CellProducts, IncompatibleModesAreInThem) {
+  expect_products_of_the_operator<2>(CellShape::quadrilateral, 1, Modes::incompatible);
+  expect_products_of_the_operator<3>(CellShape::hexahedron, 1, Modes::incompatible);
+}
+
+TEST(CellProducts, ATranslationOfAThinBodyHasNoForcesAtAll) {
+  const Body<2> of(CellShape::quadrilateral, 2, {1, 1e-4});
+  std::vector<double> x(of.n(), 0.), cells(of.n()), assembled(of.n());
+  for (Node node = 0; node < of.body.n_nodes(); ++node)
+    x[unknown<2>(node, 1)] = 0.3;
+  of.cells.multiply(0.01, x, cells);
+  of.op.multiply(0.01, x, assembled);
+  EXPECT_EQ(largest(cells), 0);
+  EXPECT_GT(largest(assembled), 0);
+}
+
+}  // namespace
+}  // namespace tourmaline::body

@@ -1,0 +1,108 @@
+// Bodies whose equations round-off decides: the right number, or none.
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "run_case.h"
+#include "tourmaline/error.h"
+
+namespace tourmaline::testing {
+namespace {
+
+const std::string beam = "tests/cases/ill_conditioned/beam.toml";
+
+double tip(const RunCase &run) {
+  const Table nodes = run.nodes();
+  return nodes.numbers("u_y").front();
+}
+
+// 40 quadratic cells lack 1 / (4 40^2) of the deflection -4 q h L^3 / (E h^3).
+double deflection(double thickness) {
+  return -4 * 1e-6 / (1e9 * thickness * thickness) * (1 - 1. / 6400);
+}
+
+std::string thick(double thickness) {
+  return "mesh.box.max=[1," + std::to_string(thickness * 1e6) + "e-6]";
+}
+
+/// What the run says when it fails; empty when it does not.
+std::string failure(const std::string &file, const std::vector<std::string> &overrides) {
+  try {
+    RunCase(file, overrides);
+  } catch (const SolveError &error) {
+    return error.what();
+  }
+  return "";
+}
+
+class Thickness : public ::testing::TestWithParam<double> {};
+
+TEST_P(Thickness, RefinedCantileverBendsAsItShould) {
+  const RunCase run(beam, {thick(GetParam())});
+  EXPECT_NEAR(tip(run) / deflection(GetParam()), 1, 1e-6);
+  const nlohmann::json summary = run.summary();
+  EXPECT_TRUE(summary["refined"]);
+  EXPECT_LT(summary["forward_error"], 1e-6);
+  EXPECT_TRUE(summary["warnings"].empty());
+  EXPECT_LT(std::abs(run.history().numbers("energy_imbalance").back()), 1e-6);
+}
+
+TEST_P(Thickness, WithoutRefinementNoWrongNumberPassesInSilence) {
+  const std::vector<std::string> overrides{thick(GetParam()), "solver.method=\"monolithic\""};
+  if (!failure(beam, overrides).empty()) {
+    EXPECT_LE(GetParam(), 1e-3);
+    EXPECT_THAT(failure(beam, overrides), ::testing::HasSubstr("forward error"));
+    return;
+  }
+  const RunCase run(beam, overrides);
+  const double error = std::abs(tip(run) / deflection(GetParam()) - 1);
+  const nlohmann::json summary = run.summary();
+  EXPECT_LT(error, std::max(1e-6, 10 * summary["forward_error"].get<double>()));
+  EXPECT_EQ(summary["forward_error"] > 1e-6, !summary["warnings"].empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(OfABeamOfOneMetre, Thickness,
+                         ::testing::Values(1. / 300, 1e-3, 3e-4, 1e-4));
+
+TEST(WellConditioned, BodyThatOnlyMovesLacksNothing) {
+  for (const char *method : {"solver.method=\"condensed\"", "solver.method=\"monolithic\""})
+    EXPECT_TRUE(
+        RunCase("tests/cases/ill_conditioned/moved.toml", {method}).summary()["warnings"].empty())
+        << method;
+}
+
+TEST(IllConditioned, FrictionalEndOfAThinPlateFailsWithTheReason) {
+  EXPECT_THAT(failure("tests/cases/ill_conditioned/contact.toml", {}),
+              ::testing::HasSubstr("very thin"));
+}
+
+TEST(WellConditioned, BodyOfThePaperIsNotRefinedAndSaysNothing) {
+  const nlohmann::json summary =
+      RunCase("cases/ouafik-2020/conductive.toml", {"mesh.box.cells=[8,8]"}).summary();
+  EXPECT_FALSE(summary["refined"]);
+  EXPECT_LT(summary["forward_error"], 1e-10);
+  EXPECT_TRUE(summary["warnings"].empty());
+}
+
+class NotFinite : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(NotFinite, StepFailsAndNothingOfItIsWritten) {
+  const output::TemporaryFolder folder;
+  const std::filesystem::path file =
+      std::filesystem::path(TOURMALINE_SOURCE_DIR) / "tests/cases/ill_conditioned/overflow.toml";
+  EXPECT_THROW(solve::simulate(casefile::read_file(file, {GetParam()}, mesh::read_mesh_file),
+                               folder.path(), {.quiet = true}),
+               SolveError);
+  EXPECT_FALSE(std::filesystem::exists(folder / "summary.json"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "result_0001.vtu"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Routes, NotFinite,
+                         ::testing::Values("solver.method=\"condensed\"",
+                                           "solver.method=\"monolithic\"",
+                                           "solver.body=\"iterative\""));
+
+}  // namespace
+}  // namespace tourmaline::testing
