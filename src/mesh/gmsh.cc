@@ -1,5 +1,6 @@
 #include "tourmaline/mesh/gmsh.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <gmsh.h>
 #include <unistd.h>
@@ -170,8 +171,12 @@ void generate(Format format, const casefile::MeshCase &asked) {
   gmsh::model::mesh::generate(gmsh::model::getDimension());
 }
 
-// Options beside the file (body.msh.opt), which may run commands, belong to libgmsh's projects;
-// `merge` takes the file alone.
+// libgmsh obeys a file of options that lies beside a mesh (body.msh.opt), and such options may run
+// commands. By this name of the same file there is nothing beside it.
+std::string without_options(const std::string &file) {
+  return fmt::format("/proc/self/fd/{}", ::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+}
+
 void open(Format format, const casefile::MeshCase &asked) {
   // A format-2 file may give elements of one entity to different groups, which libgmsh would give
   // to all of them. With the two tags switched an entity is a group.
@@ -182,7 +187,7 @@ void open(Format format, const casefile::MeshCase &asked) {
   if (is_geometry(format))
     gmsh::open(*asked.file);
   else
-    gmsh::merge(*asked.file);
+    gmsh::merge(without_options(*asked.file));
   Session::check();
   if (is_geometry(format))
     generate(format, asked);
@@ -435,9 +440,12 @@ std::string complaint_about(Format format, const Limits &limits, Ending ending) 
 // A mesh is data, and read with what walls there are; a geometry is a program, and needs them all.
 void build_walls(Format format, const std::filesystem::path &file, const Reading &how) {
   std::vector<std::filesystem::path> readable{std::filesystem::canonical(file)};
+  Walls walls_to_build = how.walls;
   if (is_geometry(format))
     readable.push_back(file.parent_path());
-  const Walls stand = confine(readable, how.walls);
+  else
+    walls_to_build.namespaces = false;  // without_options() could not be seen in them
+  const Walls stand = confine(readable, walls_to_build);
   if (!is_geometry(format) || stand.complete())
     return;
   throw CaseError(fmt::format(

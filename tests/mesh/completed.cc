@@ -112,8 +112,7 @@ INSTANTIATE_TEST_SUITE_P(Completed, EveryShape,
                                          CellShape::tetrahedron, CellShape::hexahedron));
 
 // The cells around a vertex fill a body with the same boundary wherever that vertex is: their sizes
-// add up to that body's exactly when none is turned over. Cells of other shapes are judged by the
-// volume of the corner, as they must be convex too.
+// add up to that body's exactly when none is turned over. Cells of other shapes must be convex too.
 TEST_P(EveryShape, AMovedInnerVertexIsRefusedExactlyWhenItFoldsTheMesh) {
   const MeshFile good = block(GetParam(), 3);
   const bool simplices = GetParam() == CellShape::triangle || GetParam() == CellShape::tetrahedron;
@@ -129,10 +128,11 @@ TEST_P(EveryShape, AMovedInnerVertexIsRefusedExactlyWhenItFoldsTheMesh) {
       mesh.points[inner][axis] += shift(random) * (trial % 3 == 0 ? 0.2 : 1);
     const std::string text = complaint(mesh);
     (text.empty() ? accepted : refused) += 1;
-    if (simplices)
+    if (simplices) {
       EXPECT_EQ(text.empty(), total(mesh) < size * (1 + 1e-12)) << text;
-    else if (!text.empty())
+    } else if (!text.empty()) {
       EXPECT_THAT(text, testing::AnyOf(HasSubstr("degenerate"), HasSubstr("folded")));
+    }
   }
   EXPECT_GT(refused, 30);
   EXPECT_GT(accepted, 30);
