@@ -137,7 +137,7 @@ const BadInput values[] = {
     override("end at the start", "time.end=0", "must be > 0 s"),
     override("end that is denormal", "time.end=3e-310", "from 1e-18 to 1e+18 s"),
     override("resistor that is denormal", "electrode=[{name=\"a\",on=\"bottom\",resistor=5e-324}]",
-             "ohm in size"),
+             "from 1e-12 to 1e+24 ohm"),
     override("constant that overflows", "material.m11=1e200", "cannot be meant"),
     override("title that colours the terminal", "title=[\"\\u001b[31m\"]", "\\u001B[31m"),
     override("name that clears the terminal", "contact.on=\"\\u009b2J\"", "\\u009B2J"),
