@@ -215,7 +215,23 @@ std::vector<Json> positions_of(const Declaration &declaration, const Switch &tur
   return all;
 }
 
-Variant variant_of(const Declaration &declaration, const MeshKind &kind) {
+// Visits take time. Of two kinds with as many dimensions a table that is the same without its
+// switch is the same in every position; nullptr: there is none yet.
+const std::vector<Json> *known_positions(const std::vector<Variant> &earlier, const Switch &turned,
+                                         const Variant &variant) {
+  for (const Variant &other : earlier)
+    if (other.kind.dimension == variant.kind.dimension)
+      for (std::size_t i = 0; i < other.switches.size(); ++i)
+        if (const Switch &same = other.switches[i];
+            same.table == turned.table && same.key == turned.key &&
+            same.choices == turned.choices &&
+            at(other.standard, turned.table) == at(variant.standard, turned.table))
+          return &other.positions[i];
+  return nullptr;
+}
+
+Variant variant_of(const Declaration &declaration, const MeshKind &kind,
+                   const std::vector<Variant> &earlier) {
   Visit visit{kind};
   Variant variant{kind, visited(declaration, visit), {}, {}, {}};
   variant.any = variant.standard;
@@ -223,7 +239,8 @@ Variant variant_of(const Declaration &declaration, const MeshKind &kind) {
   for (const Switch &turned : visit.switches)
     if (seen.emplace(turned.table, turned.key).second) {
       variant.switches.push_back(turned);
-      variant.positions.push_back(positions_of(declaration, turned, variant));
+      const std::vector<Json> *known = known_positions(earlier, turned, variant);
+      variant.positions.push_back(known ? *known : positions_of(declaration, turned, variant));
       Json &table = variant.any.at(Json::json_pointer(turned.table));
       for (const Json &position : variant.positions.back())
         table = merged(table, position);
@@ -326,7 +343,7 @@ Json complete(const Declaration &declaration) {
   std::vector<Variant> variants;
   std::vector<Json> all;
   for (const MeshKind &kind : mesh_kinds) {
-    variants.push_back(variant_of(declaration, kind));
+    variants.push_back(variant_of(declaration, kind, variants));
     all.push_back(variants.back().any);
   }
   const Json any = merged_all(all);

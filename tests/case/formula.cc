@@ -93,7 +93,7 @@ TEST(Formula, WhatIsNotTakenMayBeUndefinedInAnyForm) {
                                      {"x < 0 && sqrt(-x) > 0", 0},
                                      {"x < 0 && sqrt(-x) > 0 || y == 2 && z == 3", 1},
                                      {"if(x < 0, sqrt(-x), if(y > 5, sqrt(-y), z))", 3},
-                                     {"if (x < 0 || y < 0, 1/0, max(if(x == 1, 7, 1/0), 2))", 7},
+                                     {"if(x < 0 || y < 0, 1/0, max(if(x == 1, 7, 1/0), 2))", 7},
                                      {"1 + if(x==1, 2, 3)*10", 21},
                                      {"x < 0 ? 1 : y < 0 ? 2 : z < 0 ? 3 : 4", 4},
                                      {"x > 0 ? y > 0 ? 11 : 12 : 13", 11},

@@ -35,8 +35,9 @@ void declare_with_model(Visitor &visitor, Case &asked) {
   });
 }
 
-Json schema_with_model() {
-  return Json::parse(json_schema(declare_with_model));
+const Json &schema_with_model() {
+  static const Json schema = Json::parse(json_schema(declare_with_model));
+  return schema;
 }
 
 // What the rules of `table` demand where its key has that choice.
@@ -82,7 +83,7 @@ TEST(JsonSchema, AKeyIsRefusedBesideTheChoicesThatDoNotUseIt) {
 TEST(JsonSchema, EveryKindOfMeshHasItsOwnChoices) {
   int rules = 0;
   for (const Json &rule : schema_with_model().at("allOf")) {
-    const Json &properties = rule.at("then").value("properties", Json::object());
+    const Json properties = rule.at("then").value("properties", Json::object());
     if (!properties.contains("model"))
       continue;
     ++rules;

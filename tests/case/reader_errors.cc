@@ -123,7 +123,7 @@ const Mistake numbers[] = {
     {"end = 0.2",
      "end = 3e-310",
      {"[time] end = 3e-310", "cannot be meant", "from 1e-18 to 1e+18 s"}},
-    {"end = 0.2", "end = 1e400", {"end = ", "case.toml:11:"}},
+    {"end = 0.2", "end = 1e400", {"case.toml:11:", "1e400"}},
     {"potential = 0", "potential = 1e-310", {"closer to 0 than double precision holds; write 0"}},
     {"potential = 0", "potential = 1e200", {"cannot be meant", "at most 1e+15 V in size"}},
     {"bound = 15", "bound = \"1e100*10\"", {"bound = \"1e100*10\"", "at most 1e+18 N/m^2"}},

@@ -136,14 +136,14 @@ const BadInput values[] = {
     override("infinite end", "time.end=inf", "is not a finite number"),
     override("end at the start", "time.end=0", "must be > 0 s"),
     override("end that is denormal", "time.end=3e-310", "from 1e-18 to 1e+18 s"),
-    override("resistor that is denormal", "electrode=[{name='a',on='bottom',resistor=5e-324}]",
-             "ohm in size"),
+    override("resistor that is denormal", "electrode=[{name=\"a\",on=\"bottom\",resistor=5e-324}]",
+             "from 1e-12 to 1e+24 ohm"),
     override("constant that overflows", "material.m11=1e200", "cannot be meant"),
     override("title that colours the terminal", "title=[\"\\u001b[31m\"]", "\\u001B[31m"),
     override("name that clears the terminal", "contact.on=\"\\u009b2J\"", "\\u009B2J"),
     override("key that turns the writing", "\xE2\x80\xAExam=1", "\\u202Exam"),
     override("formula that is cut by a zero", "boundary[1].traction=[0,\"1\\u00000\"]", "control"),
-    override("material that lacks a constant", "material={library='BaTiO3-Liu2014',d31=-4e-11}",
+    override("material that lacks a constant", "material={library=\"BaTiO3-Liu2014\",d31=-4e-11}",
              "d33, d15"),
     override("no steps", "time.steps=0", "must be >= 1"),
     override("more steps than an integer holds", "time.steps=3000000000", "at most 2147483647"),
@@ -232,7 +232,8 @@ TEST_F(Program, NothingThatAUserNamesCommandsTheTerminal) {
   std::ofstream(here() / file) << good_case_with("\"a square in contact\"", "\"\\u001b[2J\"");
   ASSERT_EQ(run("check './" + file + "'"), 0) << complained_;
   EXPECT_TRUE(is_harmless(said_)) << said_;
-  EXPECT_EQ(run("check './" + file + "' --set 'time.stesp=\"" + escape + "\"'"), 2);
+  std::filesystem::remove(here() / file);
+  EXPECT_EQ(run("check './" + file + "'"), 2);
   EXPECT_TRUE(is_harmless(complained_)) << complained_;
   EXPECT_THAT(complained_, HasSubstr("c\\u001B]0;owned\\u0007\\u009B\\x9B.toml"));
   EXPECT_EQ(run("'--" + escape + "'"), 2);
