@@ -116,8 +116,8 @@ void Recorder<dim>::prepare_fields() {
   for (std::size_t i = grid_.points.size(); i < regional.size(); ++i)
     grid_.points.push_back(grid_.points[regional.node(i)]);
   for (std::size_t i = 0; i < grid_.connectivity.size(); ++i)
-    grid_.connectivity[i] = regional.number(
-        grid_.connectivity[i], regional.regions_of_cells()[i / grid_.nodes_per_cell]);
+    grid_.connectivity[i] = regional.number(grid_.connectivity[i],
+                                            regional.regions_of_cells()[i / grid_.nodes_per_cell]);
   nodes_ = output::keep_used_points(grid_);
 }
 
@@ -127,8 +127,7 @@ void Recorder<dim>::put_fields(int n, std::span<const double> state) {
     return;
   prepare_fields();
   output::CellFields cells;
-  parallel::together(
-      [&] { cells = body::derived_fields(model_.body, model_.composition, state); });
+  parallel::together([&] { cells = body::derived_fields(model_.body, model_.composition, state); });
   const std::vector<output::SymmetricTensor> stress =
       (*recovery_)(model_.composition, state, cells.stress);
   parallel::together([&] {

@@ -1,5 +1,5 @@
-// A column of two layers under its own weight, whose stresses are known: what the field files hold at
-// the interface, and what of it is shown.
+// A column of two layers under its own weight, whose stresses are known: what the field files hold
+// at the interface, and what of it is shown.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -50,8 +50,8 @@ class Column : public ::testing::Test {
   output::TemporaryFolder folder_;
 };
 
-// Both sides carry what lies above, 1000 N/m^2; across the column each material presses with c12/c11
-// of that (steel: 0.3/0.7); the mean of the cell below is 1250 N/m^2.
+// Both sides carry what lies above, 1000 N/m^2; across the column each material presses with
+// c12/c11 of that (steel: 0.3/0.7); the mean of the cell below is 1250 N/m^2.
 TEST_F(Column, HasTheStressOfEachSideAtTheInterface) {
   const FieldFile file = read_field_file(results() / "result_0001.vtu");
   const FieldArray &stress = array_of(file, "recovered_stress");

@@ -26,8 +26,8 @@ class Recovery {
   /// The geometry, once for all states. All ranks make it together.
   explicit Recovery(const Discretisation<dim> &body);
 
-  /// Stress [Pa] by regional node; those that this rank's cells do not have are 0. `means` are those
-  /// of this rank's cells (`derived_fields`): of a linear cell the value in its centre.
+  /// Stress [Pa] by regional node; those that this rank's cells do not have are 0. `means` are
+  /// those of this rank's cells (`derived_fields`): of a linear cell the value in its centre.
   std::vector<output::SymmetricTensor> operator()(
       const material::Composition<dim> &composition, std::span<const double> state,
       std::span<const output::SymmetricTensor> means) const;

@@ -18,9 +18,9 @@ Quantiles usual_range(const Result &result, const Field &field, std::size_t comp
                       double share);
 
 /// What the colours of a field's component stand for in the last state: its least to its greatest
-/// value; of what is derived, without the lowest or the highest three hundredths where these reach half as
-/// far again, as at singular corners and in layers beside the contact, which would leave nothing to
-/// be seen of the rest.
+/// value; of what is derived, without the lowest or the highest three hundredths where these reach
+/// half as far again, as at singular corners and in layers beside the contact, which would leave
+/// nothing to be seen of the rest.
 struct ShownRange {
   double low = 0, high = 0;
   bool cut_below = false, cut_above = false;
