@@ -1,6 +1,6 @@
-// Any folder that `report` and `figures` are given is shown or refused with a CaseError. A mutated file
-// begins with its name on a line of its own; the others of the folder are those of the seeds, whose
-// folder is the working directory's fuzz/seeds/result_folder.
+// Any folder that `report` and `figures` are given is shown or refused with a CaseError. A mutated
+// file begins with its name on a line of its own; the others of the folder are those of the seeds,
+// whose folder is the working directory's fuzz/seeds/result_folder.
 #include <unistd.h>
 
 #include <cstdint>

@@ -170,10 +170,10 @@ void CellProducts<dim>::storage(std::span<const double> x, FieldProducts &produc
       const Point<dim> all = fields_at(cell, q, x);
       for (int field = 0; field < 3; ++field) {
         const Point<dim> p = part_of(all, field, cell, q, modes[field]);
-        rows.add(field, cell, q,
-                 stress_tensor(c.stiffness * p.strain +
-                               c.piezoelectric.transpose() * p.potential_gradient -
-                               c.thermal_stress * p.temperature),
+        const Strain<dim> stress = c.stiffness * p.strain +
+                                   c.piezoelectric.transpose() * p.potential_gradient -
+                                   c.thermal_stress * p.temperature;
+        rows.add(field, cell, q, stress_tensor(stress),
                  c.piezoelectric * p.strain - c.permittivity * p.potential_gradient +
                      c.pyroelectric * p.temperature,
                  c.pyroelectric.dot(p.potential_gradient) - c.thermal_stress.dot(p.strain) -

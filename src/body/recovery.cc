@@ -126,8 +126,8 @@ void Recovery<dim>::measure_patches() {
       patches_[p].centre[axis] = sums[4 * p + axis] / sums[4 * p + 3];
   for_each_sample([&](std::uint32_t patch, const Place &place) {
     for (int axis = 0; axis < 3; ++axis)
-      extents[3 * patch + axis] = std::max(extents[3 * patch + axis],
-                                           std::abs(place[axis] - patches_[patch].centre[axis]));
+      extents[3 * patch + axis] =
+          std::max(extents[3 * patch + axis], std::abs(place[axis] - patches_[patch].centre[axis]));
   });
   parallel::largest(extents);
   // Along an axis in which samples differ by round-off only nothing is determined.
@@ -139,7 +139,8 @@ void Recovery<dim>::measure_patches() {
 }
 
 template <int dim>
-typename Recovery<dim>::Powers Recovery<dim>::powers(std::uint32_t patch, const Place &place) const {
+typename Recovery<dim>::Powers Recovery<dim>::powers(std::uint32_t patch,
+                                                     const Place &place) const {
   const Patch &at = patches_[patch];
   Place scaled;
   for (int axis = 0; axis < 3; ++axis)
@@ -171,8 +172,7 @@ void Recovery<dim>::solve_normal_equations() {
     const Eigen::LDLT<Eigen::MatrixXd> factor(normal);
     if (is_regular(factor)) {
       normal = factor.solve(Eigen::MatrixXd::Identity(terms_, terms_)).eval();
-      const Powers p =
-          powers(patch, body_.points()[nodes_.node(corner_of_[patch])]);
+      const Powers p = powers(patch, body_.points()[nodes_.node(corner_of_[patch])]);
       patches_[patch].surrounds = p.dot(normal * p) < greatest_uncertainty;
     } else {
       const Eigen::MatrixXd part = pseudo_inverse(normal.topLeftCorner(linear, linear));

@@ -167,8 +167,8 @@ std::string pvtu_text(double time, std::span<const std::string> pieces,
           declared("temperature", "");
   if (optional.recovered)
     text += declared("recovered_stress", tensor_components) + declared("recovered_von_mises", "");
-  text += "</PPointData>\n<PCellData>\n" + declared("stress", tensor_components) + declared("von_mises", "") +
-          declared("strain", tensor_components) +
+  text += "</PPointData>\n<PCellData>\n" + declared("stress", tensor_components) +
+          declared("von_mises", "") + declared("strain", tensor_components) +
           declared("electric_field", vector_components) +
           declared("electric_displacement", vector_components) +
           declared("heat_flux", vector_components);

@@ -78,7 +78,8 @@ double area_of(const ContactPiece &piece, const Places &places) {
   return twice / 2;
 }
 
-double spread(const ContactPiece &piece, const Places &places, double std::pair<double, double>::*c) {
+double spread(const ContactPiece &piece, const Places &places,
+              double std::pair<double, double>::*c) {
   double low = places[piece.rows.front()].*c, high = low;
   for (const Row row : piece.rows) {
     low = std::min(low, places[row].*c);

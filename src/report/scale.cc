@@ -26,7 +26,7 @@ double usual_strain(const Result &result) {
   const Field *strain = result.field("strain");
   double largest = 0;
   for (std::size_t c = 0; strain && c < strain->values.size(); ++c) {
-    const Quantiles usual = usual_range(result, *strain, c);
+    const Quantiles usual = usual_range(result, *strain, c, 0.01);
     largest = std::max({largest, -usual.low, usual.high});
   }
   return largest;
@@ -34,7 +34,8 @@ double usual_strain(const Result &result) {
 
 }  // namespace
 
-Quantiles usual_range(const Result &result, const Field &field, std::size_t component) {
+Quantiles usual_range(const Result &result, const Field &field, std::size_t component,
+                      double share) {
   const std::vector<float> &all = field.values[component];
   const std::size_t places = all.size() / result.times.size();
   std::vector<float> last(all.end() - static_cast<std::ptrdiff_t>(places), all.end());
@@ -42,8 +43,8 @@ Quantiles usual_range(const Result &result, const Field &field, std::size_t comp
     return {};
   std::sort(last.begin(), last.end());
   const double end = static_cast<double>(last.size() - 1);
-  return {last[static_cast<std::size_t>(0.01 * end)],
-          last[static_cast<std::size_t>(std::ceil(0.99 * end))]};
+  return {last[static_cast<std::size_t>(share * end)],
+          last[static_cast<std::size_t>(std::ceil((1 - share) * end))]};
 }
 
 namespace {
@@ -73,7 +74,7 @@ ShownRange shown_range(const Result &result, const Field &field, std::size_t com
   ShownRange range{*low, *high, false, false, no_range(*low, *high, field)};
   if (field.is_unknown() || !range.instead.empty())
     return range;
-  const Quantiles usual = usual_range(result, field, component);
+  const Quantiles usual = usual_range(result, field, component, 0.03);
   const double size = std::max(-usual.low, usual.high);
   range.cut_above = usual.high > 0 && range.high - usual.high > size / 2;
   range.cut_below = usual.low < 0 && usual.low - range.low > size / 2;

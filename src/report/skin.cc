@@ -74,8 +74,8 @@ std::vector<std::uint32_t> names_of(const std::vector<output::Vector> &points) {
     return points[a] != points[b] ? points[a] < points[b] : a < b;
   });
   for (std::size_t i = 0; i < order.size(); ++i)
-    names[order[i]] = i > 0 && points[order[i]] == points[order[i - 1]] ? names[order[i - 1]]
-                                                                        : order[i];
+    names[order[i]] =
+        i > 0 && points[order[i]] == points[order[i - 1]] ? names[order[i - 1]] : order[i];
   return names;
 }
 

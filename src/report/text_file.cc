@@ -10,6 +10,8 @@
 namespace tourmaline::report {
 
 std::string read_text_file(const std::filesystem::path &path) {
+  if (std::error_code error; std::filesystem::is_directory(path, error))
+    throw CaseError(path.string() + ": cannot be read: it is a folder");
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   std::string text((std::istreambuf_iterator<char>(in)), {});

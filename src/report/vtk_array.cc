@@ -102,8 +102,9 @@ Header take_header(std::string_view &text, const std::string &name) {
     damaged(name);
   const std::vector<std::uint64_t> words = take_words(text, blocks + 3, name);
   Header header{words[1], words[2], {words.begin() + 3, words.end()}};
-  for (const std::uint64_t size : header.compressed)
-    if (size > text.size())
+  // Deflate packs at most 1032 bytes into one.
+  for (std::size_t i = 0; i < header.compressed.size(); ++i)
+    if (header.compressed[i] > text.size() || header.bytes(i) > 1032 * (header.compressed[i] + 1))
       damaged(name);
   return header;
 }

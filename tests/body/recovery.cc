@@ -1,4 +1,5 @@
-// Stresses at the nodes: exact where they can be, of the right order elsewhere, apart where regions meet.
+// Stresses at the nodes: exact where they can be, of the right order elsewhere, apart where regions
+// meet.
 #include "tourmaline/body/recovery.h"
 
 #include <gtest/gtest.h>
@@ -52,7 +53,8 @@ SymmetricTensor stress(const material::Constants &c, const Eigen::Matrix3d &h,
                        const Eigen::Vector3d &potential_gradient, double theta) {
   material::Voigt strain;
   strain << h(0, 0), h(1, 1), h(2, 2), h(1, 2) + h(2, 1), h(0, 2) + h(2, 0), h(0, 1) + h(1, 0);
-  const material::Voigt s = c.stiffness * strain + c.piezoelectric.transpose() * potential_gradient -
+  const material::Voigt s = c.stiffness * strain +
+                            c.piezoelectric.transpose() * potential_gradient -
                             c.thermal_stress * theta;
   return {s[0], s[1], s[2], s[5], s[3], s[4]};
 }
@@ -182,7 +184,8 @@ SineErrors sine_errors(CellShape shape, int degree, int n) {
   const auto state = interpolated<dim>(
       body,
       [](const Eigen::Vector3d &x) {
-        return Eigen::Vector3d(1e-6 * std::sin(2 * x[0] + x[1]), 1e-6 * std::cos(x[0] - 2 * x[1]), 0);
+        return Eigen::Vector3d(1e-6 * std::sin(2 * x[0] + x[1]), 1e-6 * std::cos(x[0] - 2 * x[1]),
+                               0);
       },
       zero, zero);
   const material::Constants c = composition.in_space(0, {});
@@ -200,8 +203,8 @@ SineErrors sine_errors(CellShape shape, int degree, int n) {
 
 template <int dim>
 void expect_orders(CellShape shape, int degree, int n, double inside, double everywhere) {
-  SCOPED_TRACE(::testing::Message() << dim << "D, shape " << static_cast<int>(shape) << ", degree "
-                                    << degree);
+  SCOPED_TRACE(::testing::Message()
+               << dim << "D, shape " << static_cast<int>(shape) << ", degree " << degree);
   const SineErrors coarse = sine_errors<dim>(shape, degree, n),
                    fine = sine_errors<dim>(shape, degree, 2 * n);
   EXPECT_GT(std::log2(coarse.inside / fine.inside), inside);

@@ -354,7 +354,7 @@ where = "y < 0.01"
 material.library = "BaTiO3-Liu2014"
 [[region]]
 where = "y >= 0.01"
-material.library = "steel"
+material.library = "silicon"
 )";
   for (const std::string degree : {"1", "2"}) {
     const auto fields = [&](int ranks) {

@@ -103,7 +103,7 @@ export class Body {
     if (this.scale === undefined) {
       const strain = this.result.field('strain');
       const largest = Math.max(0, ...(strain?.components ?? []).map((c) => {
-        const { least, greatest } = strain!.values(c).usual();
+        const { least, greatest } = strain!.values(c).usual(0.01);
         return Math.max(-least, greatest);
       }));
       const wanted = Math.min((0.1 * this.size) / this.largestDisplacement, 0.9 / largest);

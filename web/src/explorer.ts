@@ -8,7 +8,7 @@ import { Picture } from './picture';
 import { ColourBar } from './colour_bar';
 import { colourRange, Range } from './colours';
 import { choice, element, tick } from './dom';
-import { Extremes, shownRange, wholeRange } from './shown_range';
+import { Extremes, peaks, shownRange, wholeRange } from './shown_range';
 import { fieldTitle, shown, shownWithin, symbols, unitWith } from './numbers';
 import { homeCamera } from './overview';
 import { Timeline } from './timeline';
@@ -173,7 +173,7 @@ export class Explorer {
       const values = field.values(this.component);
       const state = view.result.stateAt(this.timeline.time);
       include(found.all, this.rangeOver === 'step' ? values.of(state) : values);
-      include(found.usual, values.usual(this.rangeOver === 'step' ? state : undefined));
+      include(found.usual, values.usual(peaks, this.rangeOver === 'step' ? state : undefined));
       found.error = Math.max(found.error, values.error);
     }
     return found;

@@ -3,7 +3,7 @@
 import { Body, Look } from './body';
 import { Camera } from './stage';
 import { Field, Result } from './results';
-import { shownRange } from './shown_range';
+import { peaks, shownRange } from './shown_range';
 import { Picture } from './picture';
 import { ColourBar } from './colour_bar';
 import { element } from './dom';
@@ -70,7 +70,7 @@ export class Overview {
       const field = result.field(name);
       if (!field) continue;
       const values = field.values('');
-      const range = shownRange(values, values.usual(), field, values.error);
+      const range = shownRange(values, values.usual(peaks), field, values.error);
       const bar = new ColourBar(true);
       bar.show(range, field.unit);
       add(fieldTitle(name), new Picture(body, camera),

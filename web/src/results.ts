@@ -49,7 +49,7 @@ export interface Boundary { name: string; kind: string; conditions: string[]; fa
 export class Values {
   least = Infinity;
   greatest = -Infinity;
-  private ends?: { least: number; greatest: number };
+  private readonly ends = new Map<number, { least: number; greatest: number }>();
 
   /** `error`: largest error by rounding for the page */
   constructor(readonly data: Float32Array, readonly places: number, readonly error: number) {
@@ -69,26 +69,28 @@ export class Values {
     return range;
   }
 
-  /** The range of one state, or over all of them, each without its lowest and highest hundredth. */
-  usual(state?: number): { least: number; greatest: number } {
-    if (state !== undefined) return this.usualOf(state);
-    if (!this.ends) {
-      this.ends = { least: Infinity, greatest: -Infinity };
+  /** The range of one state, or over all of them, each without `share` at its lower and upper end. */
+  usual(share: number, state?: number): { least: number; greatest: number } {
+    if (state !== undefined) return this.usualOf(state, share);
+    let ends = this.ends.get(share);
+    if (!ends) {
+      ends = { least: Infinity, greatest: -Infinity };
+      this.ends.set(share, ends);
       for (let i = 0; i * this.places < this.data.length; ++i) {
-        const { least, greatest } = this.usualOf(i);
-        this.ends.least = Math.min(this.ends.least, least);
-        this.ends.greatest = Math.max(this.ends.greatest, greatest);
+        const { least, greatest } = this.usualOf(i, share);
+        ends.least = Math.min(ends.least, least);
+        ends.greatest = Math.max(ends.greatest, greatest);
       }
     }
-    return this.ends;
+    return ends;
   }
 
-  private usualOf(state: number): { least: number; greatest: number } {
+  private usualOf(state: number, share: number): { least: number; greatest: number } {
     const stride = Math.ceil(this.places / 5000);
     const first = state * this.places;
     const sorted = this.data.subarray(first, first + this.places).filter((_, i) => i % stride === 0).sort();
     const last = sorted.length - 1;
-    return { least: sorted[Math.floor(0.01 * last)], greatest: sorted[Math.ceil(0.99 * last)] };
+    return { least: sorted[Math.floor(share * last)], greatest: sorted[Math.ceil((1 - share) * last)] };
   }
 }
 

@@ -8,6 +8,9 @@ export interface Extremes { least: number; greatest: number }
 /** Values differ by less than what single precision tells apart. */
 const same = 4e-7;
 
+/** Share of the values. */
+export const peaks = 0.03;
+
 /** Empty where values between `least` and `greatest` have a range to be shown. */
 function noRange({ least, greatest }: Extremes, field: Field, error: number): string {
   const size = Math.max(-least, greatest);
@@ -23,8 +26,8 @@ export function wholeRange(all: Extremes, field: Field, error: number): Range {
 }
 
 /**
- * Of what is derived, without the lowest or the highest hundredth where that reaches half as far again, as at singular
- * corners, which would leave nothing to be seen of the rest.
+ * Of what is derived, without `peaks` of the values at either end where these reach half as far again, as at singular
+ * corners and in layers beside the contact, which would leave nothing to be seen of the rest.
  */
 export function shownRange(all: Extremes, usual: Extremes, field: Field, error: number): Range {
   const size = Math.max(-usual.least, usual.greatest);

@@ -23,12 +23,12 @@ struct ContactPiece {
   std::vector<double> along;        ///< coordinate of each row, ascending [m]
 };
 
-/// The pieces of the contact on `boundaries`, by the least of their nodes. `places` [m] are those of
-/// the contact nodes in the order of contact.csv, which is that of their numbers. A straight piece
-/// along an axis is measured by that coordinate, any other by its length: an open one from the end
-/// that comes first in the table, a closed one counter-clockwise from the node that does. Where
-/// more than two facets meet, pieces end. Empty when the facets have another number of nodes than
-/// there are places.
+/// The pieces of the contact on `boundaries`, by the least of their nodes. `places` [m] are those
+/// of the contact nodes in the order of contact.csv, which is that of their numbers. A straight
+/// piece along an axis is measured by that coordinate, any other by its length: an open one from
+/// the end that comes first in the table, a closed one counter-clockwise from the node that does.
+/// Where more than two facets meet, pieces end. Empty when the facets have another number of nodes
+/// than there are places.
 std::vector<ContactPiece> contact_pieces(const std::vector<NamedFacets> &boundaries,
                                          const std::vector<std::pair<double, double>> &places);
 

@@ -56,7 +56,7 @@ struct Result {
 
   Skin skin;
   std::size_t n_points = 0, n_cells = 0;  ///< of the body
-  std::vector<output::Vector> points;  ///< of the skin's nodes [m]
+  std::vector<output::Vector> points;     ///< of the skin's nodes [m]
   std::vector<Boundary> boundaries;
   std::vector<double> times;  ///< of the states [s]
   std::vector<int> steps;

@@ -10,16 +10,17 @@ namespace tourmaline::report {
 /// state that `result` holds.
 double suitable_scale(const Result &result);
 
-/// The values below which one hundredth, and ninety-nine hundredths, of a field's component lie in
-/// the last state.
+/// The values below and above which `share` of a field's component lies in the last state.
 struct Quantiles {
   double low = 0, high = 0;
 };
-Quantiles usual_range(const Result &result, const Field &field, std::size_t component);
+Quantiles usual_range(const Result &result, const Field &field, std::size_t component,
+                      double share);
 
 /// What the colours of a field's component stand for in the last state: its least to its greatest
-/// value; of what is derived, without the lowest or the highest hundredth where that reaches half as
-/// far again, as at singular corners, which would leave nothing to be seen of the rest.
+/// value; of what is derived, without the lowest or the highest three hundredths where these reach
+/// half as far again, as at singular corners and in layers beside the contact, which would leave
+/// nothing to be seen of the rest.
 struct ShownRange {
   double low = 0, high = 0;
   bool cut_below = false, cut_above = false;
