@@ -4,8 +4,8 @@
 
 namespace tourmaline {
 
-/// The larger of two numbers; NaN where one of them is. `std::max(a, NaN)` is a, by which a residual
-/// that is not a number would look like a small one.
+/// The larger of two numbers; NaN where one of them is. `std::max(a, NaN)` is a, by which a
+/// residual that is not a number would look like a small one.
 inline double larger(double a, double b) {
   return std::isnan(a) || a > b ? a : b;
 }

@@ -247,7 +247,12 @@ void Balance<dim>::measure_round_off(Step &step) const {
   std::array<double, 3> most{};  // of the prescribed values, by field
   for (std::size_t i = 0; i < diagonal.size(); ++i)
     uncertain[i] = eps * whole / std::sqrt(largest[i % Fields<dim>::count]);
-  const std::vector<double> rows = model_.op.sizes(model_.step, uncertain);
+  // Some neighbours' share of the row in its own field. Couplings to other fields do not count: no
+  // larger in a sound case, they would excuse any imbalance of constants out of all proportion.
+  constexpr double neighbours = 10;
+  std::vector<double> rows(diagonal.size());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    rows[i] = neighbours * std::abs(diagonal[i]) * uncertain[i];
   const double watt = model_.op.reference_temperature() / model_.step;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const int component = static_cast<int>(i % Fields<dim>::count);
