@@ -144,9 +144,13 @@ Tangent PointLaw::gradient(const Tangent &slip) const {
       .head(slip.size());
 }
 
+// With one free component the Hessian is the small difference of large terms where o is small
+// beside z; what round-off makes negative would take the convexity away.
 TangentMatrix PointLaw::hessian(const Tangent &slip) const {
-  return with_law([&](const auto &law) { return law.hessian(whole(slip, held_)); })
-      .topLeftCorner(slip.size(), slip.size());
+  const TangentMatrix part = with_law([&](const auto &law) {
+                               return law.hessian(whole(slip, held_));
+                             }).topLeftCorner(slip.size(), slip.size());
+  return held_.size() == 0 ? part : TangentMatrix(part.cwiseMax(0));
 }
 
 bool PointLaw::has_kink(Index n_free) const {
