@@ -105,10 +105,12 @@ TangentMatrix PointLaw::traction_derivative(const Tangent &trial, double r) cons
 output::ContactStatus PointLaw::status(const Tangent &trial, double r) const {
   if (!held_.isZero(0))
     return output::ContactStatus::slip;
-  if (trial.size() == 0)
-    return output::ContactStatus::stick;
-  const Tangent x = whole_trial(trial, r);
-  return with_law([&](const auto &law) { return law.status(x); });
+  if (held_.size() == 0)
+    return with_law([&](const auto &law) { return law.status(trial); });
+  // The known trial value of a point that sticks lies on the border of the law's set, where the law
+  // itself may say either.
+  const bool slips = (trial - traction(trial, r)).norm() > 1e-14 * trial.norm();
+  return slips ? output::ContactStatus::slip : output::ContactStatus::stick;
 }
 
 Tangent PointLaw::whole_traction(const Tangent &slip, const Tangent &free,
@@ -142,9 +144,13 @@ Tangent PointLaw::gradient(const Tangent &slip) const {
       .head(slip.size());
 }
 
+// With one free component the Hessian is the small difference of large terms where o is small
+// beside z; what round-off makes negative would take the convexity away.
 TangentMatrix PointLaw::hessian(const Tangent &slip) const {
-  return with_law([&](const auto &law) { return law.hessian(whole(slip, held_)); })
-      .topLeftCorner(slip.size(), slip.size());
+  const TangentMatrix part = with_law([&](const auto &law) {
+                               return law.hessian(whole(slip, held_));
+                             }).topLeftCorner(slip.size(), slip.size());
+  return held_.size() == 0 ? part : TangentMatrix(part.cwiseMax(0));
 }
 
 bool PointLaw::has_kink(Index n_free) const {

@@ -10,6 +10,7 @@ namespace tourmaline::testing {
 namespace {
 
 using output::content_of;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 casefile::Case read(const std::string &text, std::vector<std::string> overrides = {}) {
@@ -190,6 +191,81 @@ TEST(Laminate, AFloatingConductorCarriesNoFieldAndPassesTheChargeOn) {
                 {0.01, 100e9, -5, 3e-9},
                 {0.01, 80e9 * 0.75 / (1.25 * 0.5), 0, 1, true}},
                5e-6);
+}
+
+// Two ceramic layers and a steel one between them, which touches left and right.
+const std::string with_steel = R"(
+mesh.box = { min = [0, 0], max = [0.02, 0.03], cells = [4, 6] }
+time = { end = 2, steps = 2 }
+boundary = [ { on = "bottom", displacement = [0, 0], potential = 0, temperature = 0 } ]
+output = { fields = false, report = false }
+[[region]]
+where = "y < 0.01 || y > 0.02"
+material.library = "BaTiO3-Liu2014"
+[[region]]
+where = "y >= 0.01 && y <= 0.02"
+material.library = "steel"
+)";
+
+// What is said of the case with further boundaries and electrodes.
+std::string refusal(const std::vector<std::string> &overrides) {
+  try {
+    RunCase run(casefile::read_text(with_steel, "case.toml", overrides));
+  } catch (const CaseError &error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Conductor, MayNotHaveTwoPotentials) {
+  const std::string bottom = "{on='bottom',displacement=[0,0],temperature=0,potential=0},";
+  const auto with = [&](const std::string &more) {
+    return std::vector<std::string>{"boundary=[" + bottom + more + "]"};
+  };
+  // The same value twice, or one that both formulas have at all steps, is one potential.
+  EXPECT_EQ(refusal(with("{on='left',potential=0},{on='right',potential=0}")), "");
+  EXPECT_EQ(refusal(with("{on='left',potential='0*t'},{on='right',potential='t*(t-1)*(t-2)'}")),
+            "");
+  const std::string two = refusal(with("{on='left',potential=0},{on='right',potential='t-1'}"));
+  EXPECT_THAT(two, AllOf(HasSubstr("one conductor"), HasSubstr("with 1 V and 0 V at t = 2 s"),
+                         HasSubstr("boundary")));
+  EXPECT_THAT(refusal(with("{on='left',potential='y'}")), HasSubstr("one conductor"));
+}
+
+TEST(Conductor, MayNotHaveTwoElectrodesNorOneOfUnknownVoltageBesideAPotential) {
+  const auto on = [](const std::string &name, const std::string &side, const std::string &more) {
+    return "{name='" + name + "',on='" + side + "'" + more + "}";
+  };
+  const std::string left = on("a", "left", ",voltage=1"), right = on("b", "right", ",voltage=1");
+  EXPECT_EQ(refusal({"electrode=[" + left + "]"}), "");
+  EXPECT_THAT(refusal({"electrode=[" + left + "," + right + "]"}),
+              HasSubstr("which of these electrodes has its charge"));
+  const std::string potential =
+      "boundary=[{on='bottom',displacement=[0,0],temperature=0,potential=0},"
+      "{on='right',potential=1}]";
+  EXPECT_EQ(refusal({potential, "electrode=[" + left + "]"}), "");
+  EXPECT_THAT(refusal({potential, "electrode=[" + on("a", "left", ",voltage=2") + "]"}),
+              HasSubstr("with "));
+  EXPECT_THAT(refusal({potential, "electrode=[" + on("a", "left", "") + "]"}),
+              HasSubstr("cannot be found from its circuit"));
+}
+
+// The largest entry of a tensor depends on its axes, the largest permittivity does not.
+TEST(Conductor, ItsPermittivityDoesNotDependOnTheAxesInWhichTheOthersAreGiven) {
+  const auto of = [](const std::string &permittivity) {
+    const casefile::Case asked = casefile::read_text(
+        with_steel, "case.toml",
+        {"region[0].material={permittivity=" + permittivity +
+         ",stiffness=[[2e11,8e10,8e10,0,0,0],[8e10,2e11,8e10,0,0,0],[8e10,8e10,2e11,0,0,0],"
+         "[0,0,0,6e10,0,0],[0,0,0,0,6e10,0],[0,0,0,0,0,6e10]],conductivity=[[1,0,0],[0,1,0],[0,0,1]"
+         "],"
+         "thermal_stress=[0,0,0,0,0,0],density=7000,specific_heat=500,reference_temperature=293}"});
+    return material::Composition<2>(asked).at(1, {}).permittivity(0, 0);
+  };
+  // 1 and 3 nF/m along the axes, or along the diagonals.
+  const double along = of("[[1e-9,0,0],[0,1e-9,0],[0,0,3e-9]]");
+  EXPECT_NEAR(along, 1e6 * 3e-9, 1e-12);
+  EXPECT_NEAR(of("[[2e-9,0,1e-9],[0,1e-9,0],[1e-9,0,2e-9]]"), along, 1e-14);
 }
 
 // A ring of cells that a turn maps onto one another: poled along the radius, it must answer alike
