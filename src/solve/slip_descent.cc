@@ -30,6 +30,8 @@ class Descent {
   /// Solves one linear system; true when points came to stick on the way, so that the step after it
   /// is another one.
   bool newton_step(double tolerance);
+  /// Puts points that stick, but for round-off, at exactly zero. True when there were some.
+  bool settle();
   InterfaceSolution solution(double allowed) const;
 
  private:
@@ -238,6 +240,22 @@ bool Descent::newton_step(double tolerance) {
   return std::count(after.begin(), after.end(), true) < n_smooth;
 }
 
+bool Descent::settle() {
+  VectorXd next = d_;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const ContactPoint &p = points_[i];
+    const double r = programme_.curvature[i];
+    if (p.size > 0 && p.friction.has_kink(p.size) &&
+        p.friction.status(trial(i, r) / p.weight, r / p.weight) == output::ContactStatus::stick)
+      next.segment(p.offset, p.size).setZero();
+  }
+  if (next == d_)
+    return false;
+  d_ = next;
+  force_ = response_.force(d_);
+  return true;
+}
+
 InterfaceSolution Descent::solution(double allowed) const {
   InterfaceSolution solution;
   solution.increment = d_;
@@ -262,7 +280,15 @@ InterfaceSolution minimise(const SlipProgramme &programme, SlipResponse &respons
   constexpr int patience = 3;
   Descent descent(programme, response, std::move(start));
   int solved = 0, last_gain = 0;
-  double least = descent.largest_residual(), allowed = descent.allowed(settings.tolerance);
+  double allowed = 0;
+  const auto residual = [&] {
+    allowed = descent.allowed(settings.tolerance);
+    const bool is_small = descent.largest_residual() <= std::max(allowed, response.accuracy());
+    if (is_small)
+      descent.settle();
+    return descent.largest_residual();
+  };
+  double least = residual();
   while (least > allowed && solved < settings.max_iterations &&
          (least > response.accuracy() || solved - last_gain < patience)) {
     descent.proximal_step(settings.tolerance);
@@ -271,8 +297,7 @@ InterfaceSolution minimise(const SlipProgramme &programme, SlipResponse &respons
       more = descent.newton_step(settings.tolerance);
       ++solved;
     }
-    allowed = descent.allowed(settings.tolerance);
-    if (const double now = descent.largest_residual(); now < least) {
+    if (const double now = residual(); now < least) {
       least = now;
       last_gain = solved;
     }

@@ -19,6 +19,7 @@
 #include <thread>
 #include <vector>
 
+#include "../cases/partly_held.h"
 #include "../cases/read_table.h"
 #include "../output/temporary_folder.h"
 #include "tourmaline/report/field_file.h"
@@ -208,6 +209,24 @@ TEST_P(Ranks, ABlockOfTetrahedraIsTheSame) {
 
 TEST_P(Ranks, ABlockOfHexahedraIsTheSame) {
   expect_same(file_of(block) + " --set 'mesh.box.cell=\"hexahedron\"'");
+}
+
+TEST_P(Ranks, ABlockBetweenPlanesOfSymmetryIsTheSame) {
+  expect_same(file_of(quarter_block));
+}
+
+// Both stop at a residual of 1e-13, on different ways.
+TEST_P(Ranks, ABlockBetweenPlanesOfSymmetryIsTheSameIteratively) {
+  ASSERT_NO_FATAL_FAILURE(run_twice(
+      file_of(quarter_block) + " --set solver.body=iterative --set solver.linear_tolerance=1e-13"));
+  expect_equal_quantities(table_of_one("nodes.csv"), table_of_several("nodes.csv"),
+                          {{"u_x", "u_y", "u_z"}, {"potential"}, {"temperature"}}, 1e-9);
+  const Table contact = table_of_one("contact.csv"), same = table_of_several("contact.csv");
+  expect_equal_quantities(
+      contact, same,
+      {{"normal_traction", "tangential_traction_x", "tangential_traction_y"}, {"slip_x", "slip_y"}},
+      1e-9);
+  EXPECT_EQ(same.columns.at("status"), contact.columns.at("status"));
 }
 
 TEST_P(Ranks, LoadsThatDependOnPlaceAndTimeAreTheSame) {

@@ -5,6 +5,7 @@
 #include <random>
 #include <regex>
 
+#include "../cases/partly_held.h"
 #include "../cases/run_case.h"
 #include "tourmaline/error.h"
 #include "tourmaline/solve/saddle_system.h"
@@ -144,7 +145,10 @@ INSTANTIATE_TEST_SUITE_P(
         Variant{"EndHeldAlongTheContact", plane, {bottom_only, bottom_moves_along}},
         Variant{"EndHeldAcrossTheContact", plane, {bottom_only, bottom_moves_across}},
         Variant{"Tetrahedra", block, {}}, Variant{"Hexahedra", block, {"mesh.box.cell=hexahedron"}},
-        Variant{"Ring", ring, {}},
+        Variant{"PlaneBetweenRollers", testing::plane_between_rollers, {}},
+        Variant{"QuarterBlock", testing::quarter_block, {}},
+        Variant{"Rollers", testing::rollers, {}},
+        Variant{"SleeveWithRims", testing::rimmed_sleeve, {}}, Variant{"Ring", ring, {}},
         Variant{"RingOfQuadraticQuadrilaterals",
                 ring,
                 {"mesh.annulus.cell=quadrilateral", "mesh.degree=2"}},
