@@ -258,8 +258,7 @@ void declare(Visitor &v, MeshCase &mesh) {
              "it bend, for displacement and potential. Triangles and tetrahedra bend with "
              "degree = 2",
          .choices = {"none", "incompatible"},
-         .used = mesh.degree == 1,
-         .used_with = "degree = 1"},
+         .used = {mesh.degree == 1, "degree = 1"}},
         &mesh.modes);
   v.optional_table(
       {.name = "box",

@@ -17,16 +17,19 @@ std::string all_regions(const MeshCase &mesh) {
   return all;
 }
 
+Key key_of_names(const MeshCase &mesh) {
+  Key key{.name = "on", .description = "region, or list of regions, of a mesh file"};
+  if (mesh.content)
+    key.choices = mesh.content->regions.names;
+  key.choices_words = "the names of a mesh file";
+  key.default_words = "none";
+  key.used = with("mesh.file", !mesh.box && !mesh.annulus);
+  return key;
+}
+
 void declare(Visitor &v, RegionCase &region, const MeshCase &mesh) {
   v.place(region.place);
-  const Key on = {
-      .name = "on",
-      .description = "region, or list of regions, of a mesh file",
-      .choices = mesh.content ? mesh.content->regions.names : std::vector<std::string>{},
-      .choices_words = "the names of a mesh file",
-      .default_words = "none",
-      .used = with("mesh.file", !mesh.box && !mesh.annulus)};
-  v.key(on, &region.on);
+  v.key(key_of_names(mesh), &region.on);
   v.optional({.name = "where",
               .description = "formula: a cell belongs to the region when this is not 0 at its "
                              "centre, as with \"y > 0.01\"",

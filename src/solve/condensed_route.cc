@@ -139,7 +139,6 @@ void CondensedRoute<dim>::condense_onto_slips() {
   std::vector<Eigen::Triplet<double>> triplets;
   Index n_slips = 0;
   points_.clear();
-  slip_directions_.clear();
   for (std::size_t i = 0; i < model_.interface.size(); ++i) {
     const auto directions = admissible(i, zero).directions;
     points_.push_back({n_slips, directions.cols(), model_.interface[i].weight, {}});

@@ -54,6 +54,7 @@ class Iteration {
   // lambda + r d as a traction; r is the largest curvature of the point's own block of A.
   Tangent trial(std::size_t i) const;
   Tangent friction_force(std::size_t i) const;
+  bool is_smooth(const ContactPoint &p) const;
   std::vector<std::size_t> smooth_points() const;
   struct Dissipated {
     double change = 0, round_off = 0;  // [J], the second by 1e-16
@@ -63,6 +64,7 @@ class Iteration {
   double length_to_turn(const ContactPoint &p, const VectorXd &direction, Turns turns) const;
   VectorXd truncated(const VectorXd &direction, double length, Turns turns) const;
   bool descends(const VectorXd &next) const;
+  bool shorten(const VectorXd &direction, VectorXd &next) const;
 
   const InterfaceProgramme &programme_;
   VectorXd d_;      // slip increments
@@ -111,14 +113,19 @@ void Iteration::sweep(bool backwards) {
   }
 }
 
+// A point that was stopped at its bend, where the law is smooth but turns within o, sticks for
+// Newton's method until a sweep takes it away from there.
+bool Iteration::is_smooth(const ContactPoint &p) const {
+  const Tangent d = d_.segment(p.offset, p.size);
+  const bool at_bend = d.isZero(0) && p.friction.has_bend(p.size);
+  return p.size > 0 && !at_bend && p.friction.is_smooth_at(d);
+}
+
 std::vector<std::size_t> Iteration::smooth_points() const {
   std::vector<std::size_t> smooth;
-  for (std::size_t i = 0; i < programme_.points.size(); ++i) {
-    const ContactPoint &p = programme_.points[i];
-    const Tangent d = d_.segment(p.offset, p.size);
-    if (p.size > 0 && p.friction.is_smooth_at(d))
+  for (std::size_t i = 0; i < programme_.points.size(); ++i)
+    if (is_smooth(programme_.points[i]))
       smooth.push_back(i);
-  }
   return smooth;
 }
 
@@ -210,26 +217,27 @@ bool Iteration::newton_step() {
   is_definite_ = found.has_value();
   if (!is_definite_)
     return false;
-  const VectorXd &direction = *found;
-  double length = 1;
-  VectorXd next = truncated(direction, length, Turns::kinks);
-  if (!descends(next))
-    next = truncated(direction, length, Turns::kinks_and_bends);
-  if (!descends(next)) {
-    // Up to the first turn the value falls where points slip on lines; discs need damping as well.
-    for (const ContactPoint &p : programme_.points)
-      length = std::min(length, length_to_turn(p, direction, Turns::kinks_and_bends));
-    next = truncated(direction, length, Turns::kinks_and_bends);
-    while (length > 1e-12 && !descends(next)) {
-      length /= 2;
-      next = truncated(direction, length, Turns::kinks_and_bends);
-    }
-    if (!descends(next))
-      return false;  // round-off is all that is left of the step
-  }
+  VectorXd next = truncated(*found, 1, Turns::kinks);
+  if (!descends(next) && !shorten(*found, next))
+    return false;  // round-off is all that is left of the step
   d_ = next;
   update_residual_force();
   return smooth_points().size() < smooth.size();
+}
+
+// Halves the step until the value does not grow, but not below the length at which the first point
+// turns: up to there the value falls where points slip on lines. Discs need damping as well.
+bool Iteration::shorten(const VectorXd &direction, VectorXd &next) const {
+  double first = 1;
+  for (const ContactPoint &p : programme_.points)
+    first = std::min(first, length_to_turn(p, direction, Turns::kinks_and_bends));
+  double length = 1;
+  next = truncated(direction, length, Turns::kinks_and_bends);
+  while (length > 1e-12 && !descends(next)) {
+    length = length > first ? std::max(first, length / 2) : length / 2;
+    next = truncated(direction, length, Turns::kinks_and_bends);
+  }
+  return descends(next);
 }
 
 double Iteration::residual(std::size_t i) const {

@@ -35,11 +35,6 @@ namespace tourmaline::solve {
 
 namespace {
 
-void say(const std::string &text, bool quiet) {
-  if (!quiet && parallel::is_first())
-    std::cerr << "tourmaline: " << text << '\n';
-}
-
 template <int dim>
 class Simulation {
  public:
