@@ -46,7 +46,7 @@ const Mistake syntax[] = {
     {"[time]", "[time", {"case.toml:10:6: is not TOML"}},
     {"end = 0.2", "end = ", {"case.toml:11:", "is not TOML"}},
     {"steps = 20", "steps = 20\nsteps = 30", {"case.toml:13:", "cannot redefine"}},
-    {"Thermally", "Therm\xFF\xFE", {"case.toml:1:", "utf-8"}},
+    {"Thermally", "Therm\xFF\xFE", {"case.toml:1:", "is not UTF-8"}},
     {"steps = 20", "steps = 99999999999999999999", {"case.toml:12:", "64 bits"}},
 };
 INSTANTIATE_TEST_SUITE_P(Syntax, MistakeInAFile, testing::ValuesIn(syntax));
