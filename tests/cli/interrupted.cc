@@ -208,11 +208,14 @@ TEST_F(Interrupted, KilledAtRandomMomentsItGoesOnToTheSameBytes) {
     const auto process = start(all + "other/results --resume");
     std::this_thread::sleep_for(share(random) * whole);
     process->send(SIGKILL);
-    if (process->wait() == 0) {
+    const bool ended = process->wait() == 0;
+    if (ended) {
       expect_same_files(here() / "one/results", here() / "other/results");
       fs::remove_all(here() / "other");
     }
-    behind_checkpoint += fs::exists(here() / "other/results/checkpoint.bin");
+    const bool behind = fs::exists(here() / "other/results/checkpoint.bin");
+    behind_checkpoint += behind;
+    whole *= ended ? 0.8 : behind ? 1 : 1.2;  // how busy the machine is changes meanwhile
   }
   ASSERT_EQ(run(all + "other/results --resume"), 0) << complained_;
   expect_same_results(here() / "one/results", here() / "other/results");
