@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -174,7 +176,10 @@ void generate(Format format, const casefile::MeshCase &asked) {
 // libgmsh obeys a file of options that lies beside a mesh (body.msh.opt), and such options may run
 // commands. By this name of the same file there is nothing beside it.
 std::string without_options(const std::string &file) {
-  return fmt::format("/proc/self/fd/{}", ::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0)
+    throw CaseError(fmt::format("cannot be opened: {}", std::strerror(errno)));
+  return fmt::format("/proc/self/fd/{}", descriptor);
 }
 
 void open(Format format, const casefile::MeshCase &asked) {

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdint>
 #include <initializer_list>
 #include <memory>
@@ -259,6 +260,7 @@ Walls confine(const std::vector<std::filesystem::path> &readable, Walls asked) {
   enter_empty_folder();
   const rlimit nothing{0, 0};
   setrlimit(RLIMIT_FSIZE, &nothing);
+  std::signal(SIGXFSZ, SIG_IGN);  // a library that writes what nobody asked for gets an error
   prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
   Walls stand;
   stand.landlock = asked.landlock && wall_off_files(readable);

@@ -66,6 +66,7 @@ TEST(SummaryText, ItHasTheKeysOfTheContractInTheirOrder) {
       ]
     }
   ],
+  "materials": [],
   "seconds": {
     "mesh": 0.25,
     "start": null,
