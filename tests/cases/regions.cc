@@ -4,6 +4,7 @@
 
 #include "run_case.h"
 #include "tourmaline/error.h"
+#include "tourmaline/material/composition.h"
 #include "tourmaline/solve/survey.h"
 
 namespace tourmaline::testing {

@@ -58,7 +58,9 @@ TEST(Bilateral, FreeAndHeldDirectionsTogetherAreAnOrthonormalBasisOfTheTangentPl
       ASSERT_EQ(tangent.cols(), 2);
       EXPECT_LT((tangent.transpose() * tangent - Eigen::Matrix2d::Identity()).norm(), 1e-15);
       EXPECT_LT((tangent.transpose() * normal).norm(), 1e-15);
-      EXPECT_LT((a.directions.transpose() * a.base).norm(), 1e-24);
+      const Eigen::MatrixXd directions = a.directions;
+      const Eigen::VectorXd along = directions.transpose() * a.base;
+      EXPECT_LT(along.norm(), 1e-24);
     }
 }
 

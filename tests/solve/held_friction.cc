@@ -333,7 +333,7 @@ class HeldFriction : public ::testing::TestWithParam<std::tuple<Variant, const c
     double size = 0;
     for (int component = 0; component < dim; ++component)
       size = std::max(size, largest_of(nodes.numbers(names[component])));
-    for (std::size_t node = 0; node < nodes.n_rows(); ++node)
+    for (body::Node node = 0; node < nodes.n_rows(); ++node)
       for (int component = 0; component < dim; ++component)
         EXPECT_NEAR(nodes.numbers(names[component])[node],
                     reference.state()[body::unknown<dim>(node, component)], 1e-9 * size);
