@@ -78,6 +78,7 @@ struct Half {
       cells.stress.push_back(all_cells.stress[c]);
       cells.von_mises.push_back(all_cells.von_mises[c]);
       cells.strain.push_back(all_cells.strain[c]);
+      cells.electric_field.push_back(all_cells.electric_field[c]);
       cells.electric_displacement.push_back(all_cells.electric_displacement[c]);
       cells.heat_flux.push_back(all_cells.heat_flux[c]);
     }
