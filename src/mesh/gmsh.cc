@@ -425,10 +425,15 @@ std::string complaint_about(Format format, const Limits &limits, Ending ending) 
     return fmt::format("wants to start a program; {}", walls);
   if (is_geometry(format) && ending == Ending::out_of_time)
     return fmt::format(
-        "is a geometry that does not come to an end within {:g} s of a processor; mesh it with "
+        "is a geometry that does not come to an end within {:g} s of a processor; give larger "
+        "cells "
+        "(mesh.size is in the unit of the file, which is mesh.scale), mesh it with "
         "Gmsh and name the mesh (.msh), or, if you trust it, read it with --trust, which sets no "
         "limit",
         limits.processor_seconds);
+  if (is_geometry(format) && ending == Ending::out_of_memory)
+    return "takes more memory to mesh than there is; larger cells take less (mesh.size is in the "
+           "unit of the file, which is mesh.scale)";
   const std::string text = "cannot be read, it may be damaged: the library that reads it ";
   switch (ending) {
     case Ending::out_of_time:

@@ -319,8 +319,9 @@ typename Balance<dim>::Columns Balance<dim>::columns_of(const Step &step) {
 template <int dim>
 void Balance<dim>::put_imbalance(const std::string &name, double value, double size,
                                  double round_off, Columns &columns) {
-  columns.emplace_back(name, relative_to(value, size));
-  judged_.emplace_back(name, relative_to(value, size + round_off));
+  const double imbalance = relative_to(value, size + round_off);
+  columns.emplace_back(name, imbalance);
+  judged_.emplace_back(name, imbalance);
 }
 
 template <int dim>

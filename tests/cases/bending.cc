@@ -211,5 +211,18 @@ TEST(IncompatibleModes, AreRefusedForTrianglesAndTetrahedraWithTheAdviceToTakeDe
     }
 }
 
+// Its stresses are the round-off and the error of the mesh, whatever share of them cells hold.
+TEST(StiffCells, ABarThatHeatStretchesWithoutHindranceIsNotWarnedOf) {
+  const RunCase run(read(R"(
+mesh.box = { min = [0, 0], max = [0.02, 0.001], cells = [50, 2], cell = "quadrilateral" }
+material.library = "aluminium"
+time = { end = 1, steps = 1 }
+boundary = [ { on = "left", displacement = [0, "free"], potential = 0 },
+             { on = "bottom", displacement = ["free", 0] },
+             { on = ["left", "right", "bottom", "top"], temperature = "10*x/0.02" } ]
+)"));
+  EXPECT_TRUE(run.summary()["warnings"].empty()) << run.summary()["warnings"];
+}
+
 }  // namespace
 }  // namespace tourmaline::testing
