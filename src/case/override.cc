@@ -27,6 +27,20 @@ struct Override {
   throw CaseError(asked.place + ": " + reason);
 }
 
+// Each "[" has its "]", and only digits between.
+bool has_whole_brackets(std::string_view path) {
+  bool inside = false;
+  for (const char c : path)
+    if (c == '[' || c == ']') {
+      if (inside != (c == ']'))
+        return false;
+      inside = !inside;
+    } else if (inside && !std::isdigit(static_cast<unsigned char>(c))) {
+      return false;
+    }
+  return !inside;
+}
+
 // "boundary[1].potential" -> boundary, 1, potential
 std::vector<std::string> path_of(std::string_view text) {
   std::vector<std::string> path(1);
@@ -53,7 +67,10 @@ Override split(const std::string &assignment) {
   const auto equals = assignment.find('=');
   if (equals == std::string::npos)
     fail(asked, "has no \"=\"; write key.path=value");
-  asked.path = path_of(trimmed(std::string_view(assignment).substr(0, equals)));
+  const std::string key = trimmed(std::string_view(assignment).substr(0, equals));
+  if (!has_whole_brackets(key))
+    fail(asked, "entries of lists are counted from 0, as in boundary[0].potential=5");
+  asked.path = path_of(key);
   asked.value = trimmed(std::string_view(assignment).substr(equals + 1));
   if (std::find(asked.path.begin(), asked.path.end(), "") != asked.path.end())
     fail(asked, "the key's path has an empty part; write key.path=value");

@@ -60,12 +60,15 @@ double address_space() {
   return pages * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
-// Beyond the soft limit of time comes SIGXCPU, beyond the hard one SIGKILL.
+// Beyond the soft limit of time comes SIGXCPU, beyond the hard one SIGKILL. What the user has
+// limited already stays so.
 void limit(decltype(RLIMIT_CPU) resource, double most) {
-  if (!std::isfinite(most))
+  rlimit now{};
+  if (!std::isfinite(most) || getrlimit(resource, &now) != 0)
     return;
   const auto soft = static_cast<rlim_t>(most);
-  const rlimit both{soft, resource == RLIMIT_CPU ? soft + 1 : soft};
+  const rlimit both{std::min(soft, now.rlim_cur),
+                    std::min(resource == RLIMIT_CPU ? soft + 1 : soft, now.rlim_max)};
   setrlimit(resource, &both);
 }
 

@@ -415,8 +415,9 @@ Limits limits_of(Format format, const std::string &file, const Reading &how) {
           ? how.seconds_of_geometry
           : least + static_cast<double>(std::filesystem::file_size(file)) / bytes_per_second;
   limits.seconds = 5 * limits.processor_seconds + least;
-  limits.bytes =
-      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  // A script may ask for any amount: half of the machine is left to others.
+  limits.bytes = (is_geometry(format) ? 0.5 : 1) * static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
+                 static_cast<double>(sysconf(_SC_PAGESIZE));
   return limits;
 }
 
@@ -426,14 +427,15 @@ std::string complaint_about(Format format, const Limits &limits, Ending ending) 
   if (is_geometry(format) && ending == Ending::out_of_time)
     return fmt::format(
         "is a geometry that does not come to an end within {:g} s of a processor; give larger "
-        "cells "
-        "(mesh.size is in the unit of the file, which is mesh.scale), mesh it with "
-        "Gmsh and name the mesh (.msh), or, if you trust it, read it with --trust, which sets no "
-        "limit",
+        "cells (mesh.size is in the unit of the file, which is mesh.scale), mesh it with Gmsh and "
+        "name the mesh (.msh), or, if you trust it, read it with --trust, which sets no limit",
         limits.processor_seconds);
   if (is_geometry(format) && ending == Ending::out_of_memory)
-    return "takes more memory to mesh than there is; larger cells take less (mesh.size is in the "
-           "unit of the file, which is mesh.scale)";
+    return "is a geometry whose script or mesh takes more than half of the memory; larger cells "
+           "take less (mesh.size is in the unit of the file, which is mesh.scale), or, if you "
+           "trust it, read it with --trust, which sets no limit";
+  if (is_geometry(format) && ending == Ending::silent)
+    return "is a geometry whose script ends without making a mesh";
   const std::string text = "cannot be read, it may be damaged: the library that reads it ";
   switch (ending) {
     case Ending::out_of_time:
