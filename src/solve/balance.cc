@@ -226,11 +226,34 @@ typename Balance<dim>::Step Balance<dim>::step_of(double time, std::span<const d
   return step;
 }
 
-// A solution is uncertain by the round-off of its largest scaled unknown: that is what a field of
-// which there is nothing consists of. Forces, charges and heats have |K| times that; energies cell
-// by cell have its square, as K annihilates what changes none. Of sums that large nothing can be
-// asked, of larger ones the digits that round-off leaves: so it enters as the size of a sum that
-// may lack that much.
+// Which fields (u, phi, theta) have anything to do with one another, over others as well.
+template <int dim>
+std::array<std::array<bool, 3>, 3> coupled_fields(const body::Operator<dim> &op, double step,
+                                                  std::size_t n_unknowns) {
+  const auto field = [](std::size_t i) {
+    return std::max(0, static_cast<int>(i % Fields<dim>::count) - dim + 1);
+  };
+  std::array<std::array<bool, 3>, 3> coupled{};
+  for (int g = 0; g < 3; ++g) {
+    std::vector<double> of_one(n_unknowns);
+    for (std::size_t i = 0; i < n_unknowns; ++i)
+      of_one[i] = field(i) == g;
+    const std::vector<double> rows = op.sizes(step, of_one);
+    for (std::size_t i = 0; i < n_unknowns; ++i)
+      if (rows[i] > 0)
+        coupled[field(i)][g] = true;
+  }
+  for (int over = 0; over < 3; ++over)
+    for (int f = 0; f < 3; ++f)
+      for (int g = 0; g < 3; ++g)
+        coupled[f][g] = coupled[f][g] || (coupled[f][over] && coupled[over][g]);
+  return coupled;
+}
+
+// A solution is uncertain by the round-off of the largest scaled unknown of the fields that are
+// coupled: that is what a field of which there is nothing consists of. Forces, charges and heats
+// have |K| times that; energies cell by cell have its square, as K annihilates what changes none.
+// That much a sum may lack.
 template <int dim>
 void Balance<dim>::measure_round_off(Step &step) const {
   constexpr double eps = std::numeric_limits<double>::epsilon(), several = 1e2;
@@ -239,14 +262,23 @@ void Balance<dim>::measure_round_off(Step &step) const {
   for (std::size_t i = 0; i < diagonal.size(); ++i)
     largest[i % Fields<dim>::count] =
         larger(largest[i % Fields<dim>::count], std::abs(diagonal[i]));
-  double whole = 0;
+  const auto field = [](std::size_t i) {
+    return std::max(0, static_cast<int>(i % Fields<dim>::count) - dim + 1);
+  };
+  std::array<double, 3> own{}, whole{};  // the largest scaled unknown, by field
   for (std::size_t i = 0; i < diagonal.size(); ++i)
-    whole = larger(whole, larger(std::abs(step.state[i]), std::abs(step.before[i])) *
-                              std::sqrt(largest[i % Fields<dim>::count]));
+    own[field(i)] =
+        larger(own[field(i)], larger(std::abs(step.state[i]), std::abs(step.before[i])) *
+                                  std::sqrt(largest[i % Fields<dim>::count]));
+  const auto coupled = coupled_fields(model_.op, model_.step, diagonal.size());
+  for (int f = 0; f < 3; ++f)
+    for (int g = 0; g < 3; ++g)
+      if (coupled[f][g])
+        whole[f] = larger(whole[f], own[g]);
   std::vector<double> uncertain(diagonal.size());
   std::array<double, 3> most{};  // of the prescribed values, by field
   for (std::size_t i = 0; i < diagonal.size(); ++i)
-    uncertain[i] = eps * whole / std::sqrt(largest[i % Fields<dim>::count]);
+    uncertain[i] = eps * whole[field(i)] / std::sqrt(largest[i % Fields<dim>::count]);
   // Some neighbours' share of the row in its own field. Couplings to other fields do not count: no
   // larger in a sound case, they would excuse any imbalance of constants out of all proportion.
   constexpr double neighbours = 10;
@@ -275,9 +307,8 @@ void Balance<dim>::measure_round_off(Step &step) const {
   }
   step.round_off.energy += most[0] * step.round_off.force + most[1] * step.round_off.charge +
                            most[2] * step.round_off.heat / watt;
-  for (double *sum : {&step.round_off.force, &step.round_off.charge, &step.round_off.heat,
-                      &step.round_off.energy})
-    *sum /= unquestioned;
+  step.round_off.energy +=
+      several * eps * (std::abs(step.energy().sum()) + std::abs(step.stored_before));
 }
 
 template <int dim>
@@ -319,9 +350,9 @@ typename Balance<dim>::Columns Balance<dim>::columns_of(const Step &step) {
 template <int dim>
 void Balance<dim>::put_imbalance(const std::string &name, double value, double size,
                                  double round_off, Columns &columns) {
-  const double imbalance = relative_to(value, size + round_off);
-  columns.emplace_back(name, imbalance);
-  judged_.emplace_back(name, imbalance);
+  const double lacks = std::copysign(std::max(0., std::abs(value) - round_off), value);
+  columns.emplace_back(name, relative_to(std::isnan(value) ? value : lacks, size));
+  judged_.emplace_back(columns.back());
 }
 
 template <int dim>
@@ -367,6 +398,12 @@ void Balance<dim>::add_energy(const Step &step, Columns &columns) {
                                  {"time_step_loss", lost / k}});
   put_imbalance("energy_imbalance", imbalance.value, imbalance.size, step.round_off.energy,
                 columns);
+  // Energy that does not change, such as that of a temperature that nothing is coupled to, hides no
+  // lack of the others.
+  const double size =
+      imbalance.size - std::abs(energy.sum()) - std::abs(before) + std::abs(energy.sum() - before);
+  judged_.back().second =
+      relative_to(columns.back().second * imbalance.size, std::max(size, step.round_off.energy));
 }
 
 // Global equilibrium: loads, reactions and contact forces add up to zero in every direction.

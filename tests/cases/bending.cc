@@ -206,7 +206,7 @@ TEST(IncompatibleModes, AreRefusedForTrianglesAndTetrahedraWithTheAdviceToTakeDe
       read(text);
       FAIL();
     } catch (const CaseError &error) {
-      EXPECT_THAT(error.what(), HasSubstr("mesh.modes"));
+      EXPECT_THAT(error.what(), HasSubstr("modes = \"incompatible\""));
       EXPECT_THAT(error.what(), HasSubstr("mesh.degree = 2"));
     }
 }

@@ -143,7 +143,7 @@ TEST_F(MeshFileCase, LinearStatesAreExactOnUnstructuredTetrahedraAndOnHexahedra)
     for (const char *degree : {"mesh.degree=1", "mesh.degree=2"})
       expect_patch(read(R"case(
 mesh.file = "solid.geo"
-mesh.size = 0.1
+mesh.size = 0.06
 material.library = "BaTiO3-Liu2014"
 time = { end = 1, steps = 1 }
 [[boundary]]
@@ -161,7 +161,7 @@ potential = "10*(x-4*y+z)"
 
 TEST_F(MeshFileCase, ANameThatDoesNotExistIsAnsweredWithThoseThatDo) {
   put("square.geo", square);
-  EXPECT_THAT(complaint(rubbed, {"boundary[0].on=clmp", "mesh.size=0.05"}),
+  EXPECT_THAT(complaint(rubbed, {"boundary[0].on=clmp", "mesh.size=0.02"}),
               AllOf(HasSubstr("\"under\", \"clamp\", \"over\", \"rub\""),
                     HasSubstr("did you mean \"clamp\"?")));
 }
@@ -184,7 +184,7 @@ Line(5) = {2, 5}; Line(6) = {5, 6}; Line(7) = {6, 3}; Curve Loop(2) = {5, 6, 7, 
 Plane Surface(2) = {2}; Physical Surface("more") = {2}; Physical Curve("rest") = {5, 6, 7};
 
 )");
-  EXPECT_THAT(complaint(rubbed, {"mesh.size=0.05"}), HasSubstr("\"clamp\" lies inside the body"));
+  EXPECT_THAT(complaint(rubbed, {"mesh.size=0.03"}), HasSubstr("\"clamp\" lies inside the body"));
 }
 
 TEST_F(MeshFileCase, TwoNamesOfOneFacetMayNotPrescribeTheSameField) {

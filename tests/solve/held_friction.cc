@@ -78,7 +78,7 @@ class Reference {
     Index row = n + static_cast<Index>(model_.prescribed.size());
     for (Node &at : nodes_)
       if (at.is_kept_normal)
-        at.normal_force = -x[row++] / normal_scale_;
+        at.normal_force = -x[row++] * normal_scale_;
   }
 
   const Model<dim> &model() const { return model_; }
