@@ -74,10 +74,9 @@ void expect_turned(const std::string &mesh, const std::string &moved, double ang
   EXPECT_EQ(
       std::count(contact.columns.at("status").begin(), contact.columns.at("status").end(), "slip"),
       std::count(turned.columns.at("status").begin(), turned.columns.at("status").end(), "slip"));
-  for (const char *status : {"stick", "slip"})
-    EXPECT_GT(std::count(contact.columns.at("status").begin(), contact.columns.at("status").end(),
-                         status),
-              3);
+  EXPECT_GT(
+      std::count(contact.columns.at("status").begin(), contact.columns.at("status").end(), "slip"),
+      3);
 }
 
 TEST(TurnedAboutTheContactNormal, ABlockAndItsLoadsByAQuarterTurnTheAnswerTurnsWithThem) {
