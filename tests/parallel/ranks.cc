@@ -268,7 +268,8 @@ TEST_P(Ranks, AWrongCaseIsToldOnce) {
 }
 
 TEST_P(Ranks, WhatOnlyOneRankSeesEndsAllWithOneMessage) {
-  expect_told_once(paper_ + "--set 'contact.heat.coefficient=\"if(y<0.01,-1,1)\"'", 2, "negative");
+  expect_told_once(paper_ + "--set 'contact.heat.coefficient=\"if(y<0.01,-1,1)\"'", 2,
+                   "must be >= 0");
 }
 
 TEST_P(Ranks, AFailedSolveIsToldOnce) {

@@ -93,7 +93,12 @@ class Reference {
       if (is_prescribed[body::unknown<dim>(at.node, c)])
         free_normal[c] = 0;
     const MatrixXd q = Eigen::HouseholderQR<MatrixXd>(MatrixXd(at.normal)).householderQ();
-    return {at.weight, at.normal, q.rightCols(dim - 1), free_normal.norm() > 1e-8, {}, {}};
+    return {at.weight,
+            at.normal,
+            q.rightCols(dim - 1),
+            free_normal.norm() > 1e-8,
+            Tangent::Zero(dim - 1),
+            Tangent::Zero(dim - 1)};
   }
 
   void factorise(Index n) {
@@ -346,7 +351,7 @@ TEST_P(HeldFriction, IsThatOfAProgramThatKnowsTheWholeTractionAlone) {
                                                              : expect_the_reference<3>();
 }
 
-const std::string bottom = "boundary[2].on=bottom";
+const std::string bottom = "boundary[2].on=bottom", both_sides = "boundary[0].on=['left','right']";
 
 INSTANTIATE_TEST_SUITE_P(
     Cases, HeldFriction,
@@ -375,6 +380,7 @@ INSTANTIATE_TEST_SUITE_P(
             Variant{"DraggedPlaneOfQuadraticQuadrilaterals",
                     plane,
                     {"mesh.degree=2", "mesh.box.cell=quadrilateral"}},
+            Variant{"WholeSideDragged", plane, {both_sides, "mesh.box.cells=[1,4]"}},
             Variant{"TiltedSleeve", sleeve, {}},
             Variant{"TiltedSleeveMovedEndwise",
                     sleeve,
