@@ -351,7 +351,7 @@ TEST_P(HeldFriction, IsThatOfAProgramThatKnowsTheWholeTractionAlone) {
                                                              : expect_the_reference<3>();
 }
 
-const std::string bottom = "boundary[2].on=bottom", both_sides = "boundary[0].on=['left','right']";
+const std::string bottom = "boundary[2].on=bottom";
 
 INSTANTIATE_TEST_SUITE_P(
     Cases, HeldFriction,
@@ -380,7 +380,6 @@ INSTANTIATE_TEST_SUITE_P(
             Variant{"DraggedPlaneOfQuadraticQuadrilaterals",
                     plane,
                     {"mesh.degree=2", "mesh.box.cell=quadrilateral"}},
-            Variant{"WholeSideDragged", plane, {both_sides, "mesh.box.cells=[1,4]"}},
             Variant{"TiltedSleeve", sleeve, {}},
             Variant{"TiltedSleeveMovedEndwise",
                     sleeve,
