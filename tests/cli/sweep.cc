@@ -231,7 +231,7 @@ TEST_F(Sweep, MembersThatFailDoNotStopTheOthers) {
   EXPECT_THAT(complained_, AllOf(HasSubstr("tourmaline: bound=15-40_t_max_iterations=1 failed: the "
                                            "contact iteration did not converge"),
                                  HasSubstr("tourmaline: bound=15-40_t_max_iterations=100 failed: "),
-                                 HasSubstr("it must be >= 0")));
+                                 HasSubstr("but must be >= 0 N/m^2")));
   const auto table = table_in(here() / "study/sweep.csv");
   std::vector<std::string> status;
   for (std::size_t row = 1; row < table.size(); ++row)
