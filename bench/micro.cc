@@ -7,13 +7,13 @@
 #include <filesystem>
 #include <map>
 
-#include "tourmaline/body/derived.h"
+#include "body/derived.h"
+#include "condensation/condensed_body.h"
+#include "output/vtu.h"
+#include "run/process.h"
+#include "solve/condensed_route.h"
+#include "solve/interface_newton.h"
 #include "tourmaline/case/reader.h"
-#include "tourmaline/condensation/condensed_body.h"
-#include "tourmaline/output/vtu.h"
-#include "tourmaline/solve/condensed_route.h"
-#include "tourmaline/solve/interface_newton.h"
-#include "tourmaline/solve/process.h"
 
 namespace tourmaline {
 namespace {
@@ -116,7 +116,7 @@ BENCHMARK(vtu_output)->Apply(sizes);
 }  // namespace tourmaline
 
 int main(int argc, char **argv) {
-  const tourmaline::solve::Process process(1);
+  const tourmaline::run::Process process(1);
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
 }

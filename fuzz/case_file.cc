@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <iostream>
 
+#include "case/resolved.h"
 #include "tourmaline/case/reader.h"
-#include "tourmaline/case/resolved.h"
 #include "tourmaline/error.h"
 
 namespace {

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <string>
 
+#include "output/checkpoint.h"
 #include "tourmaline/error.h"
-#include "tourmaline/output/checkpoint.h"
 
 namespace {
 

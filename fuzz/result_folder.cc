@@ -10,9 +10,9 @@
 #include <string>
 
 #include "../src/report/page_template.h"
+#include "report/figures.h"
+#include "report/page.h"
 #include "tourmaline/error.h"
-#include "tourmaline/report/figures.h"
-#include "tourmaline/report/page.h"
 
 namespace tourmaline::report {
 

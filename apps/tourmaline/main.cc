@@ -8,24 +8,24 @@
 #include <string>
 #include <vector>
 
+#include "case/json_schema.h"
+#include "case/nearest.h"
+#include "case/reference.h"
+#include "case/resolved.h"
+#include "material/description.h"
+#include "output/folder_lock.h"
+#include "parallel/ranks.h"
 #include "printable_output.h"
+#include "report/figures.h"
+#include "report/page.h"
+#include "run/available_memory.h"
+#include "run/process.h"
+#include "run/survey.h"
 #include "sweep_command.h"
-#include "tourmaline/case/json_schema.h"
-#include "tourmaline/case/nearest.h"
 #include "tourmaline/case/reader.h"
-#include "tourmaline/case/reference.h"
-#include "tourmaline/case/resolved.h"
 #include "tourmaline/error.h"
-#include "tourmaline/material/description.h"
 #include "tourmaline/mesh/gmsh.h"
-#include "tourmaline/output/folder_lock.h"
-#include "tourmaline/parallel/ranks.h"
-#include "tourmaline/report/figures.h"
-#include "tourmaline/report/page.h"
-#include "tourmaline/solve/available_memory.h"
-#include "tourmaline/solve/process.h"
-#include "tourmaline/solve/simulation.h"
-#include "tourmaline/solve/survey.h"
+#include "tourmaline/run/simulation.h"
 
 namespace {
 
@@ -53,16 +53,16 @@ void run(const Asked &asked) {
   const auto directory = asked.directory.empty()
                              ? std::filesystem::path("results") / asked.file.stem()
                              : asked.directory;
-  using tourmaline::solve::Start;
-  tourmaline::solve::simulate(
+  using tourmaline::run::Start;
+  tourmaline::run::simulate(
       read, directory,
       {.quiet = asked.quiet, .start = asked.resume ? Start::checkpoint : Start::beginning});
 }
 
 void check(const Asked &asked) {
   const auto read = case_of(asked);
-  tourmaline::solve::check(read);
-  std::cout << tourmaline::casefile::resolved(read) << tourmaline::solve::survey(read);
+  tourmaline::run::check(read);
+  std::cout << tourmaline::casefile::resolved(read) << tourmaline::run::survey(read);
 }
 
 void materials(const Asked &asked) {
@@ -274,7 +274,7 @@ int report(int status, const std::string &text) {
 // OpenBLAS, started halfway, would wait for its threads for ever at an ordered end.
 void require_room_or_end() {
   try {
-    tourmaline::solve::require_room_to_start();
+    tourmaline::run::require_room_to_start();
   } catch (const tourmaline::MachineError &error) {
     std::_Exit(report(machine_failed, error.what()));
   }
@@ -286,7 +286,7 @@ int main(int argc, char **argv) {
   const PrintableOutput said(std::cout), complained(std::cerr);
   // On several ranks MPI runs until an error has been told: a rank that ended before the first one
   // has spoken would take it along.
-  std::optional<tourmaline::solve::Process> process;
+  std::optional<tourmaline::run::Process> process;
   try {
     require_room_or_end();
     if (tourmaline::parallel::is_launched())

@@ -6,9 +6,9 @@
 #include <iostream>
 #include <memory>
 
+#include "parallel/ranks.h"
+#include "sweep/sweep.h"
 #include "tourmaline/error.h"
-#include "tourmaline/parallel/ranks.h"
-#include "tourmaline/sweep/sweep.h"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <tourmaline/case/reader.h>
 #include <tourmaline/error.h>
 #include <tourmaline/mesh/gmsh.h>
-#include <tourmaline/solve/simulation.h>
+#include <tourmaline/run/simulation.h>
 
 #include <algorithm>
 #include <iostream>
@@ -32,8 +32,8 @@ class Nap : public contact::FrictionLaw {
   TangentMatrix traction_derivative(const Tangent &trial) const override {
     return TangentMatrix::Constant(1, 1, sticks(trial) ? 1 : 0);
   }
-  tourmaline::output::ContactStatus status(const Tangent &trial) const override {
-    using tourmaline::output::ContactStatus;
+  tourmaline::ContactStatus status(const Tangent &trial) const override {
+    using tourmaline::ContactStatus;
     return sticks(trial) ? ContactStatus::stick : ContactStatus::slip;
   }
   bool is_smooth_at(const Tangent &d) const override { return d[0] != 0; }
@@ -66,7 +66,7 @@ int main(int argc, char **argv) {
   try {
     const auto asked =
         tourmaline::casefile::read_file(argv[1], {}, tourmaline::mesh::read_mesh_file);
-    tourmaline::solve::simulate(asked, argv[2], {.friction = nap_at});
+    tourmaline::run::simulate(asked, argv[2], {.friction = nap_at});
   } catch (const tourmaline::Error &error) {
     std::cerr << "directional_friction: " << error.what() << '\n';
     return 1;

@@ -1,10 +1,10 @@
-#include "tourmaline/body/backward_error.h"
+#include "body/backward_error.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "tourmaline/larger.h"
+#include "larger.h"
 
 namespace tourmaline::body {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "tourmaline/body/fields.h"
-#include "tourmaline/material/plane.h"
+#include "body/fields.h"
+#include "material/plane.h"
 
 namespace tourmaline::body {
 

@@ -1,4 +1,4 @@
-#include "tourmaline/body/cell_modes.h"
+#include "body/cell_modes.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
-#include "tourmaline/body/cell_products.h"
+#include "body/cell_products.h"
 
-#include "tourmaline/parallel/ranks.h"
+#include "parallel/ranks.h"
 
 namespace tourmaline::body {
 

@@ -1,4 +1,4 @@
-#include "tourmaline/body/conditions.h"
+#include "body/conditions.h"
 
 #include <fmt/format.h>
 
@@ -63,7 +63,7 @@ std::vector<double> initial_state(const Discretisation<dim> &body,
                                   const casefile::InitialCase &initial) {
   std::vector<double> state(body.n_nodes() * Fields<dim>::count, 0.);
   for (Node node = 0; node < body.n_nodes(); ++node) {
-    const output::Vector &point = body.points()[node];
+    const Vector3 &point = body.points()[node];
     for (int c = 0; c < dim && !initial.displacement.empty(); ++c)
       state[unknown<dim>(node, c)] = initial.displacement[c].value(point, 0);
     state[unknown<dim>(node, Fields<dim>::potential)] = initial.potential.value(point, 0);

@@ -1,4 +1,4 @@
-#include "tourmaline/body/conductors.h"
+#include "body/conductors.h"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,9 @@
 #include <map>
 #include <numeric>
 
-#include "tourmaline/case/toml_text.h"
+#include "case/toml_text.h"
+#include "parallel/ranks.h"
 #include "tourmaline/error.h"
-#include "tourmaline/parallel/ranks.h"
 
 namespace tourmaline::body {
 

@@ -1,4 +1,4 @@
-#include "tourmaline/body/derived.h"
+#include "body/derived.h"
 
 #include <cmath>
 #include <numeric>
@@ -31,7 +31,7 @@ double von_mises(const output::SymmetricTensor &s) {
 
 namespace {
 
-output::Vector plain(const Eigen::Vector3d &v) {
+Vector3 plain(const Eigen::Vector3d &v) {
   return {v[0], v[1], v[2]};
 }
 

@@ -1,4 +1,4 @@
-#include "tourmaline/body/discretisation.h"
+#include "body/discretisation.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_handler.h>
@@ -12,10 +12,10 @@
 #include <optional>
 #include <set>
 
+#include "mesh/mesh.h"
+#include "output/place.h"
+#include "parallel/ranks.h"
 #include "tourmaline/error.h"
-#include "tourmaline/mesh/mesh.h"
-#include "tourmaline/output/place.h"
-#include "tourmaline/parallel/ranks.h"
 
 namespace tourmaline::body {
 
@@ -52,8 +52,8 @@ struct Discretisation<dim>::Parts {
   dealii::Quadrature<dim> cell_rule, sampling_rule;
   dealii::Quadrature<dim - 1> facet_rule;
   dealii::DoFHandler<dim> dofs;
-  std::vector<Node> node_of;           // by deal.II's global number, which depends on the ranks
-  std::vector<output::Vector> points;  // by node
+  std::vector<Node> node_of;    // by deal.II's global number, which depends on the ranks
+  std::vector<Vector3> points;  // by node
   std::vector<typename dealii::DoFHandler<dim>::active_cell_iterator> cells;  // of this rank
   std::vector<Node> connectivity;                                             // cell by cell
 };
@@ -75,8 +75,8 @@ dealii::Quadrature<dim> gauss(bool simplices, int n) {
 }
 
 template <int dim>
-output::Vector in_space(const dealii::Point<dim> &p) {
-  output::Vector v{};
+Vector3 in_space(const dealii::Point<dim> &p) {
+  Vector3 v{};
   for (int i = 0; i < dim; ++i)
     v[i] = p[i];
   return v;
@@ -136,7 +136,7 @@ std::vector<double> Discretisation<dim>::Parts::own_places() const {
 template <int dim>
 void Discretisation<dim>::Parts::number_nodes() {
   const std::vector<double> places = parallel::joined(own_places());
-  std::vector<output::Vector> unsorted(dofs.n_dofs(), output::Vector{});
+  std::vector<Vector3> unsorted(dofs.n_dofs(), Vector3{});
   for (std::size_t i = 0; i < places.size(); ++i)
     unsorted[i / dim][i % dim] = places[i];
   node_of.resize(unsorted.size());
@@ -210,7 +210,7 @@ int Discretisation<dim>::degree() const {
 }
 
 template <int dim>
-const std::vector<output::Vector> &Discretisation<dim>::points() const {
+const std::vector<Vector3> &Discretisation<dim>::points() const {
   return parts_->points;
 }
 

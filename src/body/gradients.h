@@ -3,8 +3,8 @@
 #include <Eigen/Dense>
 #include <span>
 
-#include "tourmaline/body/operator.h"
-#include "tourmaline/material/constants.h"
+#include "body/operator.h"
+#include "material/constants.h"
 
 namespace tourmaline::body {
 

@@ -1,8 +1,8 @@
-#include "tourmaline/body/loads.h"
+#include "body/loads.h"
 
 #include <numeric>
 
-#include "tourmaline/parallel/ranks.h"
+#include "parallel/ranks.h"
 
 namespace tourmaline::body {
 

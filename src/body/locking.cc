@@ -1,4 +1,4 @@
-#include "tourmaline/body/locking.h"
+#include "body/locking.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cell_block.h"
-#include "tourmaline/parallel/ranks.h"
+#include "parallel/ranks.h"
 
 namespace tourmaline::body {
 
@@ -194,7 +194,7 @@ namespace {
 
 // The largest distance between two nodes.
 template <int dim>
-double size_of(const Quadrature<dim> &cell, const std::vector<output::Vector> &points) {
+double size_of(const Quadrature<dim> &cell, const std::vector<Vector3> &points) {
   double largest = 0;
   for (const Node a : cell.nodes)
     for (const Node b : cell.nodes)
@@ -204,9 +204,9 @@ double size_of(const Quadrature<dim> &cell, const std::vector<output::Vector> &p
   return largest;
 }
 
-double diagonal(const std::vector<output::Vector> &points) {
+double diagonal(const std::vector<Vector3> &points) {
   Eigen::AlignedBox3d around;
-  for (const output::Vector &point : points)
+  for (const Vector3 &point : points)
     around.extend(Eigen::Vector3d::Map(point.data()));
   return around.diagonal().norm();
 }

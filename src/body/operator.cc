@@ -1,10 +1,10 @@
-#include "tourmaline/body/operator.h"
+#include "body/operator.h"
 
 #include <algorithm>
 
 #include "cell_block.h"
+#include "parallel/ranks.h"
 #include "tourmaline/error.h"
-#include "tourmaline/parallel/ranks.h"
 
 namespace tourmaline::body {
 

@@ -1,10 +1,10 @@
-#include "tourmaline/body/recovery.h"
+#include "body/recovery.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "gradients.h"
-#include "tourmaline/parallel/ranks.h"
+#include "parallel/ranks.h"
 
 namespace tourmaline::body {
 

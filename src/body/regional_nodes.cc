@@ -1,9 +1,9 @@
-#include "tourmaline/body/regional_nodes.h"
+#include "body/regional_nodes.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "tourmaline/parallel/ranks.h"
+#include "parallel/ranks.h"
 
 namespace tourmaline::body {
 

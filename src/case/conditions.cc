@@ -1,11 +1,11 @@
-#include "tourmaline/case/conditions.h"
+#include "case/conditions.h"
 
 #include <fmt/format.h>
 
 #include <map>
 #include <utility>
 
-#include "tourmaline/case/toml_text.h"
+#include "case/toml_text.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::casefile {

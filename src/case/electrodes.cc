@@ -1,12 +1,12 @@
-#include "tourmaline/case/electrodes.h"
+#include "case/electrodes.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
 
-#include "tourmaline/case/nearest.h"
-#include "tourmaline/case/toml_text.h"
+#include "case/nearest.h"
+#include "case/toml_text.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::casefile {

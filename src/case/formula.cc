@@ -10,9 +10,9 @@
 #include <mutex>
 #include <utility>
 
+#include "case/nearest.h"
+#include "case/toml_text.h"
 #include "formula_branches.h"
-#include "tourmaline/case/nearest.h"
-#include "tourmaline/case/toml_text.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::casefile {

@@ -1,9 +1,9 @@
-#include "tourmaline/case/given.h"
+#include "case/given.h"
 
 #include <set>
 #include <utility>
 
-#include "tourmaline/case/symmetry.h"
+#include "case/symmetry.h"
 
 namespace tourmaline::casefile {
 

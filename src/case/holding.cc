@@ -1,11 +1,11 @@
-#include "tourmaline/case/holding.h"
+#include "case/holding.h"
 
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
 
-#include "tourmaline/case/sides.h"
+#include "case/sides.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::casefile {

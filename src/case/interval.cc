@@ -1,4 +1,4 @@
-#include "tourmaline/case/interval.h"
+#include "case/interval.h"
 
 #include <charconv>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "tourmaline/case/json_schema.h"
+#include "case/json_schema.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "case/schema.h"
 #include "json_schema_alternatives.h"
-#include "tourmaline/case/schema.h"
 
 namespace tourmaline::casefile {
 

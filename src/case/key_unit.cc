@@ -1,8 +1,8 @@
-#include "tourmaline/case/key_unit.h"
+#include "case/key_unit.h"
 
 #include <regex>
 
-#include "tourmaline/case/schema.h"
+#include "case/schema.h"
 
 namespace tourmaline::casefile {
 

@@ -1,4 +1,4 @@
-#include "tourmaline/case/nearest.h"
+#include "case/nearest.h"
 
 #include <algorithm>
 #include <cctype>

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "tourmaline/case/toml_text.h"
-#include "tourmaline/case/utf8.h"
+#include "case/toml_text.h"
+#include "case/utf8.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::casefile {

@@ -6,14 +6,14 @@
 #include <fstream>
 #include <utility>
 
+#include "case/conditions.h"
+#include "case/electrodes.h"
+#include "case/holding.h"
+#include "case/nearest.h"
+#include "case/schema.h"
+#include "case/toml_text.h"
+#include "case/utf8.h"
 #include "override.h"
-#include "tourmaline/case/conditions.h"
-#include "tourmaline/case/electrodes.h"
-#include "tourmaline/case/holding.h"
-#include "tourmaline/case/nearest.h"
-#include "tourmaline/case/schema.h"
-#include "tourmaline/case/toml_text.h"
-#include "tourmaline/case/utf8.h"
 #include "tourmaline/error.h"
 #include "value.h"
 

@@ -1,4 +1,4 @@
-#include "tourmaline/case/reference.h"
+#include "case/reference.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "tourmaline/case/schema.h"
-#include "tourmaline/case/toml_text.h"
+#include "case/schema.h"
+#include "case/toml_text.h"
 
 namespace tourmaline::casefile {
 

@@ -1,9 +1,9 @@
-#include "tourmaline/case/resolved.h"
+#include "case/resolved.h"
 
 #include <utility>
 
-#include "tourmaline/case/schema.h"
-#include "tourmaline/case/toml_text.h"
+#include "case/schema.h"
+#include "case/toml_text.h"
 
 namespace tourmaline::casefile {
 

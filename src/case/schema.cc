@@ -1,8 +1,8 @@
-#include "tourmaline/case/schema.h"
+#include "case/schema.h"
 
+#include "case/interval.h"
 #include "schema_parts.h"
 #include "sense.h"
-#include "tourmaline/case/interval.h"
 
 namespace tourmaline::casefile {
 

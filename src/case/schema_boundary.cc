@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "case/sides.h"
 #include "schema_parts.h"
 #include "sense.h"
-#include "tourmaline/case/sides.h"
 
 namespace tourmaline::casefile {
 

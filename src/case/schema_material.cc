@@ -3,10 +3,10 @@
 #include <cmath>
 #include <map>
 
+#include "case/given.h"
+#include "case/symmetry.h"
 #include "schema_parts.h"
 #include "sense.h"
-#include "tourmaline/case/given.h"
-#include "tourmaline/case/symmetry.h"
 
 namespace tourmaline::casefile {
 

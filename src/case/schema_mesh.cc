@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "case/sides.h"
 #include "schema_parts.h"
 #include "sense.h"
-#include "tourmaline/case/sides.h"
 
 namespace tourmaline::casefile {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tourmaline/case/schema.h"
+#include "case/schema.h"
 
 /// The declarations of the case file's tables, which `declare(Visitor &, Case &)` puts together.
 namespace tourmaline::casefile {

@@ -1,4 +1,4 @@
-#include "tourmaline/case/sides.h"
+#include "case/sides.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

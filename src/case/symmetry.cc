@@ -1,4 +1,4 @@
-#include "tourmaline/case/symmetry.h"
+#include "case/symmetry.h"
 
 #include <fmt/format.h>
 

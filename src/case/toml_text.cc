@@ -1,4 +1,4 @@
-#include "tourmaline/case/toml_text.h"
+#include "case/toml_text.h"
 
 #include <fmt/format.h>
 

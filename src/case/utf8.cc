@@ -1,4 +1,4 @@
-#include "tourmaline/case/utf8.h"
+#include "case/utf8.h"
 
 #include <fmt/format.h>
 #include <utf8.h>

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "tourmaline/case/nearest.h"
-#include "tourmaline/case/toml_text.h"
+#include "case/nearest.h"
+#include "case/toml_text.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::casefile {

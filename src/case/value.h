@@ -3,7 +3,7 @@
 #include <toml++/toml.h>
 #include <string>
 
-#include "tourmaline/case/schema.h"
+#include "case/schema.h"
 
 namespace tourmaline::casefile {
 

@@ -1,4 +1,4 @@
-#include "tourmaline/case/visitor.h"
+#include "case/visitor.h"
 
 #include <fmt/format.h>
 

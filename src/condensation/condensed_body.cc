@@ -1,14 +1,14 @@
-#include "tourmaline/condensation/condensed_body.h"
+#include "condensation/condensed_body.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "body/backward_error.h"
+#include "condensation/ordering.h"
 #include "gmres.h"
-#include "tourmaline/body/backward_error.h"
-#include "tourmaline/condensation/ordering.h"
-#include "tourmaline/larger.h"
-#include "tourmaline/parallel/ranks.h"
+#include "larger.h"
+#include "parallel/ranks.h"
 
 namespace tourmaline::condensation {
 

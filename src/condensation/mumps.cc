@@ -4,9 +4,9 @@
 
 #include <utility>
 
+#include "parallel/ranks.h"
+#include "stopwatch.h"
 #include "tourmaline/error.h"
-#include "tourmaline/parallel/ranks.h"
-#include "tourmaline/stopwatch.h"
 
 namespace tourmaline::condensation {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tourmaline/condensation/factorisation.h"
+#include "condensation/factorisation.h"
 
 namespace tourmaline::condensation {
 

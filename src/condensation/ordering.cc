@@ -1,11 +1,11 @@
-#include "tourmaline/condensation/ordering.h"
+#include "condensation/ordering.h"
 
 #include <metis.h>
 
 #include <algorithm>
 
+#include "parallel/ranks.h"
 #include "tourmaline/error.h"
-#include "tourmaline/parallel/ranks.h"
 
 namespace tourmaline::condensation {
 

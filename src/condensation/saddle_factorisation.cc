@@ -1,9 +1,9 @@
-#include "tourmaline/condensation/saddle_factorisation.h"
+#include "condensation/saddle_factorisation.h"
 
 #include <utility>
 
 #include "mumps.h"
-#include "tourmaline/parallel/ranks.h"
+#include "parallel/ranks.h"
 
 namespace tourmaline::condensation {
 

@@ -1,4 +1,4 @@
-#include "tourmaline/condensation/symmetric_matrix.h"
+#include "condensation/symmetric_matrix.h"
 
 namespace tourmaline::condensation {
 

@@ -1,4 +1,4 @@
-#include "tourmaline/contact/augmented_lagrangian.h"
+#include "contact/augmented_lagrangian.h"
 
 namespace tourmaline::contact {
 
@@ -49,8 +49,8 @@ AugmentedLagrangian::Hessian AugmentedLagrangian::hessian(const Local &displacem
   return h;
 }
 
-output::ContactStatus AugmentedLagrangian::status(const Local &displacement,
-                                                  const Local &multiplier) const {
+ContactStatus AugmentedLagrangian::status(const Local &displacement,
+                                          const Local &multiplier) const {
   return friction.status(trial(displacement, multiplier), r_slip);
 }
 

@@ -1,4 +1,4 @@
-#include "tourmaline/contact/interface.h"
+#include "contact/interface.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <numbers>
 #include <set>
 
+#include "parallel/ranks.h"
 #include "tourmaline/error.h"
-#include "tourmaline/parallel/ranks.h"
 
 namespace tourmaline::contact {
 
@@ -124,7 +124,7 @@ void check_normals(const body::Discretisation<dim> &body,
   if (edges.empty())
     return;
   const auto &[node, edge] = *edges.begin();
-  const output::Vector &point = body.points()[node];
+  const Vector3 &point = body.points()[node];
   throw CaseError(fmt::format(
       "[contact] at ({:g}, {:g}, {:g}){} the normal is not unique: facets of {} stand at {:.0f} "
       "degrees to the mean of their normals, more than {:.0f}; contact around an edge is not "
@@ -143,7 +143,7 @@ std::vector<InterfaceNode<dim>> interface_nodes(const body::Discretisation<dim> 
                                                 const std::vector<std::string> &boundaries) {
   std::vector<InterfaceNode<dim>> nodes;
   for (const auto &[node, integrals] : integrate(body, boundaries)) {
-    const output::Vector &point = body.points()[node];
+    const Vector3 &point = body.points()[node];
     if (!(integrals.weight > 1e-9 * integrals.size))
       throw CaseError(
           fmt::format("[contact] the node at ({:g}, {:g}, {:g}) has no positive weight in the "

@@ -1,4 +1,4 @@
-#include "tourmaline/contact/multipliers.h"
+#include "contact/multipliers.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <Eigen/SparseQR>
 #include <map>
 
-#include "tourmaline/body/operator.h"
-#include "tourmaline/contact/bilateral.h"
+#include "body/operator.h"
+#include "contact/bilateral.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::contact {

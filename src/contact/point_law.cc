@@ -1,6 +1,7 @@
-#include "tourmaline/contact/point_law.h"
+#include "contact/point_law.h"
 
 #include <cmath>
+#include <utility>
 
 namespace tourmaline::contact {
 
@@ -102,15 +103,15 @@ TangentMatrix PointLaw::traction_derivative(const Tangent &trial, double r) cons
   return TangentMatrix::Constant(1, 1, whole(0, 0) + (left > 0 ? across / left : 0));
 }
 
-output::ContactStatus PointLaw::status(const Tangent &trial, double r) const {
+ContactStatus PointLaw::status(const Tangent &trial, double r) const {
   if (!held_.isZero(0))
-    return output::ContactStatus::slip;
+    return ContactStatus::slip;
   if (held_.size() == 0)
     return with_law([&](const auto &law) { return law.status(trial); });
   // The known trial value of a point that sticks lies on the border of the law's set, where the law
   // itself may say either.
   const bool slips = (trial - traction(trial, r)).norm() > 1e-14 * trial.norm();
-  return slips ? output::ContactStatus::slip : output::ContactStatus::stick;
+  return slips ? ContactStatus::slip : ContactStatus::stick;
 }
 
 Tangent PointLaw::whole_traction(const Tangent &slip, const Tangent &free,

@@ -27,8 +27,8 @@ TangentMatrix Tresca::traction_derivative(const Tangent &trial) const {
   return bound / size * across(trial);
 }
 
-output::ContactStatus Tresca::status(const Tangent &trial) const {
-  return trial.norm() <= bound ? output::ContactStatus::stick : output::ContactStatus::slip;
+ContactStatus Tresca::status(const Tangent &trial) const {
+  return trial.norm() <= bound ? ContactStatus::stick : ContactStatus::slip;
 }
 
 bool Tresca::is_smooth_at(const Tangent &d) const {

@@ -1,4 +1,4 @@
-#include "tourmaline/krylov/body_system.h"
+#include "krylov/body_system.h"
 
 #include <fmt/format.h>
 #include <petscksp.h>
@@ -7,10 +7,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "tourmaline/body/backward_error.h"
+#include "body/backward_error.h"
+#include "parallel/ranks.h"
+#include "stopwatch.h"
 #include "tourmaline/error.h"
-#include "tourmaline/parallel/ranks.h"
-#include "tourmaline/stopwatch.h"
 
 namespace tourmaline::krylov {
 
@@ -94,9 +94,9 @@ struct BodySystem<dim>::Parts {
   void number_rows();
   void scale_fields();
   void preallocate();
-  void make_solver(const std::vector<output::Vector> &points);
+  void make_solver(const std::vector<Vector3> &points);
   IS field(int first, int count) const;
-  void attach_rigid_motions(IS displacements, const std::vector<output::Vector> &points) const;
+  void attach_rigid_motions(IS displacements, const std::vector<Vector3> &points) const;
   Block projector(Node node) const;
   void assemble();
   void note_held_nodes();
@@ -220,7 +220,7 @@ IS BodySystem<dim>::Parts::field(int first, int count) const {
 
 template <int dim>
 void BodySystem<dim>::Parts::attach_rigid_motions(IS displacements,
-                                                  const std::vector<output::Vector> &points) const {
+                                                  const std::vector<Vector3> &points) const {
   Vec places = nullptr;
   check(VecCreate(PETSC_COMM_WORLD, &places));
   check(VecSetBlockSize(places, dim));
@@ -240,7 +240,7 @@ void BodySystem<dim>::Parts::attach_rigid_motions(IS displacements,
 }
 
 template <int dim>
-void BodySystem<dim>::Parts::make_solver(const std::vector<output::Vector> &points) {
+void BodySystem<dim>::Parts::make_solver(const std::vector<Vector3> &points) {
   check(KSPCreate(PETSC_COMM_WORLD, &solver));
   check(KSPSetFromOptions(solver));
   PC preconditioner = nullptr;
@@ -368,7 +368,7 @@ void BodySystem<dim>::Parts::precondition() {
 
 template <int dim>
 BodySystem<dim>::BodySystem(const body::Operator<dim> &op, double step,
-                            const std::vector<output::Vector> &points,
+                            const std::vector<Vector3> &points,
                             const std::vector<body::Prescribed> &prescribed)
     : parts_(std::make_unique<Parts>(op, step)) {
   start();

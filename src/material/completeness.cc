@@ -1,12 +1,12 @@
-#include "tourmaline/material/completeness.h"
+#include "material/completeness.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <set>
 
-#include "tourmaline/case/given.h"
-#include "tourmaline/case/symmetry.h"
+#include "case/given.h"
+#include "case/symmetry.h"
 
 namespace tourmaline::material {
 

@@ -1,12 +1,12 @@
-#include "tourmaline/material/composition.h"
+#include "material/composition.h"
 
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
 
+#include "material/orientation.h"
 #include "tourmaline/error.h"
-#include "tourmaline/material/orientation.h"
 
 namespace tourmaline::material {
 

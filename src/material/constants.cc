@@ -1,16 +1,16 @@
-#include "tourmaline/material/constants.h"
+#include "material/constants.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "tourmaline/case/given.h"
-#include "tourmaline/case/symmetry.h"
+#include "case/given.h"
+#include "case/symmetry.h"
+#include "material/completeness.h"
+#include "material/crystal_class.h"
+#include "material/library.h"
 #include "tourmaline/error.h"
-#include "tourmaline/material/completeness.h"
-#include "tourmaline/material/crystal_class.h"
-#include "tourmaline/material/library.h"
 
 namespace tourmaline::material {
 

@@ -1,4 +1,4 @@
-#include "tourmaline/material/crystal_class.h"
+#include "material/crystal_class.h"
 
 #include <fmt/format.h>
 

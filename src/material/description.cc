@@ -1,4 +1,4 @@
-#include "tourmaline/material/description.h"
+#include "material/description.h"
 
 #include <fmt/format.h>
 
@@ -7,12 +7,12 @@
 #include <optional>
 #include <set>
 
-#include "tourmaline/case/given.h"
-#include "tourmaline/case/symmetry.h"
+#include "case/given.h"
+#include "case/symmetry.h"
+#include "material/completeness.h"
+#include "material/constants.h"
+#include "material/library.h"
 #include "tourmaline/error.h"
-#include "tourmaline/material/completeness.h"
-#include "tourmaline/material/constants.h"
-#include "tourmaline/material/library.h"
 
 namespace tourmaline::material {
 

@@ -1,11 +1,11 @@
-#include "tourmaline/material/library.h"
+#include "material/library.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "case/nearest.h"
 #include "library_text.h"
-#include "tourmaline/case/nearest.h"
 #include "tourmaline/case/reader.h"
 #include "tourmaline/error.h"
 

@@ -1,4 +1,4 @@
-#include "tourmaline/material/orientation.h"
+#include "material/orientation.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "tourmaline/material/plane.h"
+#include "material/plane.h"
 
 #include <cmath>
 

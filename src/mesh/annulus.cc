@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tourmaline/mesh/shapes.h"
+#include "mesh/shapes.h"
 
 namespace tourmaline::mesh {
 

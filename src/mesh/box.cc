@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "tourmaline/mesh/grading.h"
-#include "tourmaline/mesh/shapes.h"
+#include "mesh/grading.h"
+#include "mesh/shapes.h"
 
 namespace tourmaline::mesh {
 

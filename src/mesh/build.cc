@@ -1,5 +1,5 @@
-#include "tourmaline/mesh/mesh.h"
-#include "tourmaline/mesh/shapes.h"
+#include "mesh/mesh.h"
+#include "mesh/shapes.h"
 
 namespace tourmaline::mesh {
 

@@ -1,4 +1,4 @@
-#include "tourmaline/mesh/completed.h"
+#include "mesh/completed.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "mesh/element_table.h"
 #include "tourmaline/error.h"
-#include "tourmaline/mesh/element_table.h"
 #include "unfolded.h"
 
 namespace tourmaline::mesh {

@@ -1,10 +1,10 @@
-#include "tourmaline/mesh/distribute.h"
+#include "mesh/distribute.h"
 
 #include <deal.II/distributed/fully_distributed_tria.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria_description.h>
 
-#include "tourmaline/parallel/ranks.h"
+#include "parallel/ranks.h"
 
 namespace tourmaline::mesh {
 

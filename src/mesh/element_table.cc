@@ -1,4 +1,4 @@
-#include "tourmaline/mesh/element_table.h"
+#include "mesh/element_table.h"
 
 #include <algorithm>
 #include <limits>

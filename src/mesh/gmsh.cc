@@ -16,12 +16,12 @@
 #include <map>
 #include <unordered_map>
 
+#include "case/utf8.h"
 #include "child_process.h"
+#include "mesh/completed.h"
 #include "mesh_bytes.h"
 #include "sandbox.h"
-#include "tourmaline/case/utf8.h"
 #include "tourmaline/error.h"
-#include "tourmaline/mesh/completed.h"
 
 namespace tourmaline::mesh {
 

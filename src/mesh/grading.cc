@@ -1,11 +1,11 @@
-#include "tourmaline/mesh/grading.h"
+#include "mesh/grading.h"
 
 #include <deal.II/grid/grid_tools.h>
 
 #include <array>
 #include <cmath>
 
-#include "tourmaline/case/sides.h"
+#include "case/sides.h"
 
 namespace tourmaline::mesh {
 

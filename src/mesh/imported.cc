@@ -1,7 +1,7 @@
 #include <deal.II/grid/grid_tools.h>
 
-#include "tourmaline/mesh/element_table.h"
-#include "tourmaline/mesh/shapes.h"
+#include "mesh/element_table.h"
+#include "mesh/shapes.h"
 
 namespace tourmaline::mesh {
 

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
+#include "mesh/mesh.h"
 #include "tourmaline/error.h"
-#include "tourmaline/mesh/mesh.h"
 
 namespace tourmaline::mesh {
 

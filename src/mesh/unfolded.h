@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "mesh/element_table.h"
 #include "tourmaline/case/mesh_file.h"
-#include "tourmaline/mesh/element_table.h"
 
 namespace tourmaline::mesh {
 

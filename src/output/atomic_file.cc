@@ -1,4 +1,4 @@
-#include "tourmaline/output/atomic_file.h"
+#include "output/atomic_file.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

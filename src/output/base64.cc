@@ -1,4 +1,4 @@
-#include "tourmaline/output/base64.h"
+#include "output/base64.h"
 
 #include <array>
 #include <cstdint>

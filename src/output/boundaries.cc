@@ -1,4 +1,4 @@
-#include "tourmaline/output/boundaries.h"
+#include "output/boundaries.h"
 
 #include <nlohmann/json.hpp>
 

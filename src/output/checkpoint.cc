@@ -1,4 +1,4 @@
-#include "tourmaline/output/checkpoint.h"
+#include "output/checkpoint.h"
 
 #include <fmt/format.h>
 #include <zlib.h>
@@ -11,8 +11,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include "output/atomic_file.h"
 #include "tourmaline/error.h"
-#include "tourmaline/output/atomic_file.h"
 
 namespace tourmaline::output {
 namespace {

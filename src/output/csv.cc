@@ -1,4 +1,4 @@
-#include "tourmaline/output/csv.h"
+#include "output/csv.h"
 
 #include <fmt/compile.h>
 #include <fmt/format.h>
@@ -38,7 +38,7 @@ class Line {
     return *this;
   }
   /// The first `dimension` components.
-  Line &put(int dimension, const Vector &vector) {
+  Line &put(int dimension, const Vector3 &vector) {
     for (int i = 0; i < dimension; ++i)
       *this << vector[i];
     return *this;
@@ -63,7 +63,7 @@ class Line {
   bool first_ = true;
 };
 
-void check_sizes(const std::vector<Vector> &points, const PointFields &fields) {
+void check_sizes(const std::vector<Vector3> &points, const PointFields &fields) {
   for (const std::size_t size :
        {fields.displacement.size(), fields.potential.size(), fields.temperature.size()})
     if (size != points.size())
@@ -73,7 +73,7 @@ void check_sizes(const std::vector<Vector> &points, const PointFields &fields) {
 
 }  // namespace
 
-std::string nodes_table(int dimension, const std::vector<Vector> &points,
+std::string nodes_table(int dimension, const std::vector<Vector3> &points,
                         const PointFields &fields) {
   check_sizes(points, fields);
   std::string text;

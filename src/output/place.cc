@@ -1,4 +1,4 @@
-#include "tourmaline/output/place.h"
+#include "output/place.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,12 +8,12 @@ namespace tourmaline::output {
 
 namespace {
 
-double largest_extent(const std::vector<Vector> &points) {
+double largest_extent(const std::vector<Vector3> &points) {
   double extent = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto [low, high] =
-        std::minmax_element(points.begin(), points.end(),
-                            [axis](const Vector &a, const Vector &b) { return a[axis] < b[axis]; });
+    const auto [low, high] = std::minmax_element(
+        points.begin(), points.end(),
+        [axis](const Vector3 &a, const Vector3 &b) { return a[axis] < b[axis]; });
     extent = std::max(extent, (*high)[axis] - (*low)[axis]);
   }
   return extent;
@@ -21,7 +21,7 @@ double largest_extent(const std::vector<Vector> &points) {
 
 }  // namespace
 
-std::vector<std::size_t> sorted_by_place(const std::vector<Vector> &points) {
+std::vector<std::size_t> sorted_by_place(const std::vector<Vector3> &points) {
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   if (points.empty())

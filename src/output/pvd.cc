@@ -1,4 +1,4 @@
-#include "tourmaline/output/pvd.h"
+#include "output/pvd.h"
 
 #include <fmt/format.h>
 

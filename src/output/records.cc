@@ -1,26 +1,14 @@
-#include "tourmaline/output/records.h"
+#include "output/records.h"
 
 #include <algorithm>
 
 namespace tourmaline::output {
 
-const char *name_of(ContactStatus status) {
-  switch (status) {
-    case ContactStatus::open:
-      return "open";
-    case ContactStatus::stick:
-      return "stick";
-    case ContactStatus::slip:
-      return "slip";
-  }
-  return "unknown";
-}
-
 std::vector<std::uint32_t> keep_used_points(Grid &grid) {
   std::vector<std::uint32_t> used(grid.connectivity);
   std::sort(used.begin(), used.end());
   used.erase(std::unique(used.begin(), used.end()), used.end());
-  std::vector<Vector> points;
+  std::vector<Vector3> points;
   std::vector<std::uint32_t> number(grid.points.size());
   for (const std::uint32_t point : used) {
     number[point] = static_cast<std::uint32_t>(points.size());

@@ -1,4 +1,4 @@
-#include "tourmaline/output/result_folder.h"
+#include "output/result_folder.h"
 
 #include <fmt/format.h>
 
@@ -11,9 +11,9 @@
 #include <system_error>
 #include <utility>
 
+#include "output/boundaries.h"
+#include "output/csv.h"
 #include "tourmaline/error.h"
-#include "tourmaline/output/boundaries.h"
-#include "tourmaline/output/csv.h"
 
 namespace tourmaline::output {
 namespace {
@@ -214,7 +214,7 @@ void ResultFolder::put_history(const HistoryRow &row) {
   history_->append(history_line(row));
 }
 
-void ResultFolder::put_nodes(const std::vector<Vector> &points, const PointFields &fields) {
+void ResultFolder::put_nodes(const std::vector<Vector3> &points, const PointFields &fields) {
   write_file(directory_ / "nodes.csv", nodes_table(dimension_, points, fields));
 }
 

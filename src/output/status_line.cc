@@ -1,4 +1,4 @@
-#include "tourmaline/output/status_line.h"
+#include "output/status_line.h"
 
 #include <fmt/format.h>
 #include <sys/ioctl.h>

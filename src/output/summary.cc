@@ -1,4 +1,4 @@
-#include "tourmaline/output/summary.h"
+#include "output/summary.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -15,7 +15,7 @@ Json number(double value) {
   return value == 0 ? 0. : value;
 }
 
-Json place(int dimension, const Vector &point) {
+Json place(int dimension, const Vector3 &point) {
   Json coordinates = Json::array();
   for (int i = 0; i < dimension; ++i)
     coordinates.push_back(number(point[i]));

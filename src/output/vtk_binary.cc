@@ -1,4 +1,4 @@
-#include "tourmaline/output/vtk_binary.h"
+#include "output/vtk_binary.h"
 
 #include <zlib.h>
 
@@ -8,8 +8,8 @@
 #include <thread>
 #include <vector>
 
+#include "output/base64.h"
 #include "tourmaline/error.h"
-#include "tourmaline/output/base64.h"
 
 namespace tourmaline::output {
 namespace {

@@ -1,4 +1,4 @@
-#include "tourmaline/output/vtu.h"
+#include "output/vtu.h"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "tourmaline/output/atomic_file.h"
-#include "tourmaline/output/vtk_binary.h"
+#include "output/atomic_file.h"
+#include "output/vtk_binary.h"
 
 namespace tourmaline::output {
 namespace {
@@ -56,7 +56,7 @@ std::string field(const char *name, const std::vector<Value> &values, std::size_
   if (values.size() != expected)
     throw std::invalid_argument(
         fmt::format("field {}: {} values for {} places", name, values.size(), expected));
-  constexpr std::string_view attributes = std::is_same_v<Value, Vector> ? vector_components
+  constexpr std::string_view attributes = std::is_same_v<Value, Vector3> ? vector_components
                                           : std::is_same_v<Value, SymmetricTensor>
                                               ? tensor_components
                                               : "";

@@ -1,4 +1,4 @@
-#include "tourmaline/parallel/ranks.h"
+#include "parallel/ranks.h"
 
 #include <mpi.h>
 

@@ -1,4 +1,4 @@
-#include "tourmaline/report/canvas.h"
+#include "report/canvas.h"
 
 #include <cairo-pdf.h>
 #include <cairo-svg.h>
@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "output/atomic_file.h"
 #include "tourmaline/error.h"
-#include "tourmaline/output/atomic_file.h"
 
 namespace tourmaline::report {
 namespace {

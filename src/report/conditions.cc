@@ -1,4 +1,4 @@
-#include "tourmaline/report/conditions.h"
+#include "report/conditions.h"
 
 #include <fmt/format.h>
 

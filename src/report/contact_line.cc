@@ -1,4 +1,4 @@
-#include "tourmaline/report/contact_line.h"
+#include "report/contact_line.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "tourmaline/report/number_text.h"
+#include "report/number_text.h"
 
 namespace tourmaline::report {
 namespace {

@@ -1,4 +1,4 @@
-#include "tourmaline/report/field_file.h"
+#include "report/field_file.h"
 
 #include <fmt/format.h>
 
@@ -9,11 +9,11 @@
 #include <span>
 #include <utility>
 
+#include "output/place.h"
+#include "report/text_file.h"
+#include "report/vtk_array.h"
+#include "report/xml.h"
 #include "tourmaline/error.h"
-#include "tourmaline/output/place.h"
-#include "tourmaline/report/text_file.h"
-#include "tourmaline/report/vtk_array.h"
-#include "tourmaline/report/xml.h"
 
 namespace tourmaline::report {
 namespace {
@@ -114,7 +114,7 @@ class Piece {
     if (file_.grid.connectivity.empty() ||
         file_.grid.connectivity.size() % file_.grid.nodes_per_cell != 0)
       throw CaseError(name_ + ": the list of its cells is not whole");
-    for (const output::Vector &point : file_.grid.points)
+    for (const Vector3 &point : file_.grid.points)
       if (!std::isfinite(point[0]) || !std::isfinite(point[1]) || !std::isfinite(point[2]))
         throw CaseError(name_ + ": a point has no place");
     for (const std::uint32_t node : file_.grid.connectivity)
@@ -153,7 +153,7 @@ void append(FieldFile &all, const FieldFile &piece, const std::string &name) {
                                 piece.arrays[i].values.end());
 }
 
-double extent(const std::vector<output::Vector> &points) {
+double extent(const std::vector<Vector3> &points) {
   double size = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const auto [low, high] = std::minmax_element(
@@ -163,7 +163,7 @@ double extent(const std::vector<output::Vector> &points) {
   return size;
 }
 
-bool same_place(const output::Vector &a, const output::Vector &b, double tolerance) {
+bool same_place(const Vector3 &a, const Vector3 &b, double tolerance) {
   for (int axis = 0; axis < 3; ++axis)
     if (std::abs(a[axis] - b[axis]) > tolerance)
       return false;
@@ -185,7 +185,7 @@ std::vector<double> regions_of_points(const FieldFile &file) {
 class Merged {
  public:
   explicit Merged(const FieldFile &file) : number_(file.grid.points.size()) {
-    const std::vector<output::Vector> &points = file.grid.points;
+    const std::vector<Vector3> &points = file.grid.points;
     const std::vector<std::size_t> order = output::sorted_by_place(points);
     const std::vector<double> regions = regions_of_points(file);
     const double tolerance = 1e-9 * extent(points);  // that of sorted_by_place
@@ -228,7 +228,7 @@ class Merged {
 void merge_points(FieldFile &file) {
   const Merged merged(file);
   // Points of one node stand at one place to the last bit, by which they are known as such.
-  std::vector<output::Vector> points;
+  std::vector<Vector3> points;
   points.reserve(merged.kept().size());
   for (const std::size_t i : merged.kept())
     points.push_back(file.grid.points[i]);

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tourmaline/report/number_text.h"
-#include "tourmaline/report/poling.h"
-#include "tourmaline/report/scale.h"
-#include "tourmaline/report/setting.h"
-#include "tourmaline/report/ticks.h"
+#include "report/number_text.h"
+#include "report/poling.h"
+#include "report/scale.h"
+#include "report/setting.h"
+#include "report/ticks.h"
 
 namespace tourmaline::report {
 namespace {
@@ -48,7 +48,7 @@ Canvas::Point Figure::on_paper(std::uint32_t node) const {
           top_ + (view_.high[1] - place[1]) * per_metre_};
 }
 
-Canvas::Point Figure::on_paper(const output::Vector &place) const {
+Canvas::Point Figure::on_paper(const Vector3 &place) const {
   const auto at = seen(result_.dimension, place);
   return {left_ + (at[0] - view_.low[0]) * per_metre_, top_ + (view_.high[1] - at[1]) * per_metre_};
 }

@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "tourmaline/report/canvas.h"
-#include "tourmaline/report/result.h"
-#include "tourmaline/report/scale.h"
-#include "tourmaline/report/view.h"
+#include "report/canvas.h"
+#include "report/result.h"
+#include "report/scale.h"
+#include "report/view.h"
 
 namespace tourmaline::report {
 
@@ -32,7 +32,7 @@ class Figure {
 
  private:
   Canvas::Point on_paper(std::uint32_t node) const;
-  Canvas::Point on_paper(const output::Vector &place) const;
+  Canvas::Point on_paper(const Vector3 &place) const;
   void axes();
   void solid_axes_cross();
   void axis(int direction, const char *label);

@@ -1,4 +1,4 @@
-#include "tourmaline/report/figures.h"
+#include "report/figures.h"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,9 @@
 #include <system_error>
 
 #include "figure.h"
+#include "report/number_text.h"
+#include "report/scale.h"
 #include "tourmaline/error.h"
-#include "tourmaline/report/number_text.h"
-#include "tourmaline/report/scale.h"
 
 namespace tourmaline::report {
 namespace {

@@ -1,4 +1,4 @@
-#include "tourmaline/report/packing.h"
+#include "report/packing.h"
 
 #include <zlib.h>
 
@@ -6,8 +6,8 @@
 #include <bit>
 #include <vector>
 
+#include "output/base64.h"
 #include "tourmaline/error.h"
-#include "tourmaline/output/base64.h"
 
 namespace tourmaline::report {
 namespace {

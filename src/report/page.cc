@@ -1,17 +1,17 @@
-#include "tourmaline/report/page.h"
+#include "report/page.h"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
+#include "output/atomic_file.h"
 #include "page_template.h"
+#include "report/colour_map.h"
+#include "report/packing.h"
+#include "report/poling.h"
+#include "report/result.h"
+#include "report/setting.h"
 #include "tourmaline/error.h"
-#include "tourmaline/output/atomic_file.h"
-#include "tourmaline/report/colour_map.h"
-#include "tourmaline/report/packing.h"
-#include "tourmaline/report/poling.h"
-#include "tourmaline/report/result.h"
-#include "tourmaline/report/setting.h"
 
 namespace tourmaline::report {
 namespace {
@@ -36,7 +36,7 @@ Json indices(Packing &packing, const std::vector<std::array<std::uint32_t, n>> &
 
 Json grid_json(Packing &packing, const Result &result) {
   std::vector<float> points;
-  for (const output::Vector &point : result.points)
+  for (const Vector3 &point : result.points)
     points.insert(points.end(), point.begin(), point.end());
   return {{"points", packing.floats(points, 1)},
           {"nodes", packing.integers(result.skin.names)},
@@ -94,7 +94,7 @@ Json piece_json(Packing &packing, const ContactPiece &piece) {
 Json poling_json(Packing &packing, const Result &result) {
   std::vector<float> ends;
   for (const PolingArrow &arrow : poling_arrows(result))
-    for (const output::Vector &end : {arrow.tail, arrow.tip})
+    for (const Vector3 &end : {arrow.tail, arrow.tip})
       ends.insert(ends.end(), end.begin(), end.end());
   return ends.empty() ? Json() : packing.floats(ends, 1);
 }

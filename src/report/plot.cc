@@ -1,4 +1,4 @@
-#include "tourmaline/report/plot.h"
+#include "report/plot.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
-#include "tourmaline/report/number_text.h"
-#include "tourmaline/report/ticks.h"
+#include "report/number_text.h"
+#include "report/ticks.h"
 
 namespace tourmaline::report {
 namespace {

@@ -1,11 +1,11 @@
-#include "tourmaline/report/poling.h"
+#include "report/poling.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 
-#include "tourmaline/report/raster.h"
+#include "report/raster.h"
 
 namespace tourmaline::report {
 namespace {

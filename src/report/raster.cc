@@ -1,4 +1,4 @@
-#include "tourmaline/report/raster.h"
+#include "report/raster.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include "tourmaline/report/recorded_mesh.h"
+#include "report/recorded_mesh.h"
 
 #include <nlohmann/json.hpp>
 
+#include "report/table.h"
+#include "report/text_file.h"
 #include "tourmaline/error.h"
-#include "tourmaline/report/table.h"
-#include "tourmaline/report/text_file.h"
 
 namespace tourmaline::report {
 namespace {

@@ -1,4 +1,4 @@
-#include "tourmaline/report/result.h"
+#include "report/result.h"
 
 #include <fmt/format.h>
 
@@ -8,12 +8,12 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "report/field_file.h"
+#include "report/recorded_mesh.h"
+#include "report/text_file.h"
+#include "report/xml.h"
 #include "tourmaline/case/reader.h"
 #include "tourmaline/error.h"
-#include "tourmaline/report/field_file.h"
-#include "tourmaline/report/recorded_mesh.h"
-#include "tourmaline/report/text_file.h"
-#include "tourmaline/report/xml.h"
 
 namespace tourmaline::report {
 namespace {

@@ -1,9 +1,9 @@
-#include "tourmaline/report/scale.h"
+#include "report/scale.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "tourmaline/report/number_text.h"
+#include "report/number_text.h"
 
 namespace tourmaline::report {
 namespace {

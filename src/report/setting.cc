@@ -1,4 +1,4 @@
-#include "tourmaline/report/setting.h"
+#include "report/setting.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "tourmaline/report/skin.h"
+#include "report/skin.h"
 
 #include <algorithm>
 #include <limits>
@@ -67,7 +67,7 @@ Corners key_of(const Face &face, const std::vector<std::uint32_t> &names) {
 }
 
 /// Of each point the first one at its place.
-std::vector<std::uint32_t> names_of(const std::vector<output::Vector> &points) {
+std::vector<std::uint32_t> names_of(const std::vector<Vector3> &points) {
   std::vector<std::uint32_t> order(points.size()), names(points.size());
   std::iota(order.begin(), order.end(), 0U);
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {

@@ -1,4 +1,4 @@
-#include "tourmaline/report/table.h"
+#include "report/table.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <limits>
 #include <string_view>
 
+#include "output/records.h"
+#include "report/text_file.h"
 #include "tourmaline/error.h"
-#include "tourmaline/output/records.h"
-#include "tourmaline/report/text_file.h"
 
 namespace tourmaline::report {
 namespace {
@@ -27,9 +27,8 @@ std::vector<std::string_view> split(std::string_view line) {
 
 /// Of a word or a number; NaN for "nan" and for what is neither.
 double value_of(std::string_view cell) {
-  using output::ContactStatus;
   for (const auto status : {ContactStatus::open, ContactStatus::stick, ContactStatus::slip})
-    if (cell == output::name_of(status))
+    if (cell == name_of(status))
       return static_cast<double>(status);
   double value = std::numeric_limits<double>::quiet_NaN();
   std::from_chars(cell.data(), cell.data() + cell.size(), value);

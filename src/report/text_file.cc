@@ -1,4 +1,4 @@
-#include "tourmaline/report/text_file.h"
+#include "report/text_file.h"
 
 #include <cerrno>
 #include <cstring>

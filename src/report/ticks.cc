@@ -1,4 +1,4 @@
-#include "tourmaline/report/ticks.h"
+#include "report/ticks.h"
 
 #include <cmath>
 

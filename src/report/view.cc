@@ -1,4 +1,4 @@
-#include "tourmaline/report/view.h"
+#include "report/view.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,7 +46,7 @@ Triple deformed(const Result &result, std::size_t node, double scale) {
 
 }  // namespace
 
-std::array<double, 3> seen(int dimension, const output::Vector &vector) {
+std::array<double, 3> seen(int dimension, const Vector3 &vector) {
   const auto rows = directions(dimension);
   return {dot(rows[0], vector), dot(rows[1], vector), dot(rows[2], vector)};
 }

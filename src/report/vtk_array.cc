@@ -1,4 +1,4 @@
-#include "tourmaline/report/vtk_array.h"
+#include "report/vtk_array.h"
 
 #include <zlib.h>
 

@@ -1,4 +1,4 @@
-#include "tourmaline/report/xml.h"
+#include "report/xml.h"
 
 #include "tourmaline/error.h"
 

@@ -1,13 +1,13 @@
-#include "tourmaline/solve/balance.h"
+#include "solve/balance.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "tourmaline/larger.h"
-#include "tourmaline/parallel/ranks.h"
-#include "tourmaline/solve/electrodes.h"
+#include "larger.h"
+#include "parallel/ranks.h"
+#include "solve/electrodes.h"
 
 namespace tourmaline::solve {
 

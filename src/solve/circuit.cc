@@ -1,4 +1,4 @@
-#include "tourmaline/solve/circuit.h"
+#include "solve/circuit.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "tourmaline/solve/condensed_route.h"
+#include "solve/condensed_route.h"
 
 #include <fmt/format.h>
 
@@ -8,14 +8,14 @@
 #include <limits>
 #include <optional>
 
-#include "tourmaline/contact/bilateral.h"
+#include "contact/bilateral.h"
+#include "larger.h"
+#include "parallel/ranks.h"
+#include "solve/connected_body.h"
+#include "solve/interface_newton.h"
+#include "solve/judgement.h"
+#include "stopwatch.h"
 #include "tourmaline/error.h"
-#include "tourmaline/larger.h"
-#include "tourmaline/parallel/ranks.h"
-#include "tourmaline/solve/connected_body.h"
-#include "tourmaline/solve/interface_newton.h"
-#include "tourmaline/solve/judgement.h"
-#include "tourmaline/stopwatch.h"
 
 namespace tourmaline::solve {
 
@@ -40,7 +40,7 @@ void share(StepOutcome &outcome) {
   outcome.residual = numbers[1];
   const double *next = &numbers[2];
   for (auto &status : outcome.status)
-    status = static_cast<output::ContactStatus>(*next++);
+    status = static_cast<ContactStatus>(*next++);
   for (VectorXd *forces : {&outcome.contact_forces, &outcome.friction_forces}) {
     std::copy_n(next, forces->size(), forces->begin());
     next += forces->size();
@@ -226,7 +226,7 @@ void CondensedRoute<dim>::give_up(double time, const InterfaceSolution &solution
         time, ill_conditioned_advice));
   std::string places;
   for (std::size_t i = 0; i < std::min<std::size_t>(solution.unsettled.size(), 3); ++i) {
-    const output::Vector &p = model_.interface[solution.unsettled[i]].point;
+    const Vector3 &p = model_.interface[solution.unsettled[i]].point;
     places += fmt::format(" ({:g}, {:g}, {:g})", p[0], p[1], p[2]);
   }
   throw SolveError(

@@ -1,10 +1,10 @@
-#include "tourmaline/solve/connected_body.h"
+#include "solve/connected_body.h"
 
 #include <utility>
 
+#include "parallel/ranks.h"
+#include "solve/electrodes.h"
 #include "tourmaline/error.h"
-#include "tourmaline/parallel/ranks.h"
-#include "tourmaline/solve/electrodes.h"
 
 namespace tourmaline::solve {
 

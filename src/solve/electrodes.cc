@@ -1,4 +1,4 @@
-#include "tourmaline/solve/electrodes.h"
+#include "solve/electrodes.h"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
-#include "tourmaline/solve/interface_newton.h"
+#include "solve/interface_newton.h"
 
 #include <cmath>
 #include <limits>
 #include <optional>
 
-#include "tourmaline/larger.h"
+#include "larger.h"
 
 namespace tourmaline::solve {
 

@@ -1,4 +1,4 @@
-#include "tourmaline/solve/iterative_route.h"
+#include "solve/iterative_route.h"
 
 #include <fmt/format.h>
 
@@ -6,13 +6,13 @@
 #include <cmath>
 #include <limits>
 
-#include "tourmaline/contact/bilateral.h"
-#include "tourmaline/contact/point_law.h"
+#include "contact/bilateral.h"
+#include "contact/point_law.h"
+#include "krylov/body_system.h"
+#include "larger.h"
+#include "solve/slip_descent.h"
+#include "stopwatch.h"
 #include "tourmaline/error.h"
-#include "tourmaline/krylov/body_system.h"
-#include "tourmaline/larger.h"
-#include "tourmaline/solve/slip_descent.h"
-#include "tourmaline/stopwatch.h"
 
 namespace tourmaline::solve {
 
@@ -22,7 +22,6 @@ using body::Fields;
 using body::unknown;
 using contact::Tangent;
 using contact::TangentMatrix;
-using output::ContactStatus;
 
 // The contact at one node in the step at hand.
 template <int dim>
@@ -649,7 +648,7 @@ template <int dim>
 void IterativeRoute<dim>::give_up_contact(double time, const InterfaceSolution &solution) const {
   std::string places;
   for (std::size_t i = 0; i < std::min<std::size_t>(solution.unsettled.size(), 3); ++i) {
-    const output::Vector &p = model_.interface[solution.unsettled[i]].point;
+    const Vector3 &p = model_.interface[solution.unsettled[i]].point;
     places += fmt::format(" ({:g}, {:g}, {:g})", p[0], p[1], p[2]);
   }
   throw SolveError(fmt::format(

@@ -1,4 +1,4 @@
-#include "tourmaline/solve/judgement.h"
+#include "solve/judgement.h"
 
 #include <fmt/format.h>
 

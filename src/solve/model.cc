@@ -1,18 +1,12 @@
-#include "tourmaline/solve/model.h"
+#include "solve/model.h"
 
 #include <functional>
 
-#include "tourmaline/body/conductors.h"
-#include "tourmaline/material/orientation.h"
-#include "tourmaline/mesh/distribute.h"
-#include "tourmaline/stopwatch.h"
+#include "body/conductors.h"
+#include "mesh/distribute.h"
+#include "stopwatch.h"
 
 namespace tourmaline::solve {
-
-material::Constants body_material(const casefile::Case &asked) {
-  return material::rotated(material::constants_of(asked.material),
-                           material::crystal_axes(asked.material, asked.dimension));
-}
 
 namespace {
 

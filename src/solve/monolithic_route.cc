@@ -1,4 +1,4 @@
-#include "tourmaline/solve/monolithic_route.h"
+#include "solve/monolithic_route.h"
 
 #include <fmt/format.h>
 
@@ -6,12 +6,12 @@
 #include <cmath>
 #include <limits>
 
-#include "tourmaline/body/backward_error.h"
-#include "tourmaline/contact/bilateral.h"
+#include "body/backward_error.h"
+#include "contact/bilateral.h"
+#include "larger.h"
+#include "parallel/ranks.h"
+#include "solve/saddle_newton.h"
 #include "tourmaline/error.h"
-#include "tourmaline/larger.h"
-#include "tourmaline/parallel/ranks.h"
-#include "tourmaline/solve/saddle_newton.h"
 
 namespace tourmaline::solve {
 
@@ -21,7 +21,6 @@ using contact::AugmentedLagrangian;
 using contact::Local;
 using Eigen::Index;
 using Eigen::VectorXd;
-using output::ContactStatus;
 
 template <int dim>
 std::vector<contact::MultiplierPoint<dim>> multiplier_points(const Model<dim> &model) {
@@ -283,7 +282,7 @@ void MonolithicRoute<dim>::give_up(double time, const SaddleNewton<dim> &newton)
   for (std::size_t p = 0; p < system_.points().size(); ++p) {
     if (newton.law_residual(p) <= tolerance * verdict.force_size)
       continue;
-    const output::Vector &place = system_.points()[p].place;
+    const Vector3 &place = system_.points()[p].place;
     if (++unsettled <= 3)
       places += fmt::format(" ({:g}, {:g}, {:g})", place[0], place[1], place[2]);
   }

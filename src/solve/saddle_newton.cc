@@ -1,11 +1,11 @@
-#include "tourmaline/solve/saddle_newton.h"
+#include "solve/saddle_newton.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
-#include "tourmaline/larger.h"
+#include "larger.h"
 
 namespace tourmaline::solve {
 

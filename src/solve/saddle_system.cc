@@ -1,12 +1,12 @@
-#include "tourmaline/solve/saddle_system.h"
+#include "solve/saddle_system.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "tourmaline/condensation/ordering.h"
-#include "tourmaline/larger.h"
-#include "tourmaline/parallel/ranks.h"
-#include "tourmaline/stopwatch.h"
+#include "condensation/ordering.h"
+#include "larger.h"
+#include "parallel/ranks.h"
+#include "stopwatch.h"
 
 namespace tourmaline::solve {
 

@@ -1,10 +1,10 @@
-#include "tourmaline/solve/slip_descent.h"
+#include "solve/slip_descent.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "tourmaline/larger.h"
+#include "larger.h"
 
 namespace tourmaline::solve {
 
@@ -246,7 +246,7 @@ bool Descent::settle() {
     const ContactPoint &p = points_[i];
     const double r = programme_.curvature[i];
     if (p.size > 0 && p.friction.has_kink(p.size) &&
-        p.friction.status(trial(i, r) / p.weight, r / p.weight) == output::ContactStatus::stick)
+        p.friction.status(trial(i, r) / p.weight, r / p.weight) == ContactStatus::stick)
       next.segment(p.offset, p.size).setZero();
   }
   if (next == d_)

@@ -1,4 +1,4 @@
-#include "tourmaline/sweep/member.h"
+#include "sweep/member.h"
 
 #include <fmt/format.h>
 

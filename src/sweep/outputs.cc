@@ -1,4 +1,4 @@
-#include "tourmaline/sweep/outputs.h"
+#include "sweep/outputs.h"
 
 #include <fmt/format.h>
 
@@ -11,11 +11,11 @@
 #include <string_view>
 #include <utility>
 
-#include "tourmaline/case/nearest.h"
-#include "tourmaline/case/toml_text.h"
+#include "case/nearest.h"
+#include "case/toml_text.h"
+#include "report/table.h"
+#include "report/text_file.h"
 #include "tourmaline/error.h"
-#include "tourmaline/report/table.h"
-#include "tourmaline/report/text_file.h"
 
 namespace tourmaline::sweep {
 

@@ -6,14 +6,14 @@
 #include <thread>
 #include <tuple>
 
+#include "output/checkpoint.h"
+#include "run/available_memory.h"
+#include "run/memory.h"
+#include "run/resumption.h"
 #include "tourmaline/case/reader.h"
 #include "tourmaline/error.h"
 #include "tourmaline/mesh/gmsh.h"
-#include "tourmaline/output/checkpoint.h"
-#include "tourmaline/solve/available_memory.h"
-#include "tourmaline/solve/memory.h"
-#include "tourmaline/solve/resumption.h"
-#include "tourmaline/solve/simulation.h"
+#include "tourmaline/run/simulation.h"
 
 namespace tourmaline::sweep {
 
@@ -41,8 +41,8 @@ class Meshes {
 };
 
 double memory_of(const casefile::Case &asked) {
-  return solve::solves_iteratively(asked) ? solve::iterative_memory(asked)
-                                          : solve::factorised_memory(asked);
+  return run::solves_iteratively(asked) ? run::iterative_memory(asked)
+                                        : run::factorised_memory(asked);
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ std::vector<Prepared> prepared(const Request &request, const std::vector<Variati
       casefile::Case asked =
           casefile::read_file(request.file, overrides,
                               [&](const casefile::MeshCase &mesh) { return meshes.read(mesh); });
-      solve::check(asked);
+      run::check(asked);
       all.push_back({std::move(asked)});
     } catch (const CaseError &error) {
       const std::string text = error.what();
@@ -76,7 +76,7 @@ std::vector<Prepared> prepared(const Request &request, const std::vector<Variati
 namespace {
 
 // What --resume would be refused for; with it the run itself would look the same way.
-Found found_behind(const solve::Resumption &resumption) {
+Found found_behind(const run::Resumption &resumption) {
   if (resumption.is_complete())
     return {Found::State::done, ""};
   const bool goes_on = resumption.has_all_steps || resumption.checkpoint;
@@ -87,8 +87,8 @@ Found found_behind(const solve::Resumption &resumption) {
 std::string obstacle(const fs::path &checkpoint, const Prepared &member,
                      const std::string &refusal) {
   try {
-    const std::string changed = solve::differences(output::read_checkpoint(checkpoint).inputs,
-                                                   solve::inputs_of(member.asked));
+    const std::string changed =
+        run::differences(output::read_checkpoint(checkpoint).inputs, run::inputs_of(member.asked));
     if (!changed.empty())
       return changed;
   } catch (const MachineError &) {
@@ -104,7 +104,7 @@ Found found_in(const fs::path &folder, const Prepared &member) {
   std::error_code error;
   const bool was_interrupted = fs::exists(checkpoint, error);
   try {
-    return found_behind(solve::resumption(member.asked, folder));
+    return found_behind(run::resumption(member.asked, folder));
   } catch (const std::exception &refusal) {
     // A complete run of another case makes room without a word, as that of a run does.
     return {Found::State::nothing,
@@ -120,7 +120,7 @@ std::size_t jobs_for(const std::vector<Prepared> &members) {
     memory = std::max(memory, memory_of(member.asked));
   }
   const double by_cores = static_cast<double>(std::thread::hardware_concurrency()) / threads;
-  const double by_memory = solve::available_memory().bytes / memory;
+  const double by_memory = run::available_memory().bytes / memory;
   return static_cast<std::size_t>(
       std::clamp(std::min(by_cores, by_memory), 1., static_cast<double>(members.size())));
 }

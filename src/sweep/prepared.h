@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "sweep/member.h"
+#include "sweep/sweep.h"
 #include "tourmaline/case/case.h"
-#include "tourmaline/sweep/member.h"
-#include "tourmaline/sweep/sweep.h"
 
 namespace tourmaline::sweep {
 

@@ -1,4 +1,4 @@
-#include "tourmaline/sweep/processes.h"
+#include "sweep/processes.h"
 
 #include <fcntl.h>
 #include <poll.h>

@@ -1,4 +1,4 @@
-#include "tourmaline/sweep/results.h"
+#include "sweep/results.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <optional>
 
-#include "tourmaline/case/key_unit.h"
+#include "case/key_unit.h"
 
 namespace tourmaline::sweep {
 

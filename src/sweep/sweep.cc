@@ -1,4 +1,4 @@
-#include "tourmaline/sweep/sweep.h"
+#include "sweep/sweep.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -12,14 +12,14 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "output/atomic_file.h"
+#include "output/folder_lock.h"
+#include "output/status_line.h"
 #include "prepared.h"
+#include "stopwatch.h"
+#include "sweep/processes.h"
+#include "sweep/results.h"
 #include "tourmaline/error.h"
-#include "tourmaline/output/atomic_file.h"
-#include "tourmaline/output/folder_lock.h"
-#include "tourmaline/output/status_line.h"
-#include "tourmaline/stopwatch.h"
-#include "tourmaline/sweep/processes.h"
-#include "tourmaline/sweep/results.h"
 
 namespace tourmaline::sweep {
 

@@ -1,4 +1,4 @@
-#include "tourmaline/sweep/variation.h"
+#include "sweep/variation.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <optional>
 #include <string_view>
 
-#include "tourmaline/case/nearest.h"
-#include "tourmaline/case/toml_text.h"
+#include "case/nearest.h"
+#include "case/toml_text.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::sweep {

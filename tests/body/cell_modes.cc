@@ -1,12 +1,12 @@
-#include "tourmaline/body/cell_modes.h"
+#include "body/cell_modes.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "tourmaline/body/operator.h"
-#include "tourmaline/material/orientation.h"
-#include "tourmaline/mesh/mesh.h"
+#include "body/operator.h"
+#include "material/orientation.h"
+#include "mesh/mesh.h"
 
 namespace tourmaline::body {
 namespace {

@@ -1,4 +1,4 @@
-#include "tourmaline/body/cell_products.h"
+#include "body/cell_products.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "tourmaline/mesh/mesh.h"
+#include "mesh/mesh.h"
 
 namespace tourmaline::body {
 namespace {

@@ -1,15 +1,15 @@
-#include "tourmaline/body/operator.h"
+#include "body/operator.h"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 #include <random>
 
-#include "tourmaline/body/conditions.h"
-#include "tourmaline/body/derived.h"
-#include "tourmaline/body/loads.h"
-#include "tourmaline/material/orientation.h"
-#include "tourmaline/mesh/mesh.h"
+#include "body/conditions.h"
+#include "body/derived.h"
+#include "body/loads.h"
+#include "material/orientation.h"
+#include "mesh/mesh.h"
 
 namespace tourmaline::body {
 namespace {

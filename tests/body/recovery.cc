@@ -1,6 +1,6 @@
 // Stresses at the nodes: exact where they can be, of the right order elsewhere, apart where regions
 // meet.
-#include "tourmaline/body/recovery.h"
+#include "body/recovery.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <numbers>
 #include <random>
 
-#include "tourmaline/body/derived.h"
-#include "tourmaline/body/operator.h"
-#include "tourmaline/mesh/mesh.h"
+#include "body/derived.h"
+#include "body/operator.h"
+#include "mesh/mesh.h"
 
 namespace tourmaline::body {
 namespace {

@@ -1,4 +1,4 @@
-#include "tourmaline/case/changes.h"
+#include "case/changes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tourmaline/case/electrodes.h"
+#include "case/electrodes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

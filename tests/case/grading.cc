@@ -1,10 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "case/resolved.h"
 #include "error_in.h"
 #include "example.h"
 #include "tourmaline/case/reader.h"
-#include "tourmaline/case/resolved.h"
 
 namespace tourmaline::casefile {
 namespace {

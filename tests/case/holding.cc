@@ -1,4 +1,4 @@
-#include "tourmaline/case/holding.h"
+#include "case/holding.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,11 +1,11 @@
-#include "tourmaline/case/json_schema.h"
+#include "case/json_schema.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "tourmaline/case/schema.h"
+#include "case/schema.h"
 
 namespace tourmaline::casefile {
 namespace {

@@ -1,4 +1,4 @@
-#include "tourmaline/case/key_unit.h"
+#include "case/key_unit.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tourmaline/case/reference.h"
+#include "case/reference.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

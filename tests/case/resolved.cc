@@ -1,4 +1,4 @@
-#include "tourmaline/case/resolved.h"
+#include "case/resolved.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

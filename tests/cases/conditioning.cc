@@ -97,7 +97,7 @@ TEST_P(NotFinite, StepFailsAndNothingOfItIsWritten) {
   // More than a case file may ask for.
   asked.boundaries[1].traction =
       casefile::FormulaVector{casefile::Formula(0.), casefile::Formula("-1e308*t")};
-  EXPECT_THROW(solve::simulate(asked, folder.path(), {.quiet = true}), SolveError);
+  EXPECT_THROW(run::simulate(asked, folder.path(), {.quiet = true}), SolveError);
   EXPECT_FALSE(std::filesystem::exists(folder / "summary.json"));
   EXPECT_FALSE(std::filesystem::exists(folder / "result_0001.vtu"));
 }

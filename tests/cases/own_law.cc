@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "run_case.h"
-#include "tourmaline/solve/simulation.h"
+#include "tourmaline/run/simulation.h"
 
 namespace tourmaline::testing {
 namespace {
@@ -19,7 +19,7 @@ class Borrowed : public contact::FrictionLaw {
   TangentMatrix traction_derivative(const Tangent &trial) const override {
     return law_.traction_derivative(trial);
   }
-  output::ContactStatus status(const Tangent &trial) const override { return law_.status(trial); }
+  ContactStatus status(const Tangent &trial) const override { return law_.status(trial); }
   bool is_smooth_at(const Tangent &d) const override { return law_.is_smooth_at(d); }
   Tangent gradient(const Tangent &d) const override { return law_.gradient(d); }
   TangentMatrix hessian(const Tangent &d) const override { return law_.hessian(d); }
@@ -39,8 +39,8 @@ class OneWay : public contact::FrictionLaw {
   TangentMatrix traction_derivative(const Tangent &trial) const override {
     return TangentMatrix::Constant(1, 1, traction(trial) == trial);
   }
-  output::ContactStatus status(const Tangent &trial) const override {
-    return traction(trial) == trial ? output::ContactStatus::stick : output::ContactStatus::slip;
+  ContactStatus status(const Tangent &trial) const override {
+    return traction(trial) == trial ? ContactStatus::stick : ContactStatus::slip;
   }
   bool is_smooth_at(const Tangent &d) const override { return d[0] != 0; }
   Tangent gradient(const Tangent &d) const override {
@@ -69,10 +69,10 @@ TEST_P(OwnLaw, ThatIsTrescasGivesWhatTrescasGives) {
   const output::TemporaryFolder own, shipped;
   const casefile::Case asked =
       asked_for("cases/block-3d/twisted.toml", with({"mesh.box.cells=[4,4,4]", "time.steps=4"}));
-  solve::simulate(asked, shipped.path(), {.quiet = true});
-  solve::simulate(asked, own.path(), {.quiet = true, .friction = [](const contact::ContactPlace &) {
-                                        return contact::OwnLaw{std::make_shared<Borrowed>(15.)};
-                                      }});
+  run::simulate(asked, shipped.path(), {.quiet = true});
+  run::simulate(asked, own.path(), {.quiet = true, .friction = [](const contact::ContactPlace &) {
+                                      return contact::OwnLaw{std::make_shared<Borrowed>(15.)};
+                                    }});
   EXPECT_EQ(output::content_of(own / "contact.csv"), output::content_of(shipped / "contact.csv"));
 }
 
@@ -80,13 +80,13 @@ TEST_P(OwnLaw, ThatIsTrescasGivesWhatTrescasGives) {
 TEST_P(OwnLaw, MayHaveOtherBoundsForTheTwoSenses) {
   const double right = 5e4, left = 2e4;
   const output::TemporaryFolder folder;
-  solve::simulate(asked_for("cases/devices/friction-sensor.toml", with({"output.fields=false"})),
-                  folder.path(),
-                  {.quiet = true, .friction = [=](const contact::ContactPlace &place) {
-                     const bool along = place.directions(0, 0) > 0;
-                     return contact::OwnLaw{along ? std::make_shared<OneWay>(right, left)
-                                                  : std::make_shared<OneWay>(left, right)};
-                   }});
+  run::simulate(asked_for("cases/devices/friction-sensor.toml", with({"output.fields=false"})),
+                folder.path(),
+                {.quiet = true, .friction = [=](const contact::ContactPlace &place) {
+                   const bool along = place.directions(0, 0) > 0;
+                   return contact::OwnLaw{along ? std::make_shared<OneWay>(right, left)
+                                                : std::make_shared<OneWay>(left, right)};
+                 }});
   const std::vector<double> traction =
       read_table(folder / "contact.csv").numbers("tangential_traction_x");
   const auto [least, greatest] = std::minmax_element(traction.begin(), traction.end());

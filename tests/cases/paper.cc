@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
+#include "body/derived.h"
 #include "run_case.h"
-#include "tourmaline/body/derived.h"
+#include "solve/model.h"
 #include "tourmaline/error.h"
-#include "tourmaline/solve/model.h"
 
 namespace tourmaline::testing {
 namespace {
@@ -123,7 +123,7 @@ TEST_P(Paper, TheHighestVonMisesStressOutsideTheSingularCornersIsInTheContactZon
     bool at_corner = false;
     double x = 0;
     for (std::size_t a = 0; a < 3; ++a) {
-      const output::Vector &p = grid.points[grid.connectivity[3 * cell + a]];
+      const Vector3 &p = grid.points[grid.connectivity[3 * cell + a]];
       at_corner |= (p[0] < 1e-12 || p[0] > 0.1 - 1e-12) && (p[1] < 1e-12 || p[1] > 0.1 - 1e-12);
       x += p[0] / 3;
     }
@@ -167,7 +167,7 @@ TEST(Run, AFailedSolveSaysWhereAndWhyAndKeepsTheStepsBefore) {
        "boundary[2].traction=[0,\"if(t>0.155, -300*sin(100*t), -0.5*t)\"]"});
   const auto folder = std::filesystem::temp_directory_path() / "tourmaline-failed-solve";
   try {
-    solve::simulate(asked, folder, {.quiet = true});
+    run::simulate(asked, folder, {.quiet = true});
     FAIL() << "one iteration sufficed";
   } catch (const SolveError &error) {
     const std::string text = error.what();

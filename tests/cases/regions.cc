@@ -2,10 +2,10 @@
 // must be.
 #include <gmock/gmock.h>
 
+#include "material/composition.h"
+#include "run/survey.h"
 #include "run_case.h"
 #include "tourmaline/error.h"
-#include "tourmaline/material/composition.h"
-#include "tourmaline/solve/survey.h"
 
 namespace tourmaline::testing {
 namespace {
@@ -21,7 +21,7 @@ casefile::Case read(const std::string &text, std::vector<std::string> overrides 
 
 std::string complaint(const std::string &text, const std::vector<std::string> &overrides = {}) {
   try {
-    solve::survey(read(text, overrides));
+    run::survey(read(text, overrides));
   } catch (const CaseError &error) {
     return error.what();
   }
@@ -82,7 +82,7 @@ material = { library = "BaTiO3-Liu2014", reference_temperature = 300 }
 }
 
 TEST(Regions, TheSurveyTellsSizesAndPoling) {
-  const std::string text = solve::survey(read(square + R"([[region]]
+  const std::string text = run::survey(read(square + R"([[region]]
 where = "x < 0.025"
 material.library = "steel"
 [[region]]

@@ -6,7 +6,7 @@
 #include "read_table.h"
 #include "tourmaline/case/reader.h"
 #include "tourmaline/mesh/gmsh.h"
-#include "tourmaline/solve/simulation.h"
+#include "tourmaline/run/simulation.h"
 
 namespace tourmaline::testing {
 
@@ -30,7 +30,7 @@ class RunCase {
   const std::filesystem::path &folder() const { return folder_.path(); }
 
  private:
-  void run(const casefile::Case &asked) { solve::simulate(asked, folder_.path(), {.quiet = true}); }
+  void run(const casefile::Case &asked) { run::simulate(asked, folder_.path(), {.quiet = true}); }
 
   output::TemporaryFolder folder_;
 };

@@ -1,12 +1,12 @@
-#include "tourmaline/condensation/condensed_body.h"
+#include "condensation/condensed_body.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
+#include "material/orientation.h"
+#include "mesh/mesh.h"
 #include "tourmaline/error.h"
-#include "tourmaline/material/orientation.h"
-#include "tourmaline/mesh/mesh.h"
 
 namespace tourmaline::condensation {
 namespace {

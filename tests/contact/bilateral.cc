@@ -1,4 +1,4 @@
-#include "tourmaline/contact/bilateral.h"
+#include "contact/bilateral.h"
 
 #include <gtest/gtest.h>
 

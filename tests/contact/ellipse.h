@@ -29,8 +29,8 @@ class Ellipse : public contact::FrictionLaw {
     derivative = f.inverse();
     return derivative - turned * turned.transpose() / normal.dot(turned);
   }
-  output::ContactStatus status(const contact::Tangent &x) const override {
-    return outside(x) ? output::ContactStatus::slip : output::ContactStatus::stick;
+  ContactStatus status(const contact::Tangent &x) const override {
+    return outside(x) ? ContactStatus::slip : ContactStatus::stick;
   }
   bool is_smooth_at(const contact::Tangent &d) const override { return !d.isZero(0); }
   contact::Tangent gradient(const contact::Tangent &d) const override {

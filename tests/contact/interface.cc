@@ -1,12 +1,12 @@
-#include "tourmaline/contact/interface.h"
+#include "contact/interface.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 #include <map>
 
+#include "mesh/mesh.h"
 #include "tourmaline/error.h"
-#include "tourmaline/mesh/mesh.h"
 
 namespace tourmaline::contact {
 namespace {

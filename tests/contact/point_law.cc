@@ -1,4 +1,4 @@
-#include "tourmaline/contact/point_law.h"
+#include "contact/point_law.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,6 @@
 
 namespace tourmaline::contact {
 namespace {
-
-using output::ContactStatus;
 
 Tangent along(double x) {
   return Tangent::Constant(1, x);

@@ -7,8 +7,6 @@
 namespace tourmaline::contact {
 namespace {
 
-using output::ContactStatus;
-
 Tangent along(double x) {
   return Tangent::Constant(1, x);
 }

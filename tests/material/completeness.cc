@@ -1,4 +1,4 @@
-#include "tourmaline/material/completeness.h"
+#include "material/completeness.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,10 +7,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "material/constants.h"
+#include "material/description.h"
+#include "material/library.h"
 #include "tourmaline/error.h"
-#include "tourmaline/material/constants.h"
-#include "tourmaline/material/description.h"
-#include "tourmaline/material/library.h"
 
 namespace tourmaline::material {
 namespace {

@@ -1,5 +1,5 @@
-#include "tourmaline/material/library.h"
-#include "tourmaline/material/completeness.h"
+#include "material/library.h"
+#include "material/completeness.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,13 +8,13 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tourmaline/case/given.h"
-#include "tourmaline/case/symmetry.h"
+#include "case/given.h"
+#include "case/symmetry.h"
+#include "material/composition.h"
+#include "material/constants.h"
+#include "material/description.h"
+#include "material/orientation.h"
 #include "tourmaline/error.h"
-#include "tourmaline/material/composition.h"
-#include "tourmaline/material/constants.h"
-#include "tourmaline/material/description.h"
-#include "tourmaline/material/orientation.h"
 
 namespace tourmaline::material {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
+#include "material/library.h"
+#include "material/orientation.h"
+#include "material/plane.h"
 #include "tourmaline/error.h"
-#include "tourmaline/material/library.h"
-#include "tourmaline/material/orientation.h"
-#include "tourmaline/material/plane.h"
 
 namespace tourmaline::material {
 namespace {

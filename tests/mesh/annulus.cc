@@ -4,7 +4,7 @@
 #include <map>
 #include <numbers>
 
-#include "tourmaline/mesh/mesh.h"
+#include "mesh/mesh.h"
 
 namespace tourmaline::mesh {
 namespace {

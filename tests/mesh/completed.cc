@@ -1,4 +1,4 @@
-#include "tourmaline/mesh/completed.h"
+#include "mesh/completed.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

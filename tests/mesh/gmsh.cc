@@ -9,9 +9,9 @@
 #include <fstream>
 
 #include "../output/temporary_folder.h"
-#include "tourmaline/body/discretisation.h"
+#include "body/discretisation.h"
+#include "mesh/shapes.h"
 #include "tourmaline/error.h"
-#include "tourmaline/mesh/shapes.h"
 
 namespace tourmaline::mesh {
 namespace {

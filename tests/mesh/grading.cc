@@ -1,4 +1,4 @@
-#include "tourmaline/mesh/grading.h"
+#include "mesh/grading.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "tourmaline/mesh/mesh.h"
+#include "mesh/mesh.h"
 
 namespace tourmaline::mesh {
 namespace {

@@ -1,4 +1,4 @@
-#include "tourmaline/output/atomic_file.h"
+#include "output/atomic_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

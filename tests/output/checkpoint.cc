@@ -1,4 +1,4 @@
-#include "tourmaline/output/checkpoint.h"
+#include "output/checkpoint.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

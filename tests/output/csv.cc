@@ -1,4 +1,4 @@
-#include "tourmaline/output/csv.h"
+#include "output/csv.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tourmaline/output/folder_lock.h"
+#include "output/folder_lock.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

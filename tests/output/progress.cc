@@ -1,4 +1,4 @@
-#include "tourmaline/output/progress.h"
+#include "output/progress.h"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-#include "tourmaline/output/result_folder.h"
+#include "output/result_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

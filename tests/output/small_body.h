@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "tourmaline/output/records.h"
+#include "output/records.h"
 
 namespace tourmaline::output {
 

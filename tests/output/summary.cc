@@ -1,4 +1,4 @@
-#include "tourmaline/output/summary.h"
+#include "output/summary.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "tourmaline/output/vtk_binary.h"
+#include "output/vtk_binary.h"
 
 #include <gtest/gtest.h>
 
 #include <string_view>
 
 #include "decode_vtk.h"
-#include "tourmaline/output/base64.h"
+#include "output/base64.h"
 
 namespace tourmaline::output {
 namespace {

@@ -1,4 +1,4 @@
-#include "tourmaline/output/vtu.h"
+#include "output/vtu.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,10 +6,10 @@
 #include <stdexcept>
 
 #include "decode_vtk.h"
+#include "output/pvd.h"
 #include "small_body.h"
 #include "temporary_folder.h"
 #include "tourmaline/error.h"
-#include "tourmaline/output/pvd.h"
 
 namespace tourmaline::output {
 namespace {

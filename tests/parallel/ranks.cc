@@ -22,7 +22,7 @@
 #include "../cases/partly_held.h"
 #include "../cases/read_table.h"
 #include "../output/temporary_folder.h"
-#include "tourmaline/report/field_file.h"
+#include "report/field_file.h"
 
 namespace tourmaline::testing {
 namespace {

@@ -1,4 +1,4 @@
-#include "tourmaline/report/colour_map.h"
+#include "report/colour_map.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tourmaline/report/conditions.h"
+#include "report/conditions.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // The contact of a plane body along its facets, each connected piece apart.
-#include "tourmaline/report/contact_line.h"
+#include "report/contact_line.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

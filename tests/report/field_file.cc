@@ -1,4 +1,4 @@
-#include "tourmaline/report/field_file.h"
+#include "report/field_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 
 #include "../output/small_body.h"
 #include "../output/temporary_folder.h"
+#include "output/vtu.h"
 #include "tourmaline/error.h"
-#include "tourmaline/output/vtu.h"
 
 namespace tourmaline::report {
 namespace {

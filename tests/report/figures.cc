@@ -1,4 +1,4 @@
-#include "tourmaline/report/figures.h"
+#include "report/figures.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "../output/temporary_folder.h"
+#include "report/number_text.h"
+#include "report/raster.h"
+#include "report/scale.h"
+#include "report/setting.h"
 #include "result_folder.h"
 #include "tourmaline/error.h"
-#include "tourmaline/report/number_text.h"
-#include "tourmaline/report/raster.h"
-#include "tourmaline/report/scale.h"
-#include "tourmaline/report/setting.h"
 
 namespace tourmaline::report {
 namespace {

@@ -1,4 +1,4 @@
-#include "tourmaline/report/packing.h"
+#include "report/packing.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tourmaline/report/page.h"
+#include "report/page.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -76,10 +76,9 @@ TEST(Page, ACaseWithAMeshFileIsShownWithoutThatFile) {
       std::filesystem::path(TOURMALINE_SOURCE_DIR) / "cases/devices";
   for (const char *file : {"bimorph.toml", "bimorph.geo"})
     std::filesystem::copy(cases / file, elsewhere / file);
-  solve::simulate(
-      casefile::read_file(elsewhere / "bimorph.toml", {"time.steps=1", "output.report=false"},
-                          mesh::read_mesh_file),
-      run.path(), {.quiet = true});
+  run::simulate(casefile::read_file(elsewhere / "bimorph.toml",
+                                    {"time.steps=1", "output.report=false"}, mesh::read_mesh_file),
+                run.path(), {.quiet = true});
   std::filesystem::remove(elsewhere / "bimorph.geo");
   write_page({run.path()}, run / "report.html");
   const auto result = results_in(output::content_of(run / "report.html"))[0];

@@ -1,4 +1,4 @@
-#include "tourmaline/report/plot.h"
+#include "report/plot.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "../output/temporary_folder.h"
-#include "tourmaline/report/ticks.h"
+#include "report/ticks.h"
 
 namespace tourmaline::report {
 namespace {

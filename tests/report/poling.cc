@@ -1,4 +1,4 @@
-#include "tourmaline/report/poling.h"
+#include "report/poling.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,14 +6,12 @@
 #include <cmath>
 
 #include "../output/small_body.h"
-#include "tourmaline/body/discretisation.h"
-#include "tourmaline/mesh/mesh.h"
-#include "tourmaline/report/setting.h"
+#include "body/discretisation.h"
+#include "mesh/mesh.h"
+#include "report/setting.h"
 
 namespace tourmaline::report {
 namespace {
-
-using output::Vector;
 
 Vector middle(const PolingArrow &arrow) {
   Vector m;

@@ -6,10 +6,10 @@
 #include <fstream>
 
 #include "../output/temporary_folder.h"
+#include "report/field_file.h"
+#include "report/result.h"
 #include "tourmaline/case/reader.h"
-#include "tourmaline/report/field_file.h"
-#include "tourmaline/report/result.h"
-#include "tourmaline/solve/simulation.h"
+#include "tourmaline/run/simulation.h"
 
 namespace tourmaline::report {
 namespace {
@@ -42,7 +42,7 @@ class Column : public ::testing::Test {
   Column() {
     const auto file = folder_ / "column.toml";
     std::ofstream(file) << column;
-    solve::simulate(casefile::read_file(file, {}), results(), {.quiet = true});
+    run::simulate(casefile::read_file(file, {}), results(), {.quiet = true});
   }
   std::filesystem::path results() const { return folder_ / "results"; }
 

@@ -5,7 +5,7 @@
 
 #include "../output/temporary_folder.h"
 #include "tourmaline/case/reader.h"
-#include "tourmaline/solve/simulation.h"
+#include "tourmaline/run/simulation.h"
 
 namespace tourmaline::report {
 
@@ -16,7 +16,7 @@ class ResultFolder {
     overrides.push_back("mesh.box.cells=" + cells);
     const auto file =
         std::filesystem::path(TOURMALINE_SOURCE_DIR) / "cases/ouafik-2020/conductive.toml";
-    solve::simulate(casefile::read_file(file, overrides), path(), {.quiet = true});
+    run::simulate(casefile::read_file(file, overrides), path(), {.quiet = true});
   }
 
   const std::filesystem::path &path() const { return folder_.path(); }

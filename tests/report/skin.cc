@@ -1,17 +1,15 @@
-#include "tourmaline/report/skin.h"
+#include "report/skin.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "../output/small_body.h"
-#include "tourmaline/body/discretisation.h"
-#include "tourmaline/mesh/mesh.h"
+#include "body/discretisation.h"
+#include "mesh/mesh.h"
 
 namespace tourmaline::report {
 namespace {
-
-using output::Vector;
 
 Vector cross_of(const Vector &u, const Vector &v) {
   return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};

@@ -6,8 +6,8 @@
 
 #include "../cases/run_case.h"
 #include "../contact/ellipse.h"
+#include "solve/model.h"
 #include "tourmaline/error.h"
-#include "tourmaline/solve/model.h"
 
 namespace tourmaline::solve {
 namespace {

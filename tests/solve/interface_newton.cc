@@ -1,4 +1,4 @@
-#include "tourmaline/solve/interface_newton.h"
+#include "solve/interface_newton.h"
 
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ TEST(InterfaceNewton, FindsItWhereConditionsMoveSomePointsAlongTheFoundation) {
       ASSERT_LT(violation(p, s.increment), 1e-9) << "programme " << k;
       for (std::size_t i = 0; i < p.points.size(); ++i)
         if (!p.points[i].friction.held().isZero(0)) {
-          EXPECT_EQ(s.status[i], output::ContactStatus::slip);
+          EXPECT_EQ(s.status[i], ContactStatus::slip);
         }
       most = std::max(most, s.iterations);
     }
@@ -59,7 +59,7 @@ TEST(InterfaceNewton, APointThatIsMovedAcrossGivesTheHandCalculation) {
   const InterfaceSolution s = p.solve(VectorXd::Zero(1));
   EXPECT_NEAR(s.increment[0], 3, 1e-14);
   EXPECT_NEAR(s.force[0], 1.2, 1e-14);
-  EXPECT_EQ(s.status[0], output::ContactStatus::slip);
+  EXPECT_EQ(s.status[0], ContactStatus::slip);
 }
 
 TEST(InterfaceNewton, APointAloneGivesTheHandCalculation) {
@@ -71,7 +71,7 @@ TEST(InterfaceNewton, APointAloneGivesTheHandCalculation) {
   const InterfaceSolution s = p.solve(VectorXd::Zero(1));
   EXPECT_DOUBLE_EQ(s.increment[0], 2);
   EXPECT_DOUBLE_EQ(s.force[0], 2);
-  EXPECT_EQ(s.status[0], output::ContactStatus::slip);
+  EXPECT_EQ(s.status[0], ContactStatus::slip);
 }
 
 TEST(InterfaceNewton, BelowTheBoundNothingMovesAndTheForceIsCarried) {
@@ -82,7 +82,7 @@ TEST(InterfaceNewton, BelowTheBoundNothingMovesAndTheForceIsCarried) {
   const InterfaceSolution s = p.solve(VectorXd::Zero(1));
   EXPECT_EQ(s.increment[0], 0);
   EXPECT_EQ(s.force[0], 1.5);
-  EXPECT_EQ(s.status[0], output::ContactStatus::stick);
+  EXPECT_EQ(s.status[0], ContactStatus::stick);
   EXPECT_EQ(s.iterations, 0);
 }
 

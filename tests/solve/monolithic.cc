@@ -1,4 +1,4 @@
-#include "tourmaline/solve/monolithic_route.h"
+#include "solve/monolithic_route.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 
 #include "../cases/partly_held.h"
 #include "../cases/run_case.h"
+#include "solve/saddle_system.h"
 #include "tourmaline/error.h"
-#include "tourmaline/solve/saddle_system.h"
 
 namespace tourmaline::solve {
 namespace {
@@ -17,7 +17,6 @@ using contact::AugmentedLagrangian;
 using contact::Local;
 using contact::LocalMatrix;
 using contact::Tresca;
-using output::ContactStatus;
 using testing::Table;
 
 // A block clamped on the right and pulled along its contact on the left, where some nodes stick and

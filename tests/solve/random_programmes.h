@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "tourmaline/solve/interface_newton.h"
+#include "solve/interface_newton.h"
 
 namespace tourmaline::solve {
 

@@ -1,4 +1,4 @@
-#include "tourmaline/solve/slip_descent.h"
+#include "solve/slip_descent.h"
 
 #include <gtest/gtest.h>
 
@@ -108,7 +108,7 @@ TEST(SlipDescent, APointAloneGivesTheHandCalculation) {
   const InterfaceSolution s = descended(p, VectorXd::Constant(1, 10), response);
   EXPECT_DOUBLE_EQ(s.increment[0], 2);
   EXPECT_DOUBLE_EQ(s.force[0], 2);
-  EXPECT_EQ(s.status[0], output::ContactStatus::slip);
+  EXPECT_EQ(s.status[0], ContactStatus::slip);
 }
 
 // A point that something else moves sideways by 3 m: no kink is left, and the force balances the

@@ -1,4 +1,4 @@
-#include "tourmaline/sweep/member.h"
+#include "sweep/member.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "tourmaline/sweep/outputs.h"
+#include "sweep/outputs.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,10 +7,10 @@
 #include <set>
 
 #include "../output/temporary_folder.h"
+#include "report/table.h"
 #include "tourmaline/case/reader.h"
 #include "tourmaline/error.h"
-#include "tourmaline/report/table.h"
-#include "tourmaline/solve/simulation.h"
+#include "tourmaline/run/simulation.h"
 
 namespace tourmaline::sweep {
 namespace {
@@ -41,7 +41,7 @@ class OutputsOf : public testing::TestWithParam<Shipped> {};
 TEST_P(OutputsOf, ACaseAreTheColumnsOfItsHistoryAndThePlacesOfTheExtremes) {
   const output::TemporaryFolder folder;
   const casefile::Case asked = shipped(GetParam().file, GetParam().overrides);
-  solve::simulate(asked, folder.path(), {.quiet = true});
+  run::simulate(asked, folder.path(), {.quiet = true});
   const std::vector<Output> outputs = outputs_of(asked);
   const report::Table history = report::read_table(folder / "history.csv");
   std::set<std::string> columns(history.names.begin(), history.names.end());

@@ -1,4 +1,4 @@
-#include "tourmaline/sweep/processes.h"
+#include "sweep/processes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "tourmaline/sweep/reduction.h"
+#include "sweep/reduction.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tourmaline/sweep/results.h"
+#include "sweep/results.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

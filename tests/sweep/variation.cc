@@ -1,4 +1,4 @@
-#include "tourmaline/sweep/variation.h"
+#include "sweep/variation.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

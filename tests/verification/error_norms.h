@@ -1,8 +1,8 @@
 #pragma once
 
 #include "../cases/run_case.h"
+#include "mesh/mesh.h"
 #include "problem.h"
-#include "tourmaline/mesh/mesh.h"
 
 namespace tourmaline::testing {
 

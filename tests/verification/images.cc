@@ -5,7 +5,7 @@
 
 #include "image.h"
 #include "march.h"
-#include "tourmaline/mesh/mesh.h"
+#include "mesh/mesh.h"
 
 namespace tourmaline::testing {
 namespace {

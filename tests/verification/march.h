@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "tourmaline/solve/condensed_route.h"
+#include "solve/condensed_route.h"
 
 namespace tourmaline::testing {
 
@@ -11,8 +11,8 @@ struct March {
   std::vector<double> state;
   std::vector<solve::StepOutcome> steps;
 
-  std::vector<output::ContactStatus> statuses() const {
-    std::vector<output::ContactStatus> all;
+  std::vector<ContactStatus> statuses() const {
+    std::vector<ContactStatus> all;
     for (const solve::StepOutcome &step : steps)
       all.insert(all.end(), step.status.begin(), step.status.end());
     return all;

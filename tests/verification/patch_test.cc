@@ -3,8 +3,8 @@
 #include <deal.II/grid/grid_tools.h>
 
 #include "march.h"
+#include "mesh/mesh.h"
 #include "study.h"
-#include "tourmaline/mesh/mesh.h"
 
 namespace tourmaline::testing {
 namespace {

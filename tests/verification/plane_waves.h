@@ -5,7 +5,7 @@
 #include <array>
 #include <string>
 
-#include "tourmaline/body/operator.h"
+#include "body/operator.h"
 
 /// Fields that are plane waves a f(k.x + p) g(t), one for each component of u, for phi and for
 /// theta, in directions k of their own. The chain rule gives every derivative as a number times f'

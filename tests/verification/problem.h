@@ -1,8 +1,8 @@
 #pragma once
 
 #include "plane_waves.h"
+#include "solve/model.h"
 #include "tourmaline/case/case.h"
-#include "tourmaline/solve/model.h"
 
 /// Fields are chosen; the loads, charges, heat sources and boundary conditions that make them the
 /// solution follow from (1)-(6), (8), (11), (13). All couplings are active: the poling axis is
@@ -150,10 +150,8 @@ struct Problem {
 
  private:
   static material::BodyConstants<dim> constants(const casefile::MaterialCase &material) {
-    casefile::Case asked;
-    asked.dimension = dim;
-    asked.material = material;
-    return material::restricted<dim>(solve::body_material(asked));
+    return material::restricted<dim>(
+        material::rotated(material::constants_of(material), material::crystal_axes(material, dim)));
   }
   casefile::BoundaryCase &on(const Side &side) {
     for (casefile::BoundaryCase &boundary : asked.boundaries)

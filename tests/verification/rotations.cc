@@ -7,8 +7,8 @@
 #include <Eigen/Geometry>
 
 #include "march.h"
+#include "mesh/mesh.h"
 #include "richer_paper.h"
-#include "tourmaline/mesh/mesh.h"
 
 namespace tourmaline::testing {
 namespace {
@@ -71,18 +71,17 @@ mesh::Mesh<dim> turned(mesh::Mesh<dim> mesh, const Matrix<dim> &rotation) {
 }
 
 template <int dim>
-Vector<dim> place(const output::Vector &point) {
+Vector<dim> place(const Vector3 &point) {
   return Eigen::Map<const Vector<dim>>(point.data());
 }
 
 // For each point the one of `others` nearest to its image: both sets hold the same nodes in
 // different orders.
 template <int dim>
-std::vector<body::Node> partners(const std::vector<output::Vector> &points,
-                                 const std::vector<output::Vector> &others,
-                                 const Matrix<dim> &rotation) {
+std::vector<body::Node> partners(const std::vector<Vector3> &points,
+                                 const std::vector<Vector3> &others, const Matrix<dim> &rotation) {
   std::vector<body::Node> partner;
-  for (const output::Vector &point : points) {
+  for (const Vector3 &point : points) {
     const Vector<dim> image = rotation * place<dim>(point);
     const auto nearest =
         std::min_element(others.begin(), others.end(), [&](const auto &a, const auto &b) {
@@ -112,8 +111,8 @@ void expect_turned_state(const March &original, const March &image,
 }
 
 template <int dim>
-std::vector<output::Vector> contact_points(const solve::Model<dim> &model) {
-  std::vector<output::Vector> points;
+std::vector<Vector3> contact_points(const solve::Model<dim> &model) {
+  std::vector<Vector3> points;
   for (const auto &node : model.interface)
     points.push_back(node.point);
   return points;
@@ -139,8 +138,8 @@ void expect_turned(const casefile::Case &asked, const Matrix<dim> &rotation) {
   const solve::Model<dim> image(turned(asked, rotation),
                                 turned<dim>(mesh::build<dim>(asked.mesh), rotation));
   const March a = march(model), b = march(image);
-  EXPECT_TRUE(contains(a.statuses(), output::ContactStatus::stick));
-  EXPECT_TRUE(contains(a.statuses(), output::ContactStatus::slip));
+  EXPECT_TRUE(contains(a.statuses(), ContactStatus::stick));
+  EXPECT_TRUE(contains(a.statuses(), ContactStatus::slip));
   expect_turned_state<dim>(a, b, partners<dim>(model.body.points(), image.body.points(), rotation),
                            rotation);
   const auto contact = partners<dim>(contact_points(model), contact_points(image), rotation);

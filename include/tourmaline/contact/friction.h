@@ -6,6 +6,7 @@
 #include "tourmaline/case/case.h"
 #include "tourmaline/contact/friction_law.h"
 #include "tourmaline/contact/tresca.h"
+#include "tourmaline/vector.h"
 
 namespace tourmaline::contact {
 
@@ -16,15 +17,15 @@ using Friction = std::variant<Tresca, OwnLaw>;
 
 /// Where and when a law is asked for.
 struct ContactPlace {
-  output::Vector point;  ///< [m]
-  double time;           ///< [s]
+  Vector3 point;  ///< [m]
+  double time;    ///< [s]
   /// orthonormal columns of the tangent plane, which the law's components belong to: those along
   /// which the point is free to slip come first
   Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> directions;
 };
 
 template <class Directions>
-ContactPlace contact_place(const output::Vector &point, double time, const Directions &directions) {
+ContactPlace contact_place(const Vector3 &point, double time, const Directions &directions) {
   ContactPlace place{point, time, {}};
   place.directions.setZero(3, directions.cols());
   place.directions.topRows(directions.rows()) = directions;

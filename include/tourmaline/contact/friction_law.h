@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "tourmaline/contact/tangent.h"
-#include "tourmaline/output/records.h"
+#include "tourmaline/contact_status.h"
 
 namespace tourmaline::contact {
 
@@ -23,7 +23,7 @@ class FrictionLaw {
   virtual double dissipation(const Tangent &d) const = 0;                     ///< j(d) [J/m^2]
   virtual Tangent traction(const Tangent &trial) const = 0;                   ///< P [N/m^2]
   virtual TangentMatrix traction_derivative(const Tangent &trial) const = 0;  ///< P'
-  virtual output::ContactStatus status(const Tangent &trial) const = 0;
+  virtual ContactStatus status(const Tangent &trial) const = 0;
 
   /// Where j is differentiable; there follow its gradient [N/m^2] and Hessian [N/m^3].
   virtual bool is_smooth_at(const Tangent &d) const = 0;
@@ -40,7 +40,7 @@ struct OwnLaw {
   TangentMatrix traction_derivative(const Tangent &trial) const {
     return law->traction_derivative(trial);
   }
-  output::ContactStatus status(const Tangent &trial) const { return law->status(trial); }
+  ContactStatus status(const Tangent &trial) const { return law->status(trial); }
   bool is_smooth_at(const Tangent &d) const { return law->is_smooth_at(d); }
   Tangent gradient(const Tangent &d) const { return law->gradient(d); }
   TangentMatrix hessian(const Tangent &d) const { return law->hessian(d); }

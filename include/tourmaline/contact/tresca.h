@@ -1,7 +1,7 @@
 #pragma once
 
 #include "tourmaline/contact/tangent.h"
-#include "tourmaline/output/records.h"
+#include "tourmaline/contact_status.h"
 
 namespace tourmaline::contact {
 
@@ -24,7 +24,7 @@ struct Tresca {
   /// slip sticks), outside S / |x| (I - x x^T / |x|^2).
   TangentMatrix traction_derivative(const Tangent &trial) const;
   /// slip where the trial value lies outside the ball.
-  output::ContactStatus status(const Tangent &trial) const;
+  ContactStatus status(const Tangent &trial) const;
 
   /// Where the dissipation is smooth: d != 0, or S = 0. There follow its gradient [N/m^2] and
   /// Hessian [N/m^3].

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "body/operator.h"
+
+namespace tourmaline::body {
+
+/// max |r| / (max_i (|K| e)_i max |x| + max |b|) for r = b - K x with the K of a step, all scaled:
+/// `scale` holds a factor for each unknown, 0 where it is not solved for. How far b and K must be
+/// changed, relatively, for x to be exact.
+template <int dim>
+double backward_error(const Operator<dim> &op, double step, const std::vector<double> &scale,
+                      std::span<const double> residual, std::span<const double> right_side,
+                      std::span<const double> state);
+
+/// Size of a change of the state over that of the state: by field the largest scaled entries, the
+/// worst field's. `scale` holds a factor for each component of a node. A field of which there is
+/// next to nothing (a millionth of the largest, so 1e-12 of its energy) is measured by that
+/// millionth. Infinite where a number is not one.
+template <int dim>
+double relative_size(std::span<const double> change, std::span<const double> state,
+                     const std::array<double, Fields<dim>::count> &scale);
+
+}  // namespace tourmaline::body

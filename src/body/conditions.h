@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "body/operator.h"
+#include "tourmaline/case/case.h"
+
+namespace tourmaline::body {
+
+/// A prescribed unknown (7), (10), (12), its value in time and place, and the boundary that
+/// prescribes it.
+struct Prescribed {
+  std::size_t unknown;
+  Vector3 point;
+  casefile::Formula value;
+  std::string boundary;
+  int electrode = -1;  ///< of the case's electrodes; -1: a boundary's condition
+};
+
+/// Prescribed unknowns of all [[boundary]] entries and the potentials of all [[electrode]] entries,
+/// ascending. An electrode whose voltage is not given has the value 0 here: the circuit adds its
+/// voltage. Where two boundaries meet and both prescribe an unknown, the entry that stands first in
+/// the case file holds, [[boundary]] before [[electrode]].
+template <int dim>
+std::vector<Prescribed> prescribed_unknowns(
+    const Discretisation<dim> &body, const std::vector<casefile::BoundaryCase> &boundaries,
+    const std::vector<casefile::ElectrodeCase> &electrodes = {});
+
+/// The nodes that each electrode holds. Throws CaseError for an electrode that holds none because
+/// other conditions stand first at all of them.
+template <int dim>
+std::vector<std::vector<Node>> electrode_nodes(
+    const std::vector<Prescribed> &prescribed,
+    const std::vector<casefile::ElectrodeCase> &electrodes);
+
+/// Nodal values of formulas, component by component: u_0, phi_0, theta_0 of (14).
+template <int dim>
+std::vector<double> initial_state(const Discretisation<dim> &body,
+                                  const casefile::InitialCase &initial);
+
+}  // namespace tourmaline::body

@@ -1,0 +1,113 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "output/records.h"
+
+namespace tourmaline::mesh {
+template <int dim>
+struct Mesh;  // holds deal.II's cells: whoever makes one includes mesh/mesh.h
+}
+
+namespace tourmaline::body {
+
+using Node = unsigned int;
+
+/// What a linear quadrilateral or hexahedron has beside its nodes' shape functions.
+enum class Modes { none, incompatible };
+
+/// Shape functions on one cell or one boundary facet: `nodes[a]` is the node of shape function a,
+/// `value(q, a)` and `gradient(q, a)` [1/m] belong to quadrature point q with weight `jxw[q]`
+/// [m^dim, facets m^(dim-1)].
+template <int dim>
+struct Quadrature {
+  std::vector<Node> nodes;
+  std::vector<double> jxw;
+  std::vector<std::array<double, 3>> points;
+  std::vector<double> values;
+  std::vector<std::array<double, dim>> gradients;  ///< empty on facets
+  std::vector<std::array<double, dim>> normals;    ///< outward nu at each point; empty on cells
+  std::size_t region = 0;                          ///< of the cell, an index of the case's regions
+  /// of the dim incompatible modes [1/m], point by point; empty unless asked for
+  std::vector<std::array<double, dim>> mode_gradients;
+
+  double value(std::size_t q, std::size_t a) const { return values[q * nodes.size() + a]; }
+  const std::array<double, dim> &gradient(std::size_t q, std::size_t a) const {
+    return gradients[q * nodes.size() + a];
+  }
+  std::array<double, 3> centre() const;
+};
+
+/// Neighbourhood of the nodes in compressed rows: node i shares a cell with column[row[i]] ...
+/// column[row[i+1] - 1], sorted, itself included. On several ranks that of this rank's cells; rows
+/// of nodes that these do not touch are empty.
+struct NodeGraph {
+  std::vector<std::size_t> row;
+  std::vector<Node> column;
+
+  std::size_t n_nodes() const { return row.size() - 1; }
+};
+
+/// One Lagrange space of degree 1 or 2 (28)-(30), shared by all components of u, by phi and by
+/// theta: a node carries dim + 2 unknowns. Nodes are numbered by x, then y, then z, whatever the
+/// mesh's own order is and however many ranks share it, so every table lists them alike. Nodes and
+/// their places are whole on every rank, cells are shared out. This is the only place that asks
+/// deal.II for shape functions; the rest of the body sees plain numbers.
+template <int dim>
+class Discretisation {
+ public:
+  Discretisation(mesh::Mesh<dim> mesh, int degree);
+  ~Discretisation();
+  Discretisation(Discretisation &&) noexcept;
+
+  std::size_t n_nodes() const;
+  std::size_t n_cells() const;
+  bool has_simplices() const;
+  int degree() const;
+  /// Places of the nodes [m]; z = 0 in 2D.
+  const std::vector<Vector3> &points() const;
+  NodeGraph graph() const;
+
+  /// Calls `visit` for every cell of this rank, with a quadrature exact for the mass matrix on
+  /// affine cells. Incompatible modes are there for quadrilaterals and hexahedra of degree 1 only.
+  void for_each_cell(const std::function<void(const Quadrature<dim> &)> &visit,
+                     Modes modes = Modes::none) const;
+  /// The same at the points where derivatives of the fields are one order more accurate than
+  /// elsewhere (Barlow 1976): the centre for degree 1; for degree 2 Gauss's points, two in each
+  /// direction or as many on a simplex as it has corners.
+  void for_each_cell_sampled(const std::function<void(const Quadrature<dim> &)> &visit) const;
+  /// Calls `visit` for every facet of the named boundaries on this rank. Throws CaseError for an
+  /// unknown name.
+  void for_each_facet(const std::vector<std::string> &boundaries,
+                      const std::function<void(const Quadrature<dim> &)> &visit) const;
+  /// Nodes on the closure of the named boundaries, ascending, of all ranks.
+  std::vector<Node> nodes_on(const std::vector<std::string> &boundaries) const;
+
+  /// All named boundaries with the facets of all ranks, on the first rank; without facets on the
+  /// others.
+  std::vector<output::NamedBoundary> boundaries() const;
+
+  /// The first nodes of a cell are its corners; entry (a, v) is the share of corner v in node a,
+  /// the corner's linear shape function there. Shares of a node add up to 1.
+  std::vector<std::vector<double>> corner_shares() const;
+
+  /// The grid as the output wants it: all nodes, and this rank's cells in the order of
+  /// `for_each_cell`.
+  output::Grid grid() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+
+  template <class Rule>
+  void visit_cells(const Rule &rule, Modes modes,
+                   const std::function<void(const Quadrature<dim> &)> &visit) const;
+};
+
+}  // namespace tourmaline::body

@@ -1,0 +1,113 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "body/cell_modes.h"
+#include "body/fields.h"
+#include "material/composition.h"
+#include "tourmaline/case/formula.h"
+
+namespace tourmaline::body {
+
+/// Products of the storage operator with one field of a state at a time: `of[f]` has an entry for
+/// each unknown, f = 0 for u, 1 for phi, 2 for theta. Their sum is the operator's product with the
+/// state.
+struct FieldProducts {
+  std::array<std::vector<double>, 3> of;
+
+  double sum(std::size_t unknown) const { return of[0][unknown] + of[1][unknown] + of[2][unknown]; }
+};
+
+/// The operator of the body without boundary conditions, in SI units. With the electric rows
+/// multiplied by -1 and the heat rows by -k / theta_ref it is symmetric (design: operator of a
+/// step):
+///
+///     storage    [  A     E^T   -M  ]     A = (F eps(v), eps(v))     H0 = (alpha eta, eta)
+///                [  E    -B      P  ]     B = (beta grad psi, grad psi)
+///                [ -M^T   P^T   -H0 ]     E, M, P the couplings of (1), (2), (6)
+///
+///     conduction G = (K grad eta, grad eta) + (k_c eta, eta) on Gamma_C, rows and columns of theta
+///     only
+///
+/// so that the step of (31)-(33) has the operator storage - (k / theta_ref) G, and its heat rows
+/// see the state before through the heat rows of `storage`.
+///
+/// With `Modes::incompatible` the cells' modes (`CellModes`) are condensed out of `storage`, all
+/// fields at once: what is left is symmetric, as definite as before, and its heat rows are those of
+/// the whole, as the modes have no memory of their own.
+///
+/// Every rank holds what its cells contribute; products are summed over the ranks, so all of them
+/// must ask for one.
+template <int dim>
+class Operator {
+ public:
+  static constexpr int n = Fields<dim>::count;
+  using Block = Eigen::Matrix<double, n, n, Eigen::RowMajor>;
+
+  /// Of one material everywhere.
+  Operator(const Discretisation<dim> &body, const material::BodyConstants<dim> &material,
+           Modes modes = Modes::none);
+  Operator(const Discretisation<dim> &body, const material::Composition<dim> &composition,
+           Modes modes = Modes::none);
+
+  /// Adds (k_c theta, eta) on the named boundaries (18); `coefficient` is k_c [W/(K m^2)], by
+  /// place.
+  void add_exchange(const Discretisation<dim> &body, const std::vector<std::string> &boundaries,
+                    const casefile::Formula &coefficient);
+
+  const NodeGraph &graph() const { return graph_; }
+  double reference_temperature() const { return reference_temperature_; }
+
+  /// Block of storage - step / theta_ref G at place `entry` of the graph; `step` = k [s]. On
+  /// several ranks this rank's share of it.
+  Block step_block(std::size_t entry, double step) const;
+
+  /// y = (storage - step / theta_ref G) x.
+  void multiply(double step, std::span<const double> x, std::span<double> y) const;
+
+  /// Adds the heat rows of storage x to y: what a step remembers of the state x before it (6),
+  /// (33).
+  void add_history(std::span<const double> x, std::span<double> y) const;
+
+  /// Row `row` of (storage - step / theta_ref G) times x.
+  double row_times(std::size_t row, double step, std::span<const double> x) const;
+
+  /// Subtracts `columns` of storage - step / theta_ref G, times their entries of x, from y.
+  void subtract_columns(std::span<const std::size_t> columns, double step,
+                        std::span<const double> x, std::span<double> y) const;
+
+  /// The diagonal of storage - step / theta_ref G.
+  std::vector<double> diagonal(double step) const;
+
+  /// |storage - step / theta_ref G| |x|, entry by entry, the size of the terms of a product; on
+  /// several ranks at most that of their shares.
+  std::vector<double> sizes(double step, std::span<const double> x) const;
+
+  /// storage x, field by field; `products` is overwritten.
+  void multiply_by_field(std::span<const double> x, FieldProducts &products) const;
+
+  /// The incompatible modes of this rank's cells, in the order of `for_each_cell`; empty without.
+  const std::vector<CellModes<dim>> &modes() const { return modes_; }
+  /// What the modes of state x shift between the parts of the stored energy [J]: the forms of the
+  /// condensed `storage` add up to the whole, but each form is the energy of its own field only
+  /// together with this. Its sum is zero; without modes it is nothing.
+  Energies energy_shift(std::span<const double> x) const;
+
+  /// G theta by node [W], what conduction and exchange take from each node.
+  std::vector<double> conducted(std::span<const double> x) const;
+
+ private:
+  void add_cell(const Quadrature<dim> &cell, const material::BodyConstants<dim> &material);
+  void add_modes(const Quadrature<dim> &cell, const material::BodyConstants<dim> &material);
+  std::size_t entry_of(Node row, Node column) const;
+
+  NodeGraph graph_;
+  std::vector<Block, Eigen::aligned_allocator<Block>> storage_;
+  std::vector<double> conduction_;
+  std::vector<CellModes<dim>> modes_;  // of this rank's cells
+  double reference_temperature_;
+};
+
+}  // namespace tourmaline::body

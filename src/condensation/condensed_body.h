@@ -1,0 +1,107 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <array>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "body/cell_products.h"
+#include "body/conditions.h"
+#include "body/operator.h"
+#include "condensation/factorisation.h"
+
+namespace tourmaline::condensation {
+
+/// The body of one step size, factorised once and condensed onto the displacements c of the contact
+/// nodes: S c = s + q, with q the nodal forces of the contact on the body [N], S [N/m] symmetric
+/// and, once the body is held, positive definite.
+///
+/// Inside, the unknowns of each field are scaled by the square root of the field's largest diagonal
+/// entry, so that the factorised matrix is balanced in any units; all arguments here are SI.
+template <int dim>
+class CondensedBody {
+ public:
+  /// `prescribed` unknowns are taken out of the matrix, but for those at contact nodes'
+  /// displacements: these stay in c and the interface prescribes them.
+  CondensedBody(const body::Operator<dim> &op, double step,
+                const std::vector<body::Prescribed> &prescribed,
+                const std::vector<body::Node> &contact_nodes, int threads);
+
+  /// dim entries for each contact node, in the order of `contact_nodes`. Only on the first rank;
+  /// empty on the others.
+  const Eigen::MatrixXd &stiffness() const { return stiffness_; }
+
+  /// s [N] from the right-hand side of a step, on every rank; `state` holds the values of
+  /// prescribed unknowns.
+  Eigen::VectorXd reduce(std::span<const double> right_side, std::span<const double> state);
+
+  /// Fills the unknowns of `state` that are not prescribed, from the contact displacements c [m],
+  /// on every rank.
+  void expand(const Eigen::VectorXd &c, std::span<double> state);
+
+  /// |b - K x| / (|K| |x| + |b|) over the free unknowns, scaled, in the maximum norm; q [N] are the
+  /// forces at the contact.
+  double backward_error(std::span<const double> right_side, std::span<const double> state,
+                        const Eigen::VectorXd &q) const;
+
+  /// Size of K^-1 (b - K x), the factor's answer to what `state` leaves of the equations inside,
+  /// over that of x: an estimate of the forward error of all unknowns but c, by field the largest
+  /// scaled entries, the worst field's. A field of which there is next to nothing (a millionth of
+  /// the largest, an energy of 1e-12) is measured by that millionth. The residual is that of
+  /// `cells`: with assembled entries their own round-off would stay unseen.
+  double forward_error(const body::CellProducts<dim> &cells, std::span<const double> right_side,
+                       std::span<const double> state);
+
+  /// From now on stiffness, `reduce` and `expand` are those of `cells`, by iterative refinement:
+  /// GMRES with the factor for its preconditioner takes down the residual of `cells`, so an
+  /// operator whose assembled entries determine no digit of x is solved as long as few of its
+  /// directions are so weak. Every solution takes tens of substitutions, the stiffness one solution
+  /// for each contact displacement. `cells` outlives this object.
+  void refine(const body::CellProducts<dim> &cells);
+  bool is_refined() const { return cells_ != nullptr; }
+  /// Of the refined solutions since the last call: size of the last correction, as `forward_error`.
+  double left_by_refinement() { return std::exchange(left_by_refinement_, 0.); }
+
+  const FactorisationStatistics &statistics() const { return factorisation_->statistics(); }
+  std::size_t n_unknowns() const { return unknown_of_.size(); }
+  /// Free electric and thermal unknowns: as many negative pivots are right.
+  std::size_t n_electric_and_thermal() const { return n_electric_and_thermal_; }
+
+ private:
+  void number(const std::vector<body::Prescribed> &prescribed,
+              const std::vector<body::Node> &contact_nodes);
+  void scale_fields();
+  std::vector<int> elimination_order() const;
+  bool is_contact_variable(std::size_t v) const { return is_contact_variable_[v]; }
+  Eigen::VectorXd residual_inside(const body::CellProducts<dim> &cells,
+                                  std::span<const double> right_side,
+                                  std::span<const double> state) const;
+  Eigen::VectorXd solve_inside(const Eigen::VectorXd &residual);
+  Eigen::VectorXd product_inside(const Eigen::VectorXd &x) const;
+  double relative_size(const Eigen::VectorXd &correction, std::span<const double> state) const;
+  Eigen::VectorXd reduce_refined(std::span<const double> right_side, std::span<const double> state);
+  void solve_refined(std::span<const double> right_side, std::span<double> state);
+  void impose(const Eigen::VectorXd &c, std::span<double> state) const;
+  Eigen::VectorXd contact_rows(std::span<const double> state) const;
+  double scale(std::size_t unknown) const { return scale_[unknown % body::Fields<dim>::count]; }
+
+  const body::Operator<dim> &operator_;
+  double step_;
+  std::vector<int> variable_of_;         // by unknown of the body; -1: prescribed
+  std::vector<std::size_t> unknown_of_;  // by variable of the matrix
+  std::vector<std::size_t> prescribed_;  // unknowns taken out
+  std::vector<int> contact_variables_;
+  std::vector<bool> is_contact_variable_;
+  std::array<double, body::Fields<dim>::count> scale_{};
+  std::size_t n_electric_and_thermal_ = 0;
+  std::optional<Factorisation> factorisation_;
+  Eigen::MatrixXd stiffness_;
+  const body::CellProducts<dim> *cells_ = nullptr;  // once refined
+  std::vector<double> given_, inside_;              // of the refined step: b; x at c = 0
+  double left_by_refinement_ = 0;
+  std::vector<double> right_side_, lifted_;  // kept, so that a step allocates nothing
+};
+
+}  // namespace tourmaline::condensation

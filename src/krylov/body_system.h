@@ -1,0 +1,83 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "body/conditions.h"
+#include "body/operator.h"
+#include "output/checkpoint.h"
+
+namespace tourmaline::krylov {
+
+/// What the contact leaves a node: displacements in the range of `projector` (symmetric, its square
+/// itself), and a stiffness [N/m] against them.
+template <int dim>
+struct NodeTangent {
+  using Matrix = Eigen::Matrix<double, dim, dim>;
+
+  body::Node node;
+  Matrix projector, stiffness;
+
+  bool operator==(const NodeTangent &) const = default;
+};
+
+/// What a linear solve took, and whether it came as far as it was asked to.
+struct Solved {
+  int iterations = 0;
+  bool converged = false;
+};
+
+/// The operator K of a step without a factorisation, for bodies too large for one: solves
+///
+///     Q (K + C) Q x = Q r,   x in the range of Q
+///
+/// with Q the projector onto what is free (prescribed unknowns and the contact hold the rest) and C
+/// the contact's stiffness, by flexible GMRES (PETSc). The electric and heat rows change their sign
+/// back, so that the diagonal blocks are positive definite; the preconditioner solves by blocks, u,
+/// then phi, then theta: aggregation multigrid with the rigid motions for u (GAMG), BoomerAMG
+/// (hypre) for phi and theta. All vectors are SI and whole on every rank.
+template <int dim>
+class BodySystem {
+ public:
+  BodySystem(const body::Operator<dim> &op, double step, const std::vector<Vector3> &points,
+             const std::vector<body::Prescribed> &prescribed);
+  ~BodySystem();
+  BodySystem(const BodySystem &) = delete;
+  BodySystem &operator=(const BodySystem &) = delete;
+
+  /// Sets the matrix of another contact; one entry for each contact node, always the same nodes.
+  /// The preconditioner stays where only stiffnesses differ.
+  void set_contact(const std::vector<NodeTangent<dim>> &contact);
+  /// Makes the preconditioner that of the matrix as it is now, unless it is.
+  void refresh();
+
+  /// Solves for a projected right-hand side r until the residual is `reduction` times r, in scaled
+  /// unknowns. The solution is in the range of Q: exactly zero in prescribed unknowns.
+  Solved solve(std::span<const double> right_side, double reduction, std::span<double> solution);
+
+  /// Q r.
+  void project(std::span<double> vector) const;
+
+  /// body::backward_error of a projected residual.
+  double backward_error(std::span<const double> residual, std::span<const double> right_side,
+                        std::span<const double> state) const;
+
+  /// Matrix and preconditioner of the steps before, for a new system to go on with; of
+  /// `contact_nodes` nodes.
+  void save(output::SavedNumbers &numbers) const;
+  void restore(const output::SavedNumbers &numbers, std::size_t contact_nodes);
+
+  double set_up_seconds() const;  ///< assembly and preconditioners
+  int set_ups() const;            ///< preconditioners made so far
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+/// Ends PETSc, if something here started it; before MPI ends.
+void finish();
+
+}  // namespace tourmaline::krylov

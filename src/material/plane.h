@@ -1,0 +1,31 @@
+#pragma once
+
+#include "material/constants.h"
+
+namespace tourmaline::material {
+
+/// Components of a symmetric tensor in `dim` dimensions: xx, yy, xy or all six of Voigt.
+template <int dim>
+inline constexpr int n_strains = dim *(dim + 1) / 2;
+
+/// The constants that a body of `dim` dimensions sees, in its own axes. In 2D: plane strain,
+/// eps_zz = eps_yz = eps_xz = 0 and E_z = 0.
+template <int dim>
+struct BodyConstants {
+  static constexpr int strains = n_strains<dim>;
+  Eigen::Matrix<double, strains, strains> stiffness;
+  Eigen::Matrix<double, dim, strains> piezoelectric;
+  Eigen::Matrix<double, dim, dim> permittivity;
+  Eigen::Matrix<double, strains, 1> thermal_stress;
+  Eigen::Matrix<double, dim, 1> pyroelectric;
+  Eigen::Matrix<double, dim, dim> conductivity;
+  double heat_capacity = 0;          ///< alpha [J/(K^2 m^3)]
+  double reference_temperature = 0;  ///< theta_ref [K]
+};
+
+/// Throws CaseError in 2D when the plane's fields would drive a displacement out of the plane or a
+/// field E_z: plane strain is then no solution of (1)-(6).
+template <int dim>
+BodyConstants<dim> restricted(const Constants &body_axes);
+
+}  // namespace tourmaline::material

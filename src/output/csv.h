@@ -1,0 +1,27 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "output/records.h"
+
+/// The tables of a run as text: comma-separated, a header line, '\n' line ends, SI units, 17
+/// significant digits, so that every number reads back as it was. Negative zero is written 0,
+/// whatever is not a number nan. The z columns are there only when `dimension` is 3.
+namespace tourmaline::output {
+
+/// x,y[,z],u_x,u_y[,u_z],potential,temperature: one row for each point, in the order of the grid.
+/// Throws std::invalid_argument when a field does not have one value for each point.
+std::string nodes_table(int dimension, const std::vector<Vector3> &points,
+                        const PointFields &fields);
+
+/// step,time,x,y[,z],normal_traction,tangential_traction_x,tangential_traction_y[,..._z],
+/// normal_displacement,slip_x,slip_y[,slip_z],slip_rate,status,temperature,potential,heat_flux
+std::string contact_header(int dimension);
+std::string contact_lines(int dimension, int step, double time, std::span<const ContactRow> rows);
+
+/// step,time,newton_iterations,residual,stick,slip,open, then the row's own quantities
+std::string history_header(const HistoryRow &row);
+std::string history_line(const HistoryRow &row);
+
+}  // namespace tourmaline::output

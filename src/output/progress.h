@@ -1,0 +1,49 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "output/records.h"
+#include "output/status_line.h"
+
+namespace tourmaline::output {
+
+/// What the progress line says after a step; `seconds_left` is left out when it is negative (not
+/// known yet).
+std::string progress_text(const HistoryRow &row, int steps, double seconds_left);
+
+/// Says on stderr how far a run is: on a terminal in one line with a bar that is rewritten in
+/// place, elsewhere (a pipe, a log) in a line of its own every `pause`, so that a short run says
+/// nothing. Says nothing when `quiet`. Never throws for what the terminal does.
+class Progress {
+ public:
+  Progress(int steps, bool quiet, std::chrono::milliseconds pause = std::chrono::seconds(5));
+  Progress(const Progress &) = delete;
+  Progress &operator=(const Progress &) = delete;
+  ~Progress() { done(); }
+
+  /// Names the work that goes on until the next call ("mesh", "factorise"); drawn at once.
+  void stage(const std::string &what);
+
+  /// Reports a finished step; drawn at most ten times a second.
+  void step(const HistoryRow &row);
+
+  /// Clears the line, so that other text can follow. Idempotent; a later call draws it again.
+  void done();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  double seconds_left(int step, Clock::time_point now) const;
+  bool due() const { return line_.since_last() >= pause_; }
+
+  int steps_;
+  bool quiet_;
+  StatusLine line_;
+  std::chrono::milliseconds pause_;  // between two drawings
+  bool started_ = false;             // whether a step has been reported
+  int first_step_ = 0;
+  Clock::time_point first_step_end_;
+};
+
+}  // namespace tourmaline::output

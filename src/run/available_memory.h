@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+namespace tourmaline::run {
+
+/// What this process may still take, and what says so: the system, the control group that it runs
+/// in (containers), or its own limit of address space (ulimit -v), whichever leaves least.
+struct AvailableMemory {
+  double bytes;
+  bool is_limited;    ///< by less than what the system has
+  std::string words;  ///< "... leaves" that many bytes
+};
+
+AvailableMemory available_memory();
+
+/// Throws MachineError where the limit of address space does not let Open MPI load its parts and
+/// OpenBLAS take its first buffer of 128 MiB, which it would try for ever; makes it take that one.
+void require_room_to_start();
+
+}  // namespace tourmaline::run

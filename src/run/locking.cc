@@ -1,0 +1,117 @@
+#include "run/locking.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "body/locking.h"
+#include "mesh/mesh.h"
+
+namespace tourmaline::run {
+
+namespace {
+
+// What was measured on beams and bimorphs stands in docs/conventions.md: above this share of the
+// stresses' energy displacements are some 5 % too small, or more. Bodies that are not slender do
+// not bend, and what their cells miss is something else.
+// Nor is it bending where the share of the strains' energy is this small: bimorphs that are 5 % too
+// stiff have 0.02, bodies that heat or voltage stretch without hindrance 3e-6 and less, and their
+// stresses are all error.
+constexpr double largest_share = 0.1, least_slender = 2, least_of_strain = 1e-3;
+
+// Cells in the thickness below which bending is some 10 % too stiff.
+double least_cells(bool simplices) {
+  return simplices ? 4 : 2;
+}
+
+std::string advice(bool simplices) {
+  return std::string("Give mesh.degree = 2") +
+         (simplices ? "" : " or mesh.modes = \"incompatible\"") + ", or finer cells";
+}
+
+bool may_lock(const casefile::MeshCase &mesh) {
+  return mesh.degree == 1 && mesh.modes == "none";
+}
+
+}  // namespace
+
+template <int dim>
+LockingWatch<dim>::LockingWatch(const solve::Model<dim> &model)
+    : model_(model), is_needed_(may_lock(model.asked.mesh)) {
+  if (is_needed_)
+    strained_.assign(model.n_unknowns(), 0.);
+}
+
+template <int dim>
+void LockingWatch<dim>::step(const output::HistoryRow &row, const std::vector<double> &state) {
+  if (!is_needed_)
+    return;
+  const auto elastic = std::find_if(row.quantities.begin(), row.quantities.end(),
+                                    [](const auto &q) { return q.first == "elastic_energy"; });
+  if (elastic == row.quantities.end() || !(elastic->second > largest_))
+    return;
+  largest_ = elastic->second;
+  strained_ = state;
+}
+
+template <int dim>
+std::string LockingWatch<dim>::warning() const {
+  if (!is_needed_ || largest_ == 0 || body::slenderness(model_.body).ratio < least_slender)
+    return "";
+  const body::LockedShare share = body::locked_share(model_.body, model_.composition, strained_);
+  if (share.of_stress < largest_share || share.of_strain < least_of_strain)
+    return "";
+  return fmt::format(
+      "linear cells are too stiff for how this body bends: they hold {:.0f} % of the energy of its "
+      "stresses only because they cannot follow its shape, and displacements are too small. {}",
+      100 * share.of_stress, advice(model_.body.has_simplices()));
+}
+
+template <int dim>
+void LockingWatch<dim>::save(output::SavedNumbers &numbers) const {
+  numbers.put("largest elastic energy", {largest_});
+  numbers.put("most strained state", strained_);
+}
+
+template <int dim>
+void LockingWatch<dim>::restore(const output::SavedNumbers &numbers) {
+  largest_ = numbers.get("largest elastic energy", 1)[0];
+  numbers.fill("most strained state", strained_);
+}
+
+template class LockingWatch<2>;
+template class LockingWatch<3>;
+
+namespace {
+
+template <int dim>
+std::string slender_warning_in(const casefile::Case &asked) {
+  const body::Discretisation<dim> body(mesh::build<dim>(asked), 1);
+  const body::Slenderness found = body::slenderness(body);
+  if (found.ratio < least_slender || found.cells >= least_cells(body.has_simplices()))
+    return "";
+  return fmt::format(
+      "this body is slender, and {:.2g} linear cells, measured by their longest diagonal, stand in "
+      "its thickness: too few if it is bent. {}",
+      found.cells, advice(body.has_simplices()));
+}
+
+// Without a mesh: a box that cannot be slender.
+bool is_compact(const casefile::Box &box) {
+  double least = box.max[0] - box.min[0], greatest = least;
+  for (std::size_t i = 1; i < box.max.size(); ++i) {
+    least = std::min(least, box.max[i] - box.min[i]);
+    greatest = std::max(greatest, box.max[i] - box.min[i]);
+  }
+  return greatest < 3 * least;
+}
+
+}  // namespace
+
+std::string slender_warning(const casefile::Case &asked) {
+  if (!may_lock(asked.mesh) || (asked.mesh.box && is_compact(*asked.mesh.box)))
+    return "";
+  return asked.dimension == 2 ? slender_warning_in<2>(asked) : slender_warning_in<3>(asked);
+}
+
+}  // namespace tourmaline::run

@@ -1,0 +1,66 @@
+#include "run/memory.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+
+#include "case/electrodes.h"
+#include "parallel/ranks.h"
+#include "run/available_memory.h"
+#include "tourmaline/error.h"
+
+namespace tourmaline::run {
+
+namespace {
+
+constexpr double program = 190e6;  // the libraries, before any case
+
+double nodes_of(const casefile::MeshCase &mesh) {
+  // Degree 2 puts nodes where a mesh refined once has its vertices: 2^dim times as many.
+  if (mesh.content)
+    return static_cast<double>(mesh.content->points.size()) *
+           std::pow(mesh.degree, mesh.content->dimension);
+  double nodes = 1;
+  for (const int cells : mesh.box ? mesh.box->cells : mesh.annulus->cells)
+    nodes *= double(mesh.degree) * cells + 1;
+  return nodes;
+}
+
+}  // namespace
+
+double factorised_memory(const casefile::Case &asked) {
+  const double unknowns = nodes_of(asked.mesh) * (asked.dimension + 2);
+  return program + (asked.dimension == 2 ? unknowns * (440 + 115 * std::log2(unknowns))
+                                         : 310 * std::pow(unknowns, 4. / 3));
+}
+
+double iterative_memory(const casefile::Case &asked) {
+  return program + 5000 * nodes_of(asked.mesh) * (asked.dimension + 2);
+}
+
+bool solves_iteratively(const casefile::Case &asked) {
+  if (asked.solver.method != "condensed" || asked.solver.body == "direct")
+    return false;
+  const bool too_large = asked.dimension == 3 && casefile::all_voltages_given(asked) &&
+                         factorised_memory(asked) > available_memory().bytes / 2;
+  return asked.solver.body == "iterative" || parallel::from_first(too_large) != 0;
+}
+
+void require_memory(const casefile::Case &asked) {
+  const double needed =
+      solves_iteratively(asked) ? iterative_memory(asked) : factorised_memory(asked);
+  const AvailableMemory available = available_memory();
+  // Of a limited process the program's own part is in use already.
+  const double more = available.is_limited ? needed - program : needed;
+  if (more <= available.bytes)
+    return;
+  const std::string text =
+      fmt::format("{}: [mesh] this mesh needs about {:.3g} GiB of memory, {} {:.3g} GiB",
+                  asked.source, more / (1 << 30), available.words, available.bytes / (1 << 30));
+  if (available.is_limited)
+    throw MachineError(text + "; raise the limit or take fewer cells");
+  throw CaseError(text + "; take fewer cells");
+}
+
+}  // namespace tourmaline::run

@@ -1,0 +1,72 @@
+#include "run/process.h"
+
+#include <deal.II/base/multithread_info.h>
+#include <mpi.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "tourmaline/error.h"
+
+#include "krylov/body_system.h"
+
+extern "C" void openblas_set_num_threads(int threads);
+
+namespace tourmaline::run {
+
+namespace {
+
+// Started alone there is no other process to talk to: Open MPI need not fork a daemon for processes
+// spawned later (0.1 s), nor look for networks (0.2 s).
+void start_mpi() {
+  if (!std::getenv("OMPI_COMM_WORLD_SIZE")) {
+    setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+    // Isolated processes would share one session folder, and one's end removes it under another's
+    // start.
+    setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
+    setenv("OMPI_MCA_pml", "ob1", 0);
+    setenv("OMPI_MCA_btl", "self", 0);
+  }
+  MPI_Init(nullptr, nullptr);
+}
+
+}  // namespace
+
+Process::Process(int threads) {
+  int running = 0;
+  MPI_Initialized(&running);
+  if (!running) {
+    start_mpi();
+    owns_mpi_ = true;
+  }
+  openblas_set_num_threads(threads);
+  dealii::MultithreadInfo::set_thread_limit(threads);
+}
+
+double process_age() {
+  std::ifstream stat("/proc/self/stat"), uptime("/proc/uptime");
+  std::string text;
+  std::getline(stat, text);
+  // Field 22, counted after the program's name, which may hold spaces: the start in clock ticks
+  // since boot.
+  std::istringstream fields(text.substr(text.rfind(')') + 1));
+  for (int field = 3; field <= 22; ++field)
+    fields >> text;
+  double now = 0;
+  uptime >> now;
+  return std::max(
+      0., now - std::strtod(text.c_str(), nullptr) / static_cast<double>(sysconf(_SC_CLK_TCK)));
+}
+
+Process::~Process() {
+  if (!owns_mpi_)
+    return;
+  krylov::finish();
+  MPI_Finalize();
+}
+
+}  // namespace tourmaline::run

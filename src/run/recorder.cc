@@ -1,0 +1,255 @@
+#include "run/recorder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "body/derived.h"
+#include "parallel/ranks.h"
+#include "run/step_check.h"
+#include "stopwatch.h"
+
+namespace tourmaline::run {
+
+namespace {
+
+template <int dim>
+using Vector = Eigen::Matrix<double, dim, 1>;
+
+template <int dim>
+Vector3 in_space(const Vector<dim> &v) {
+  Vector3 plain{};
+  std::copy(v.begin(), v.end(), plain.begin());
+  return plain;
+}
+
+template <int dim>
+Vector<dim> displacement(std::span<const double> state, body::Node node) {
+  return Eigen::Map<const Vector<dim>>(&state[body::unknown<dim>(node, 0)]);
+}
+
+template <int dim>
+Vector<dim> tangential(const Vector<dim> &v, const Vector<dim> &normal) {
+  return v - v.dot(normal) * normal;
+}
+
+}  // namespace
+
+template <int dim>
+Recorder<dim>::Recorder(const solve::Model<dim> &model, output::ResultFolder &folder)
+    : model_(model), folder_(folder) {}
+
+template <int dim>
+void Recorder<dim>::initial(std::span<const double> state) {
+  Stopwatch watch;
+  balance_.emplace(model_, state);
+  const std::vector<output::NamedBoundary> boundaries = model_.body.boundaries();
+  parallel::on_first([&] { folder_.put_boundaries(boundaries); });
+  StepCheck(0, 0).state(dim, model_.body.points(), state);
+  if (has_fields(0))
+    put_fields(0, state, checked_fields(0, state));
+  seconds_ += watch.lap();
+}
+
+template <int dim>
+void Recorder<dim>::restore(std::span<const double> state, const output::SavedNumbers &numbers) {
+  balance_.emplace(model_, state);
+  balance_->restore(numbers);
+  judgement_.restore(numbers);
+  seconds_ = numbers.get("output seconds", 1)[0];
+}
+
+template <int dim>
+void Recorder<dim>::save(output::SavedNumbers &numbers) const {
+  balance_->save(numbers);
+  judgement_.save(numbers);
+  numbers.put("output seconds", {seconds_});
+}
+
+template <int dim>
+output::HistoryRow Recorder<dim>::step(int n, const solve::StepOutcome &outcome,
+                                       std::span<const double> loads,
+                                       std::span<const double> before,
+                                       std::span<const double> state, const solve::Route &route,
+                                       const std::function<solve::Accuracy()> &measure) {
+  Stopwatch watch;
+  const double time = model_.time(n);
+  const StepCheck check(n, time);
+  check.state(dim, model_.body.points(), state);
+  output::HistoryRow row;
+  row.step = n;
+  row.time = time;
+  row.newton_iterations = outcome.newton_iterations;
+  row.residual = outcome.residual;
+  row.stick = std::count(outcome.status.begin(), outcome.status.end(), ContactStatus::stick);
+  row.slip = std::count(outcome.status.begin(), outcome.status.end(), ContactStatus::slip);
+  row.open = std::count(outcome.status.begin(), outcome.status.end(), ContactStatus::open);
+  std::vector<output::ContactRow> rows;
+  if (model_.asked.contact)
+    rows = contact_rows(n, outcome, before, state);
+  check.contact(rows);
+  row.quantities = balance_->step(time, loads, outcome, state, route.is_refined());
+  for (const output::Extreme &e : extremes(state)) {
+    row.quantities.emplace_back("min_" + e.field, e.minimum);
+    row.quantities.emplace_back("max_" + e.field, e.maximum);
+  }
+  check.quantities(row.quantities);
+  check.quantities({{"residual", row.residual}});
+  judgement_.step(n, time, balance_->judged(), measure);
+  judgement_.forward_error(n, time, route.accuracy_so_far());
+  output::CellFields cells;
+  if (has_fields(n))
+    cells = checked_fields(n, state);
+  parallel::on_first([&] {
+    if (model_.asked.contact)
+      folder_.put_contact(n, time, rows);
+    folder_.put_history(row);
+  });
+  if (has_fields(n))
+    put_fields(n, state, cells);
+  seconds_ += watch.lap();
+  return row;
+}
+
+template <int dim>
+bool Recorder<dim>::has_fields(int n) const {
+  return model_.asked.output.fields &&
+         (n % model_.asked.output.every == 0 || n == model_.asked.time.steps);
+}
+
+template <int dim>
+output::CellFields Recorder<dim>::checked_fields(int n, std::span<const double> state) {
+  prepare_fields();
+  output::CellFields cells;
+  parallel::together([&] {
+    cells = body::derived_fields(model_.body, model_.composition, state);
+    StepCheck(n, model_.time(n)).fields(grid_, cells);
+  });
+  return cells;
+}
+
+template <int dim>
+void Recorder<dim>::finish(std::span<const double> state) {
+  Stopwatch watch;
+  parallel::on_first([&] {
+    folder_.finish();  // first, so that a full disk costs no row of the tables
+    std::vector<body::Node> all(model_.body.n_nodes());
+    std::iota(all.begin(), all.end(), body::Node{0});
+    folder_.put_nodes(model_.body.points(), point_fields(state, all));
+  });
+  seconds_ += watch.lap();
+}
+
+// The grid of the files has a point for each region that a node belongs to, as stresses jump there.
+template <int dim>
+void Recorder<dim>::prepare_fields() {
+  if (recovery_)
+    return;
+  recovery_.emplace(model_.body);
+  const body::RegionalNodes &regional = recovery_->nodes();
+  grid_ = model_.body.grid();
+  for (std::size_t i = grid_.points.size(); i < regional.size(); ++i)
+    grid_.points.push_back(grid_.points[regional.node(i)]);
+  for (std::size_t i = 0; i < grid_.connectivity.size(); ++i)
+    grid_.connectivity[i] = regional.number(grid_.connectivity[i],
+                                            regional.regions_of_cells()[i / grid_.nodes_per_cell]);
+  nodes_ = output::keep_used_points(grid_);
+}
+
+template <int dim>
+void Recorder<dim>::put_fields(int n, std::span<const double> state,
+                               const output::CellFields &cells) {
+  const std::vector<output::SymmetricTensor> stress =
+      (*recovery_)(model_.composition, state, cells.stress);
+  parallel::together([&] {
+    std::vector<body::Node> nodes;
+    for (const std::uint32_t number : nodes_)
+      nodes.push_back(recovery_->nodes().node(number));
+    output::PointFields points = point_fields(state, nodes);
+    for (const std::uint32_t number : nodes_) {
+      points.stress.push_back(stress[number]);
+      points.von_mises.push_back(body::von_mises(stress[number]));
+    }
+    folder_.put_fields(n, model_.time(n), grid_, points, cells);
+  });
+  parallel::on_first([&] { folder_.list_fields(n, model_.time(n)); });
+}
+
+template <int dim>
+output::PointFields Recorder<dim>::point_fields(std::span<const double> state,
+                                                std::span<const body::Node> nodes) const {
+  output::PointFields fields;
+  for (const body::Node node : nodes) {
+    fields.displacement.push_back(in_space<dim>(displacement<dim>(state, node)));
+    fields.potential.push_back(state[body::unknown<dim>(node, body::Fields<dim>::potential)]);
+    fields.temperature.push_back(state[body::unknown<dim>(node, body::Fields<dim>::temperature)]);
+  }
+  return fields;
+}
+
+template <int dim>
+double Recorder<dim>::heat_coefficient(const Vector3 &point) const {
+  const casefile::HeatExchangeCase &heat = model_.asked.contact->heat;
+  return heat.law == "exchange" ? heat.coefficient.value(point, 0) : 0;
+}
+
+template <int dim>
+std::vector<output::ContactRow> Recorder<dim>::contact_rows(int n,
+                                                            const solve::StepOutcome &outcome,
+                                                            std::span<const double> before,
+                                                            std::span<const double> state) const {
+  std::vector<output::ContactRow> rows;
+  const casefile::HeatExchangeCase &heat = model_.asked.contact->heat;
+  for (std::size_t i = 0; i < model_.interface.size(); ++i) {
+    const contact::InterfaceNode<dim> &at = model_.interface[i];
+    // Tractions are the multipliers: nodal force over lumped weight.
+    const Vector<dim> traction =
+        outcome.contact_forces.segment<dim>(dim * static_cast<Eigen::Index>(i)) / at.weight;
+    const Vector<dim> u = displacement<dim>(state, at.node);
+    const Vector<dim> change = u - displacement<dim>(before, at.node);
+    const double theta = state[body::unknown<dim>(at.node, body::Fields<dim>::temperature)];
+    const double k_c = heat_coefficient(at.point);
+    rows.push_back(
+        {at.point, traction.dot(at.normal), in_space<dim>(tangential<dim>(traction, at.normal)),
+         u.dot(at.normal), in_space<dim>(tangential<dim>(u, at.normal)),
+         tangential<dim>(change, at.normal).norm() / model_.step, outcome.status[i], theta,
+         state[body::unknown<dim>(at.node, body::Fields<dim>::potential)],
+         k_c == 0 ? 0
+                  : k_c * (theta - heat.foundation_temperature.value(at.point, model_.time(n)))});
+  }
+  return rows;
+}
+
+template <int dim>
+std::vector<output::Extreme> Recorder<dim>::extremes(std::span<const double> state) const {
+  using Value = std::function<double(body::Node)>;
+  const auto component = [&](int c) {
+    return [&state, c](body::Node node) { return state[body::unknown<dim>(node, c)]; };
+  };
+  const std::vector<std::pair<std::string, Value>> fields{
+      {"displacement", [&](body::Node node) { return displacement<dim>(state, node).norm(); }},
+      {"potential", component(body::Fields<dim>::potential)},
+      {"temperature", component(body::Fields<dim>::temperature)}};
+  std::vector<output::Extreme> all;
+  for (const auto &[name, value] : fields) {
+    output::Extreme e{name, value(0), value(0), model_.body.points()[0], model_.body.points()[0]};
+    for (body::Node node = 1; node < model_.body.n_nodes(); ++node) {
+      const double v = value(node);
+      if (v < e.minimum) {
+        e.minimum = v;
+        e.at_minimum = model_.body.points()[node];
+      }
+      if (v > e.maximum) {
+        e.maximum = v;
+        e.at_maximum = model_.body.points()[node];
+      }
+    }
+    all.push_back(e);
+  }
+  return all;
+}
+
+template class Recorder<2>;
+template class Recorder<3>;
+
+}  // namespace tourmaline::run

@@ -1,0 +1,164 @@
+#include "run/resumption.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "case/changes.h"
+#include "case/resolved.h"
+#include "output/result_folder.h"
+#include "parallel/ranks.h"
+#include "run/versions.h"
+#include "tourmaline/error.h"
+
+namespace tourmaline::run {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// FNV-1a, 64 bits: tells a changed file from the one before, not from a forged one.
+class Digest {
+ public:
+  template <class Number>
+  void add(std::span<const Number> values) {
+    for (const std::byte byte : std::as_bytes(values))
+      value_ = (value_ ^ std::to_integer<std::uint64_t>(byte)) * 1099511628211U;
+  }
+  std::string text() const { return fmt::format("{:016x}", value_); }
+
+ private:
+  std::uint64_t value_ = 14695981039346656037U;
+};
+
+// Of what was read, not of the file: a geometry may include others.
+std::string digest(const casefile::MeshFile &mesh) {
+  Digest digest;
+  for (const auto &point : mesh.points)
+    digest.add(std::span<const double>(point));
+  digest.add(std::span<const std::uint32_t>(mesh.cells));
+  digest.add(std::span<const std::uint32_t>(mesh.facets));
+  for (const casefile::Groups *groups : {&mesh.regions, &mesh.boundaries}) {
+    digest.add(std::span<const int>(groups->set_of));
+    for (const std::string &name : groups->names)
+      digest.add(std::span<const char>(name));
+    for (const std::vector<int> &set : groups->sets)
+      digest.add(std::span<const int>(set));
+  }
+  return digest.text();
+}
+
+std::string text_in(const fs::path &file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string digest_of_file(const fs::path &file) {
+  Digest digest;
+  digest.add(std::span<const char>(text_in(file)));
+  return digest.text();
+}
+
+// The digests that a run which is over has left; none in a damaged summary.
+std::map<std::string, std::string> contents_in(const fs::path &summary) {
+  const auto json = nlohmann::json::parse(text_in(summary), nullptr, false);
+  std::map<std::string, std::string> digests;
+  if (json.is_object() && json.contains("inputs") && json["inputs"].is_object())
+    for (const auto &[file, digest] : json["inputs"].items())
+      digests[file] = digest.is_string() ? digest.get<std::string>() : "";
+  return digests;
+}
+
+std::string inputs(const std::string &resolved, const std::map<std::string, std::string> &digests) {
+  std::string text = resolved + "\n[contents]\n";
+  for (const auto &[file, digest] : digests)
+    text += fmt::format("{} = {}\n", file, digest);
+  return text;
+}
+
+constexpr std::string_view contents = "contents.";  // of keys that are files
+
+std::string words(const casefile::Change &change) {
+  if (change.key.starts_with(contents))
+    return fmt::format("the content of {} has changed", change.key.substr(contents.size()));
+  const auto value = [](const std::string &text) { return text.empty() ? "not given" : text; };
+  return fmt::format("{} was {}, is {}", change.key, value(change.then), value(change.now));
+}
+
+void require_same(const std::string &then, const std::string &now, const fs::path &directory) {
+  if (const std::string list = differences(then, now); !list.empty())
+    throw CaseError(fmt::format(
+        "{} holds a run of another case, which --resume cannot go on with: {}. Give the same case, "
+        "choose another folder with -o, or start again without --resume, which removes that run",
+        directory.string(), list));
+}
+
+void require_same_ranks(const output::Checkpoint &checkpoint, const fs::path &directory) {
+  if (checkpoint.ranks == static_cast<std::uint64_t>(parallel::n_ranks()))
+    return;
+  throw CaseError(fmt::format(
+      "the run in {} has {} MPI ranks, this process has {}; go on with mpirun -np {}, or start "
+      "again without --resume",
+      directory.string(), checkpoint.ranks, parallel::n_ranks(), checkpoint.ranks));
+}
+
+void require_same_program(const output::Checkpoint &checkpoint, const fs::path &directory) {
+  if (checkpoint.program != program_version())
+    throw MachineError(fmt::format(
+        "the run in {} is one of Tourmaline {}, this is {}; go on with that version, or start "
+        "again without --resume",
+        directory.string(), checkpoint.program, program_version()));
+}
+
+}  // namespace
+
+// How often checkpoints are saved changes no result.
+std::string differences(const std::string &then, const std::string &now) {
+  std::string list;
+  for (const casefile::Change &change : casefile::changes(then, now))
+    if (change.key != "output.checkpoint")
+      list += (list.empty() ? "" : "; ") + words(change);
+  return list;
+}
+
+std::map<std::string, std::string> contents_of(const casefile::Case &asked) {
+  std::map<std::string, std::string> digests;
+  if (asked.mesh.content)
+    digests[*asked.mesh.file] = digest(*asked.mesh.content);
+  const auto add = [&](const casefile::MaterialCase &material) {
+    if (material.file)
+      digests[*material.file] = digest_of_file(*material.file);
+  };
+  add(asked.material);
+  for (const casefile::RegionCase &region : asked.regions)
+    add(region.material);
+  return digests;
+}
+
+std::string inputs_of(const casefile::Case &asked) {
+  return inputs(casefile::resolved(asked), contents_of(asked));
+}
+
+Resumption resumption(const casefile::Case &asked, const fs::path &directory) {
+  Resumption found;
+  // The summary says that all steps are done, also where a run was killed before it could take its
+  // checkpoint away.
+  if (const fs::path summary = directory / "summary.json"; fs::exists(summary)) {
+    require_same(inputs(text_in(directory / "resolved.toml"), contents_in(summary)),
+                 inputs_of(asked), directory);
+    found.has_all_steps = true;
+    found.has_report = !asked.output.report || fs::exists(directory / "report.html");
+  } else if (const fs::path file = directory / output::checkpoint_name; fs::exists(file)) {
+    found.checkpoint = output::read_checkpoint(file);
+    require_same_program(*found.checkpoint, directory);
+    require_same(found.checkpoint->inputs, inputs_of(asked), directory);
+    require_same_ranks(*found.checkpoint, directory);
+    output::require_position(directory, found.checkpoint->position);
+  }
+  return found;
+}
+
+}  // namespace tourmaline::run

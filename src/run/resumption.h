@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "output/checkpoint.h"
+#include "tourmaline/case/case.h"
+
+namespace tourmaline::run {
+
+/// A digest of what stands in every file that the case reads, by its name: of a mesh what was read,
+/// so that files which a geometry includes count; of materials the bytes.
+std::map<std::string, std::string> contents_of(const casefile::Case &asked);
+
+/// What a run was asked for, to be compared when it is to go on: the resolved case, and under
+/// [contents] those digests.
+std::string inputs_of(const casefile::Case &asked);
+
+/// How two of these differ, in words; "" where a run of the one can go on as the other.
+std::string differences(const std::string &then, const std::string &now);
+
+/// What an earlier run of this case left in a folder to go on with.
+struct Resumption {
+  bool has_all_steps = false;                    ///< at most the page is missing
+  bool has_report = false;                       ///< or is not asked for; all steps before it
+  std::optional<output::Checkpoint> checkpoint;  ///< none: it starts from the beginning
+
+  bool is_complete() const { return has_all_steps && has_report; }
+};
+
+/// Call it with the folder's lock, or what it says may be over. Throws CaseError when the run there
+/// was another case, with the keys and files that differ, or had another number of ranks;
+/// MachineError when its checkpoint cannot be used, or files on which that counts are missing.
+Resumption resumption(const casefile::Case &asked, const std::filesystem::path &directory);
+
+}  // namespace tourmaline::run

@@ -1,0 +1,174 @@
+#include "run/survey.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "body/conductors.h"
+#include "case/sides.h"
+#include "case/toml_text.h"
+#include "material/composition.h"
+#include "material/constants.h"
+#include "mesh/mesh.h"
+#include "run/locking.h"
+
+namespace tourmaline::run {
+
+namespace {
+
+using Place = std::array<double, 3>;
+
+/// Size (area, length, volume) and centre of what is added up.
+struct Extent {
+  double size = 0;
+  Place moment{};
+
+  template <int dim>
+  void add(const body::Quadrature<dim> &part) {
+    const Place centre = part.centre();
+    for (const double jxw : part.jxw) {
+      size += jxw;
+      for (int axis = 0; axis < 3; ++axis)
+        moment[axis] += jxw * centre[axis];
+    }
+  }
+
+  std::string words(int dimension, int of) const {
+    constexpr const char *kind[] = {"", "length", "area", "volume"};
+    constexpr const char *unit[] = {"", "m", "m^2", "m^3"};
+    return fmt::format("{} {:.6g} {}, centre {}", kind[of], size, unit[of],
+                       place(dimension, moment, size));
+  }
+
+  static std::string place(int dimension, const Place &sum, double by) {
+    std::string text;
+    for (int axis = 0; axis < dimension; ++axis) {
+      const double coordinate = sum[axis] / by;
+      text += fmt::format("{}{:.4g}", axis == 0 ? "(" : ", ",
+                          std::abs(coordinate) < 1e-12 ? 0. : coordinate);
+    }
+    return text + ")";
+  }
+};
+
+/// One region: its extent and the sum of its poling directions over the volume.
+struct Region {
+  Extent extent;
+  Place poling{};
+};
+
+template <int dim>
+std::vector<Region> regions_of(const body::Discretisation<dim> &body,
+                               const material::Composition<dim> &composition,
+                               std::size_t n_regions) {
+  std::vector<Region> regions(n_regions);
+  body.for_each_cell([&](const body::Quadrature<dim> &cell) {
+    Region &region = regions[cell.region];
+    const double before = region.extent.size;
+    region.extent.add(cell);
+    const material::Vector poling = composition.poling(cell.region, cell.centre());
+    for (int axis = 0; axis < 3; ++axis)
+      region.poling[axis] += (region.extent.size - before) * poling[axis];
+  });
+  return regions;
+}
+
+std::string names(const casefile::RegionCase &region) {
+  if (region.inside)
+    return region.inside->text();
+  std::string text;
+  for (const std::string &name : region.on)
+    text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+// In a comment a line break would end it.
+std::string one_line(const std::string &text) {
+  const std::string quoted = casefile::toml_text(text);
+  return quoted.substr(1, quoted.size() - 2);
+}
+
+bool varies(const casefile::MaterialCase &material) {
+  for (const casefile::Formula &entry : material.poling)
+    if (entry.depends_on_place())
+      return true;
+  return false;
+}
+
+std::string poling_words(const casefile::MaterialCase &material, const Region &region,
+                         int dimension) {
+  double square = 0;
+  for (const double entry : region.poling)
+    square += entry * entry;
+  if (varies(material)) {
+    std::string text;
+    for (const casefile::Formula &entry : material.poling)
+      text += (text.empty() ? "(" : ", ") + one_line(entry.text());
+    return ", poled along " + text + ")";
+  }
+  return square == 0
+             ? ", not poled"
+             : ", poled along " + Extent::place(dimension, region.poling, std::sqrt(square));
+}
+
+template <int dim>
+std::string survey_in(const casefile::Case &asked) {
+  const material::Composition<dim> composition(asked);
+  const body::Discretisation<dim> body(mesh::build<dim>(asked), 1);
+  body::check_conductors(body, composition, asked,
+                         body::prescribed_unknowns(body, asked.boundaries, asked.electrodes));
+  std::string text = "# Boundaries and regions of this case\n";
+  for (const std::string &name : casefile::side_names(asked.mesh)) {
+    Extent extent;
+    body.for_each_facet({name}, [&](const body::Quadrature<dim> &facet) { extent.add(facet); });
+    text +=
+        fmt::format("# boundary {}: {}\n", casefile::toml_text(name), extent.words(dim, dim - 1));
+  }
+  const auto regions =
+      regions_of(body, composition, std::max<std::size_t>(1, asked.regions.size()));
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    const bool whole = asked.regions.empty();
+    const casefile::MaterialCase &material = whole ? asked.material : asked.regions[i].material;
+    text += fmt::format("# region {}: {}, {}{}\n",
+                        whole ? "(the whole body)" : casefile::toml_text(names(asked.regions[i])),
+                        one_line(material.library.value_or("material of the case")),
+                        regions[i].extent.words(dim, dim), poling_words(material, regions[i], dim));
+  }
+  return text;
+}
+
+output::MaterialRecord record(const std::string &region, const casefile::MaterialCase &material) {
+  return {region, material.library.value_or("material of the case"),
+          material::couplings(material::constants_of(material))};
+}
+
+std::string materials_in_words(const casefile::Case &asked) {
+  std::string text = "\n# Materials of this case\n";
+  for (const output::MaterialRecord &part : materials_of(asked))
+    text += fmt::format("# {}, {}: {}\n",
+                        part.region.empty() ? "(the whole body)" : casefile::toml_text(part.region),
+                        one_line(part.material), part.couplings);
+  return text;
+}
+
+}  // namespace
+
+std::vector<output::MaterialRecord> materials_of(const casefile::Case &asked) {
+  if (asked.regions.empty())
+    return {record("", asked.material)};
+  std::vector<output::MaterialRecord> all;
+  for (const casefile::RegionCase &region : asked.regions)
+    all.push_back(record(names(region), region.material));
+  return all;
+}
+
+std::string survey(const casefile::Case &asked) {
+  std::string text = materials_in_words(asked);
+  if (asked.mesh.content || !asked.regions.empty() || varies(asked.material))
+    text += asked.dimension == 2 ? survey_in<2>(asked) : survey_in<3>(asked);
+  if (const std::string warning = slender_warning(asked); !warning.empty())
+    text += "\n# warning: " + warning + "\n";
+  return text;
+}
+
+}  // namespace tourmaline::run

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "output/checkpoint.h"
+#include "solve/model.h"
+#include "solve/route.h"
+
+namespace tourmaline::solve {
+
+/// The balances of a step: forces, charges, heat and energy, from reactions (residuals of the whole
+/// operator at prescribed unknowns), loads and contact forces. The stored energy is
+///
+///     W = u.A u / 2 + phi.B phi / 2 + theta.H0 theta / 2 - phi.P theta,
+///
+/// and with backward differences over a step, d = x_n - x_(n-1), it obeys exactly
+///
+///     W_n - W_(n-1) + W(d) = load + electric + thermal work - friction dissipation - conduction
+///     loss,
+///
+/// where W(d) >= 0 is what the Euler step loses (docs/theory.md). Every balance is reported with
+/// its imbalance relative to the sum of the sizes of its terms.
+template <int dim>
+class Balance {
+ public:
+  using Columns = std::vector<std::pair<std::string, double>>;
+
+  Balance(const Model<dim> &model, std::span<const double> initial);
+
+  /// Columns of history.csv for the step that ends at `time` with `state`. `loads` is the
+  /// right-hand side without history; of the outcome the forces at the contact are used.
+  /// Products are computed cell by cell where the route is refined, and where round-off of the
+  /// assembled ones may be what an imbalance shows.
+  Columns step(double time, std::span<const double> loads, const StepOutcome &outcome,
+               std::span<const double> state, bool is_refined);
+
+  /// The imbalances of the last step as they are to be judged: a balance all of whose terms are
+  /// round-off lacks nothing.
+  const Columns &judged() const { return judged_; }
+
+  /// What the next step compares with, besides the state: that of the checkpoint is what the
+  /// balance to be restored was made with.
+  void save(output::SavedNumbers &numbers) const;
+  void restore(const output::SavedNumbers &numbers);
+
+ private:
+  /// One step's numbers, shared by the four balances.
+  struct Step;
+
+  std::vector<double> by_unknown(const Eigen::VectorXd &forces) const;
+  Step step_of(double time, std::span<const double> loads, const StepOutcome &outcome,
+               std::span<const double> state, bool cell_by_cell);
+  body::FieldProducts products(std::span<const double> state, bool cell_by_cell) const;
+  void measure_round_off(Step &step) const;
+  Columns columns_of(const Step &step);
+  void put_imbalance(const std::string &name, double value, double size, double round_off,
+                     Columns &columns);
+  void add_forces(const Step &step, Columns &columns);
+  void add_charges(const Step &step, Columns &columns);
+  void add_electrodes(const Step &step, Columns &columns) const;
+  void add_heat(const Step &step, Columns &columns);
+  void add_energy(const Step &step, Columns &columns);
+  std::vector<std::pair<body::Node, double>> exchange_weights(const std::string &boundary) const;
+  double smallest_heat() const;
+  double exchanged(const std::string &boundary, const Step &step) const;
+
+  const Model<dim> &model_;
+  std::vector<double> state_;          // of the step before
+  body::FieldProducts products_;       // of that state
+  Eigen::VectorXd electrode_charges_;  // of that state [C]
+  std::vector<double> charges_;        // electric right-hand side of that state, reactions included
+  double stored_ = 0;                  // energy of that state [J]
+  double smallest_heat_ = 0;           // [W]
+  Columns judged_;
+  std::vector<bool> is_prescribed_;  // by unknown
+  std::vector<std::string> heat_boundaries_, charge_boundaries_;
+  std::map<std::string, std::vector<std::pair<body::Node, double>>>
+      exchange_;  // integral of k_c N_i
+};
+
+}  // namespace tourmaline::solve

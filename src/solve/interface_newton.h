@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "contact/point_law.h"
+
+namespace tourmaline::solve {
+
+/// A contact point's place in the interface unknowns: `size` entries from `offset` on; `weight`
+/// [m^(dim-1)] makes nodal forces of the law's tractions.
+struct ContactPoint {
+  Eigen::Index offset = 0, size = 0;
+  double weight = 0;
+  contact::PointLaw friction;
+};
+
+/// The contact problem of one step in the slip increments d:
+///
+///     minimise  d.A d / 2 - f.d + sum_i w_i j_i(d_i)
+///
+/// with A symmetric positive definite and j_i the convex dissipation of the law at point i, in
+/// which the known part of the slip is (`PointLaw`). Its nodal friction forces are f - A d, w_i
+/// times an element of the subdifferential of j_i.
+struct InterfaceProgramme {
+  const Eigen::MatrixXd &stiffness;         ///< A [N/m]
+  const Eigen::VectorXd &force;             ///< f [N]
+  const std::vector<ContactPoint> &points;  ///< disjoint, all entries covered
+  double force_scale = 0;  ///< size of the terms that f was summed from [N]: bounds its round-off
+};
+
+struct InterfaceSettings {
+  double tolerance = 1e-12;  ///< of the natural residual over the size of the forces
+  int max_iterations = 100;
+};
+
+struct InterfaceSolution {
+  Eigen::VectorXd increment;          ///< d [m]
+  Eigen::VectorXd force;              ///< nodal friction forces w lambda [N]
+  std::vector<ContactStatus> status;  ///< by point
+  int iterations = 0;                 ///< linear systems solved
+  double residual = 0;                ///< natural residual over the size of the forces
+  bool converged = false;
+  bool is_definite = true;             ///< false: a linear system could not be factorised
+  std::vector<std::size_t> unsettled;  ///< points that carry the residual, if not converged
+};
+
+/// Truncated nonsmooth Newton iteration: block Gauss-Seidel sweeps, which alone converge from any
+/// start because the programme is strictly convex and its nonsmooth part separates by points, then
+/// a Newton step in the points where the law is smooth, damped so that the programme's value never
+/// grows. (C. Graeser and R. Kornhuber, J. Comput. Math. 27 (2009) 1-44.) `start` is the first
+/// guess of d.
+InterfaceSolution minimise(const InterfaceProgramme &programme, Eigen::VectorXd start,
+                           const InterfaceSettings &settings);
+
+}  // namespace tourmaline::solve

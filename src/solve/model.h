@@ -1,0 +1,44 @@
+#pragma once
+
+#include "body/cell_products.h"
+#include "body/conditions.h"
+#include "body/loads.h"
+#include "body/operator.h"
+#include "contact/interface.h"
+#include "material/composition.h"
+#include "tourmaline/case/case.h"
+#include "tourmaline/contact/friction.h"
+
+namespace tourmaline::solve {
+
+/// Everything a step needs that does not change from step to step: the case as mathematics.
+template <int dim>
+struct Model {
+  explicit Model(const casefile::Case &asked_for);
+  /// On a mesh of the caller's, whose boundaries the case names, of one material; `asked_for.mesh`
+  /// says only the degree.
+  Model(const casefile::Case &asked_for, mesh::Mesh<dim> mesh);
+  Model(const Model &) = delete;  // its members refer to each other
+
+  casefile::Case asked;
+  double step;  ///< k [s]
+  material::Composition<dim> composition;
+  body::Discretisation<dim> body;
+  body::Operator<dim> op;
+  body::CellProducts<dim> cells;  ///< the products of `op`, cell by cell
+  std::vector<body::Prescribed> prescribed;
+  std::vector<std::vector<body::Node>> electrodes;  ///< nodes by electrode of the case
+  body::Loads<dim> loads;
+  std::vector<contact::InterfaceNode<dim>> interface;  ///< empty without contact
+  contact::FrictionAt friction;                        ///< the case's, unless replaced
+  double mesh_seconds = 0, assemble_seconds = 0;
+
+  double time(int n) const { return asked.time.end * n / asked.time.steps; }
+  std::size_t n_unknowns() const { return body.n_nodes() * body::Fields<dim>::count; }
+
+ private:
+  struct Built;  // material and mesh, made before the members that need them
+  explicit Model(const casefile::Case &asked_for, Built built);
+};
+
+}  // namespace tourmaline::solve

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "output/checkpoint.h"
+#include "output/records.h"
+
+namespace tourmaline::solve {
+
+/// What a step did at the contact, besides the new state.
+struct StepOutcome {
+  int newton_iterations = 0;
+  double residual = 0;
+  /// nodal contact forces q on the body, dim entries for each interface node [N]: what the
+  /// foundation exerts, without what the supports of prescribed components bear
+  Eigen::VectorXd contact_forces;
+  Eigen::VectorXd friction_forces;    ///< the part of them that opposes the slip [N]
+  std::vector<ContactStatus> status;  ///< by interface node
+};
+
+/// What a route did to get ready, and how well it solves.
+struct RouteReport {
+  int factorisations = 0;
+  double analyse_seconds = 0, factorise_seconds = 0, condense_seconds = 0;
+  double substitution_seconds = 0, contact_seconds = 0;  ///< over all steps
+  std::size_t unknowns = 0, electric_and_thermal_unknowns = 0;
+  long long factor_entries = 0;
+  double factor_flops = 0;
+  int negative_pivots = -1;           ///< -1: not known to this route
+  std::size_t krylov_iterations = 0;  ///< over all linear systems; 0: solved by substitution
+  int krylov_largest = 0;             ///< of one linear system
+  int preconditioners = 0;            ///< made in the run
+  int safe_steps = -1;  ///< in which a safe stage followed the fast one; -1: not of this route
+  double backward_error = 0;  ///< largest over the steps in which it was measured
+  double forward_error = std::numeric_limits<double>::quiet_NaN();  ///< likewise
+  bool is_refined = false;                                          ///< by iterative refinement
+};
+
+/// How far the digits of a step's solution can be trusted; NaN where it was not measured.
+struct Accuracy {
+  double backward_error = std::numeric_limits<double>::quiet_NaN();  ///< of the linear equations
+  double forward_error = std::numeric_limits<double>::quiet_NaN();   ///< estimate, of the unknowns
+};
+
+/// A way to solve the nonlinear system of one step, (31)-(35).
+class Route {
+ public:
+  virtual ~Route() = default;
+
+  /// From the state of the last step and the right-hand side of this one (loads and history) to the
+  /// new state at `time`. `state` holds the prescribed values already and is filled; `before` is
+  /// the state of the last step. Throws SolveError when the iteration does not converge.
+  virtual StepOutcome advance(double time, std::span<const double> right_side,
+                              std::span<const double> before, std::span<double> state) = 0;
+
+  /// Of the step that `advance` has just taken, measured now.
+  virtual Accuracy accuracy(std::span<const double> right_side, std::span<const double> state,
+                            const StepOutcome &outcome) = 0;
+  /// The largest of the steps in which it was measured.
+  virtual Accuracy accuracy_so_far() const = 0;
+  /// Whether products that belong to this route's states are those of `Model::cells`.
+  virtual bool is_refined() const { return false; }
+
+  virtual RouteReport report() const = 0;
+
+  /// What the route knows from the steps before: with it a new route goes on to the same bits.
+  /// Saved on the first rank alone, restored on all.
+  virtual void save(output::SavedNumbers &numbers) const = 0;
+  virtual void restore(const output::SavedNumbers &numbers) = 0;
+};
+
+}  // namespace tourmaline::solve

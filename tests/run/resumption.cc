@@ -1,0 +1,164 @@
+#include "run/resumption.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "case/resolved.h"
+#include "output/summary.h"
+#include "run/versions.h"
+#include "tourmaline/error.h"
+
+namespace tourmaline::solve {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::ThrowsMessage;
+
+class Resuming : public ::testing::Test {
+ protected:
+  Resuming() {
+    std::string name = ::testing::TempDir() + "/tourmaline-XXXXXX";
+    folder_ = mkdtemp(name.data());
+    asked_.title = "a run";
+    asked_.mesh.file = "/body.msh";
+    mesh_->points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh_->cells = {0, 1, 2};
+    mesh_->boundaries.names = {"side"};
+    asked_.mesh.content = mesh_;
+    asked_.material.file = folder_ / "materials.toml";
+    put("materials.toml", "[one]\n");
+  }
+  ~Resuming() override { std::filesystem::remove_all(folder_); }
+
+  void put(const std::string &name, const std::string &text) const {
+    std::ofstream(folder_ / name) << text;
+  }
+  void save(const std::string &program = program_version()) const {
+    output::Checkpoint checkpoint;
+    checkpoint.program = program;
+    checkpoint.inputs = inputs_of(asked_);
+    checkpoint.step = 3;
+    output::write_checkpoint(folder_ / output::checkpoint_name, checkpoint);
+  }
+  auto asking() const {
+    return [this] { resumption(asked_, folder_); };
+  }
+
+  std::filesystem::path folder_;
+  std::shared_ptr<casefile::MeshFile> mesh_ = std::make_shared<casefile::MeshFile>();
+  casefile::Case asked_;
+};
+
+TEST_F(Resuming, TheSameCaseGoesOn) {
+  save();
+  const Resumption found = resumption(asked_, folder_);
+  ASSERT_TRUE(found.checkpoint);
+  EXPECT_EQ(found.checkpoint->step, 3u);
+  EXPECT_FALSE(found.is_complete());
+}
+
+TEST_F(Resuming, AFolderWithoutCheckpointAndSummaryHoldsNothing) {
+  const Resumption found = resumption(asked_, folder_ / "later");
+  EXPECT_FALSE(found.checkpoint);
+  EXPECT_FALSE(found.is_complete());
+}
+
+TEST_F(Resuming, AMeshThatHasChangedBehindItsNameIsAnotherCase) {
+  const auto refused = ThrowsMessage<CaseError>(
+      AllOf(HasSubstr("the content of /body.msh has changed"), Not(HasSubstr("materials"))));
+  save();
+  mesh_->points[1][0] = 1.0000000001;
+  EXPECT_THAT(asking(), refused);
+  mesh_->points[1][0] = 1;
+  EXPECT_NO_THROW(asking()());
+  mesh_->boundaries.names[0] = "top";
+  EXPECT_THAT(asking(), refused);
+}
+
+TEST_F(Resuming, AFileOfMaterialsThatHasChangedIsAnotherCase) {
+  save();
+  put("materials.toml", "[two]\n");
+  EXPECT_THAT(asking(), ThrowsMessage<CaseError>(AllOf(HasSubstr("materials.toml has changed"),
+                                                       Not(HasSubstr("body.msh")))));
+}
+
+TEST_F(Resuming, EveryKeyThatDiffersIsToldButTheIntervalOfCheckpoints) {
+  save();
+  asked_.output.checkpoint = "1 h";
+  EXPECT_NO_THROW(asking()());
+  asked_.title = "another";
+  asked_.time.steps = 7;
+  EXPECT_THAT(asking(), ThrowsMessage<CaseError>(AllOf(
+                            HasSubstr("title was \"a run\", is \"another\""),
+                            HasSubstr("time.steps was 1, is 7"), Not(HasSubstr("checkpoint")))));
+}
+
+TEST_F(Resuming, AnotherVersionOfTheProgramDoesNotGoOn) {
+  save("0.0.1");
+  EXPECT_THAT(asking(), ThrowsMessage<MachineError>(
+                            AllOf(HasSubstr("Tourmaline 0.0.1"), HasSubstr(program_version()))));
+}
+
+class Complete : public Resuming {
+ protected:
+  Complete() {
+    output::Summary summary;
+    summary.inputs = contents_of(asked_);
+    put("summary.json", output::summary_text(2, summary));
+    put("resolved.toml", casefile::resolved(asked_));
+    put("report.html", "");
+  }
+};
+
+TEST_F(Complete, OfTheSameCaseHasNothingToDo) {
+  EXPECT_TRUE(resumption(asked_, folder_).is_complete());
+  asked_.title = "another";
+  EXPECT_THAT(asking(), ThrowsMessage<CaseError>(HasSubstr("title was")));
+}
+
+TEST_F(Complete, ItsFilesAreComparedToo) {
+  mesh_->points[1][0] = 1.0000000001;
+  EXPECT_THAT(asking(),
+              ThrowsMessage<CaseError>(HasSubstr("the content of /body.msh has changed")));
+  mesh_->points[1][0] = 1;
+  put("materials.toml", "[two]\n");
+  EXPECT_THAT(asking(), ThrowsMessage<CaseError>(HasSubstr("materials.toml has changed")));
+  put("materials.toml", "[one]\n");
+  EXPECT_TRUE(resumption(asked_, folder_).is_complete());
+}
+
+TEST_F(Complete, WithoutItsPageTheStepsAreDone) {
+  std::filesystem::remove(folder_ / "report.html");
+  EXPECT_TRUE(resumption(asked_, folder_).has_all_steps);
+  EXPECT_FALSE(resumption(asked_, folder_).is_complete());
+  asked_.output.report = false;
+  put("resolved.toml", casefile::resolved(asked_));
+  EXPECT_TRUE(resumption(asked_, folder_).is_complete());
+}
+
+TEST_F(Complete, ACheckpointThatIsStillThereSaysNothing) {
+  save();
+  EXPECT_TRUE(resumption(asked_, folder_).is_complete());
+  EXPECT_FALSE(resumption(asked_, folder_).checkpoint);
+}
+
+TEST_F(Resuming, AMissingFileOnWhichTheCheckpointCountsIsNamed) {
+  output::Checkpoint checkpoint;
+  checkpoint.program = program_version();
+  checkpoint.inputs = inputs_of(asked_);
+  checkpoint.position = {0, 10, {{0., "result_0000.vtu"}}};
+  output::write_checkpoint(folder_ / output::checkpoint_name, checkpoint);
+  EXPECT_THAT(asking(), ThrowsMessage<MachineError>(HasSubstr("result_0000.vtu, on which")));
+  put("result_0000.vtu", "");
+  put("history.csv.part", "123456789");
+  EXPECT_THAT(asking(), ThrowsMessage<MachineError>(HasSubstr("history.csv.part is shorter")));
+  put("history.csv.part", "1234567890");
+  EXPECT_NO_THROW(asking()());
+}
+
+}  // namespace
+}  // namespace tourmaline::solve
