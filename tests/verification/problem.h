@@ -1,5 +1,7 @@
 #pragma once
 
+#include "material/orientation.h"
+#include "material/plane.h"
 #include "plane_waves.h"
 #include "solve/model.h"
 #include "tourmaline/case/case.h"
