@@ -13,14 +13,14 @@
 namespace tourmaline::report {
 namespace {
 
-Vector middle(const PolingArrow &arrow) {
-  Vector m;
+Vector3 middle(const PolingArrow &arrow) {
+  Vector3 m;
   for (int i = 0; i < 3; ++i)
     m[i] = (arrow.tail[i] + arrow.tip[i]) / 2;
   return m;
 }
 
-double distance(const Vector &a, const Vector &b) {
+double distance(const Vector3 &a, const Vector3 &b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
@@ -30,7 +30,7 @@ struct Cell {
   std::array<float, 3> poling{};
 };
 
-Result result_of(const output::Grid &grid, Cell (*at)(const Vector &centre)) {
+Result result_of(const output::Grid &grid, Cell (*at)(const Vector3 &centre)) {
   Result result;
   result.dimension = grid.dimension;
   result.skin = skin_of(grid);
@@ -39,7 +39,7 @@ Result result_of(const output::Grid &grid, Cell (*at)(const Vector &centre)) {
   Field region{"region", "", false, {""}, {{}}}, poling{"poling", "", false, {"x", "y", "z"}, {}};
   poling.values.resize(3);
   for (const std::uint32_t cell : result.skin.cells) {
-    Vector centre{};
+    Vector3 centre{};
     for (std::size_t a = 0; a < grid.nodes_per_cell; ++a)
       for (int i = 0; i < 3; ++i)
         centre[i] += grid.points[grid.connectivity[cell * grid.nodes_per_cell + a]][i] /
@@ -54,7 +54,7 @@ Result result_of(const output::Grid &grid, Cell (*at)(const Vector &centre)) {
 }
 
 TEST(PolingArrows, StandEvenlyAllOverTheBody) {
-  const auto arrows = poling_arrows(result_of(output::square(32), [](const Vector &) {
+  const auto arrows = poling_arrows(result_of(output::square(32), [](const Vector3 &) {
     return Cell{0, {0.6F, 0.8F, 0}};
   }));
   EXPECT_EQ(arrows.size(), 36U);
@@ -68,14 +68,14 @@ TEST(PolingArrows, StandEvenlyAllOverTheBody) {
         nearest = std::min(nearest, distance(middle(arrow), middle(other)));
     EXPECT_NEAR(nearest, 1 / 6., 0.01);
     EXPECT_LT(length, nearest);
-    for (const Vector &end : {arrow.tail, arrow.tip})
+    for (const Vector3 &end : {arrow.tail, arrow.tip})
       for (const int axis : {0, 1})
         EXPECT_TRUE(end[axis] > 0 && end[axis] < 1) << end[axis];
   }
 }
 
 TEST(PolingArrows, AreTheSameEachTime) {
-  const Result result = result_of(output::square(7), [](const Vector &) {
+  const Result result = result_of(output::square(7), [](const Vector3 &) {
     return Cell{0, {0, 1, 0}};
   });
   const auto first = poling_arrows(result), second = poling_arrows(result);
@@ -86,7 +86,7 @@ TEST(PolingArrows, AreTheSameEachTime) {
 
 TEST(PolingArrows, TellPartsApartAndLeaveOutWhatIsNotPoled) {
   // Poled up above, steel in between, poled down in a small part below.
-  const auto arrows = poling_arrows(result_of(output::square(40), [](const Vector &centre) {
+  const auto arrows = poling_arrows(result_of(output::square(40), [](const Vector3 &centre) {
     if (centre[1] > 0.3)
       return Cell{0, {0, 1, 0}};
     return centre[1] > 0.2 ? Cell{1, {}} : Cell{2, {0, -1, 0}};
@@ -95,7 +95,7 @@ TEST(PolingArrows, TellPartsApartAndLeaveOutWhatIsNotPoled) {
   for (const PolingArrow &arrow : arrows) {
     const bool is_up = arrow.tip[1] > arrow.tail[1];
     ++(is_up ? up : down);
-    for (const Vector &end : {arrow.tail, arrow.tip})
+    for (const Vector3 &end : {arrow.tail, arrow.tip})
       EXPECT_TRUE(is_up ? end[1] > 0.3 : end[1] < 0.2) << end[1];
   }
   EXPECT_GE(up, 20U);
@@ -104,9 +104,9 @@ TEST(PolingArrows, TellPartsApartAndLeaveOutWhatIsNotPoled) {
 
 TEST(PolingArrows, BeginInTheirPartWhereItIsTooThinForThem) {
   output::Grid strip = output::square(40);
-  for (Vector &point : strip.points)
+  for (Vector3 &point : strip.points)
     point[1] /= 40;
-  const auto arrows = poling_arrows(result_of(strip, [](const Vector &centre) {
+  const auto arrows = poling_arrows(result_of(strip, [](const Vector3 &centre) {
     return centre[1] > 0.0125 ? Cell{0, {0, 1, 0}} : Cell{1, {0, -1, 0}};
   }));
   ASSERT_GE(arrows.size(), 12U);
@@ -122,12 +122,12 @@ TEST(PolingArrows, OfASolidStandOnTheFacesThatAreSeen) {
   casefile::MeshCase mesh;
   mesh.box = casefile::Box{{0, 0, 0}, {1, 1, 1}, {5, 5, 5}, casefile::CellShape::tetrahedron};
   const body::Discretisation<3> body(mesh::build<3>(mesh), 1);
-  const auto arrows = poling_arrows(result_of(body.grid(), [](const Vector &) {
+  const auto arrows = poling_arrows(result_of(body.grid(), [](const Vector3 &) {
     return Cell{0, {0, 0, 1}};
   }));
   std::array<int, 3> faces{};  // left, front, top, as the view looks from there
   for (const PolingArrow &arrow : arrows) {
-    const Vector at = middle(arrow);
+    const Vector3 at = middle(arrow);
     const std::array<double, 3> away{at[0], at[1], 1 - at[2]};
     const auto face = std::min_element(away.begin(), away.end());
     EXPECT_NEAR(*face, 0, 1e-6);
@@ -138,7 +138,7 @@ TEST(PolingArrows, OfASolidStandOnTheFacesThatAreSeen) {
 }
 
 TEST(PolingArrows, ThereAreNoneWhereTheFilesDoNotTellThePoling) {
-  Result result = result_of(output::square(4), [](const Vector &) { return Cell{}; });
+  Result result = result_of(output::square(4), [](const Vector3 &) { return Cell{}; });
   EXPECT_TRUE(poling_arrows(result).empty());
   result.fields.clear();
   EXPECT_TRUE(poling_arrows(result).empty());

@@ -11,7 +11,7 @@
 namespace tourmaline::report {
 namespace {
 
-Vector cross_of(const Vector &u, const Vector &v) {
+Vector3 cross_of(const Vector3 &u, const Vector3 &v) {
   return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
 
@@ -20,14 +20,14 @@ std::pair<double, double> area_and_volume(const output::Grid &grid) {
   const Skin skin = skin_of(grid);
   double area = 0, volume = 0;
   for (const auto &t : skin.triangles) {
-    const Vector a = grid.points[skin.nodes[t[0]]], b = grid.points[skin.nodes[t[1]]],
-                 c = grid.points[skin.nodes[t[2]]];
-    Vector u, v;
+    const Vector3 a = grid.points[skin.nodes[t[0]]], b = grid.points[skin.nodes[t[1]]],
+                  c = grid.points[skin.nodes[t[2]]];
+    Vector3 u, v;
     for (int i = 0; i < 3; ++i) {
       u[i] = b[i] - a[i];
       v[i] = c[i] - a[i];
     }
-    const Vector n = cross_of(u, v);
+    const Vector3 n = cross_of(u, v);
     area += std::hypot(n[0], n[1], n[2]) / 2;
     volume += (a[0] * n[0] + a[1] * n[1] + a[2] * n[2]) / 6;
   }

@@ -6,7 +6,7 @@
 
 #include "../output/temporary_folder.h"
 
-namespace tourmaline::solve {
+namespace tourmaline::run {
 namespace {
 
 using testing::HasSubstr;
@@ -70,4 +70,4 @@ TEST(Ending, APageIsNamedWhereThereIsOne) {
 }
 
 }  // namespace
-}  // namespace tourmaline::solve
+}  // namespace tourmaline::run

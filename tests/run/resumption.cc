@@ -10,7 +10,7 @@
 #include "run/versions.h"
 #include "tourmaline/error.h"
 
-namespace tourmaline::solve {
+namespace tourmaline::run {
 namespace {
 
 using ::testing::AllOf;
@@ -161,4 +161,4 @@ TEST_F(Resuming, AMissingFileOnWhichTheCheckpointCountsIsNamed) {
 }
 
 }  // namespace
-}  // namespace tourmaline::solve
+}  // namespace tourmaline::run
