@@ -17,6 +17,7 @@
 #include "run/ending.h"
 #include "run/locking.h"
 #include "run/memory.h"
+#include "run/plausibility.h"
 #include "run/process.h"
 #include "run/recorder.h"
 #include "run/resumption.h"
@@ -320,6 +321,17 @@ output::Summary Simulation<dim>::close_tables(Schedule &schedule) {
   return done;
 }
 
+double largest_extent(const std::vector<Vector3> &points) {
+  double largest = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto [least, most] =
+        std::minmax_element(points.begin(), points.end(),
+                            [axis](const auto &a, const auto &b) { return a[axis] < b[axis]; });
+    largest = std::max(largest, (*most)[axis] - (*least)[axis]);
+  }
+  return largest;
+}
+
 template <int dim>
 void Simulation<dim>::tell(const output::Summary &done, int signal) const {
   if (!parallel::is_first())
@@ -330,8 +342,8 @@ void Simulation<dim>::tell(const output::Summary &done, int signal) const {
     std::cerr << fmt::format("tourmaline: {} came when all steps were done; the run is complete\n",
                              signal_name(signal));
   if (!quiet_)
-    std::cout << ending_text(dim, highlights_, done.extremes) << places_text(folder_->directory())
-              << std::flush;
+    std::cout << ending_text(dim, highlights_, done.extremes, largest_extent(model_.body.points()))
+              << places_text(folder_->directory()) << std::flush;
 }
 
 // Everything that later steps, or what is told of the run at its end, depend on.
@@ -459,6 +471,10 @@ output::Summary Simulation<dim>::summary() const {
                     "taken to save memory, failed in step {}; from there on they were factorised",
                     direct_from_));
   if (const std::string text = locking_->warning(); !text.empty())
+    summary.warnings.push_back(text);
+  for (const std::string &text : material_warnings(model_.asked))
+    summary.warnings.push_back(text);
+  if (const std::string text = strain_warning(model_, std::span(state_)); !text.empty())
     summary.warnings.push_back(text);
   summary.peak_memory_bytes = parallel::sum(peak_memory());
   return summary;

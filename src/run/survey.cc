@@ -11,6 +11,7 @@
 #include "material/constants.h"
 #include "mesh/mesh.h"
 #include "run/locking.h"
+#include "run/plausibility.h"
 
 namespace tourmaline::run {
 
@@ -166,7 +167,10 @@ std::string survey(const casefile::Case &asked) {
   std::string text = materials_in_words(asked);
   if (asked.mesh.content || !asked.regions.empty() || varies(asked.material))
     text += asked.dimension == 2 ? survey_in<2>(asked) : survey_in<3>(asked);
+  std::vector<std::string> warnings = material_warnings(asked);
   if (const std::string warning = slender_warning(asked); !warning.empty())
+    warnings.push_back(warning);
+  for (const std::string &warning : warnings)
     text += "\n# warning: " + warning + "\n";
   return text;
 }
