@@ -222,6 +222,12 @@ TEST(Plausibility, StrainsThatALinearTheoryDoesNotKnowAreToldAtTheEnd) {
   EXPECT_THAT(warnings_of({"solver.body=iterative"}), ElementsAre(HasSubstr("strains reach")));
 }
 
+TEST(Survey, TellsTheClassOfAnEntryThatDoesNotSayIt) {
+  const casefile::Case asked =
+      casefile::read_text(strip, "strip.toml", {"material={library=\"BaTiO3-Liu2014\"}"});
+  EXPECT_THAT(survey(asked), HasSubstr("# (the whole body), BaTiO3-Liu2014, class 6mm: piezo"));
+}
+
 TEST(Plausibility, ARunAndItsCheckTellTheSameOfTheMaterial) {
   const std::vector<std::string> soft{
       "material={c11=127,c12=80,c13=85,c33=117,c44=23,e31=-6.6,"
