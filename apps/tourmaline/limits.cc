@@ -123,8 +123,11 @@ void watch_time() {
   signal(SIGXCPU, out_of_time);
   rlimit limit;
   if (getrlimit(RLIMIT_CPU, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY ||
-      limit.rlim_cur < limit.rlim_max || limit.rlim_cur == 0)
+      (limit.rlim_cur < limit.rlim_max && limit.rlim_cur > 0))
     return;
+  // Recent systems kill at once then, while the libraries are being loaded; others grant a second.
+  if (limit.rlim_cur == 0)
+    out_of_time(SIGXCPU);
   timespec used{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
   itimerval alarm{};

@@ -169,9 +169,8 @@ void add_materials(CLI::App &app, Asked &asked) {
   command->callback([&asked] { materials(asked); });
 }
 
-// For docs/case-file.md; of no use to somebody with a case, so `--help` does not list it.
 void add_reference(CLI::App &app) {
-  app.add_subcommand("reference", "print the reference of the case file")->group("")->callback([] {
+  app.add_subcommand("reference", "print the reference of the case file: every key")->callback([] {
     std::cout << tourmaline::casefile::reference_page();
   });
 }

@@ -67,10 +67,12 @@ void add_sweep(CLI::App &app, int &status) {
                    "times")
       ->allow_extra_args(false);
   command
-      ->add_option("--output", request->outputs,
-                   "what sweep.csv and sweep.svg show: columns of history.csv, NAME at the end, "
-                   "min:NAME, max:NAME, mean:NAME, rms:NAME over all steps, NAME@TIME at a time "
-                   "[s]; at_max_FIELD_x, ...: places of extremes. NAME,NAME,...")
+      ->add_option(
+          "--output", request->outputs,
+          "what sweep.csv and sweep.svg show: columns of history.csv, NAME at the end, "
+          "min:NAME, max:NAME, mean:NAME, rms:NAME over all steps, NAME@TIME at a time "
+          "[s]; at_max_FIELD_x, ...: places of extremes. NAME,NAME,... Not the folder, which "
+          "is --folder here")
       ->delimiter(',')
       ->allow_extra_args(false);
   command->add_option("-o,--folder", request->folder,

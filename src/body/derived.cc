@@ -1,9 +1,11 @@
 #include "body/derived.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "gradients.h"
+#include "parallel/ranks.h"
 
 namespace tourmaline::body {
 
@@ -56,7 +58,45 @@ void add_fields(const Gradients &m, const material::Constants &c, output::CellFi
   fields.heat_flux.push_back(plain(-c.conductivity * m.temperature));
 }
 
+// Of the displacement gradient's symmetric part.
+double largest_principal(const Eigen::Matrix3d &gradient) {
+  const Eigen::Matrix3d strain = (gradient + gradient.transpose()) / 2;
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(strain, Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .cwiseAbs()
+      .maxCoeff();
+}
+
 }  // namespace
+
+// Of cells that have it but for round-off, the first by place: so it does not depend on the ranks.
+template <int dim>
+LargestStrain largest_strain(const Discretisation<dim> &body, std::span<const double> state) {
+  std::vector<double> sizes;
+  LargestStrain found;
+  body.for_each_cell([&](const Quadrature<dim> &cell) {
+    sizes.push_back(largest_principal(means(cell, state).displacement));
+    found.size = std::max(found.size, sizes.back());
+  });
+  parallel::largest({&found.size, 1});
+  std::vector<double> places;
+  std::size_t i = 0;
+  body.for_each_cell([&](const Quadrature<dim> &cell) {
+    if (sizes[i++] < (1 - 1e-6) * found.size)
+      return;
+    const std::array<double, 3> centre = cell.centre();
+    places.insert(places.end(), centre.begin(), centre.end());
+  });
+  places = parallel::joined(places);
+  for (std::size_t at = 0; at < places.size(); at += 3)
+    if (const Vector3 place{places[at], places[at + 1], places[at + 2]};
+        at == 0 || place < found.at)
+      found.at = place;
+  return found;
+}
+
+template LargestStrain largest_strain<2>(const Discretisation<2> &, std::span<const double>);
+template LargestStrain largest_strain<3>(const Discretisation<3> &, std::span<const double>);
 
 template <int dim>
 output::CellFields derived_fields(const Discretisation<dim> &body,

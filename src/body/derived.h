@@ -21,6 +21,16 @@ output::CellFields derived_fields(const Discretisation<dim> &body,
                                   const material::Constants &body_axes,
                                   std::span<const double> state);
 
+/// The greatest size of a principal strain, of the means over each cell, and the centre of the
+/// cell.
+struct LargestStrain {
+  double size = 0;
+  Vector3 at{};
+};
+/// All ranks ask together.
+template <int dim>
+LargestStrain largest_strain(const Discretisation<dim> &body, std::span<const double> state);
+
 /// sqrt(3/2 s:s) of the deviator s; components xx, yy, zz, xy, yz, xz.
 double von_mises(const output::SymmetricTensor &stress);
 

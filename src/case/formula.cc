@@ -12,6 +12,7 @@
 
 #include "case/nearest.h"
 #include "case/toml_text.h"
+#include "case/too_large.h"
 #include "formula_branches.h"
 #include "tourmaline/error.h"
 
@@ -79,6 +80,8 @@ std::string reason_of(const mu::Parser::exception_type &error) {
   while (!reason.empty() && (reason.back() == '.' || reason.back() == ' '))
     reason.pop_back();
   const std::string &token = error.GetToken();
+  if (const std::string large = too_large(token); !large.empty())
+    return large;
   const bool unknown = error.GetCode() == mu::ecUNASSIGNABLE_TOKEN;
   const std::vector<std::string> names = all_names();
   const bool known = std::find(names.begin(), names.end(), token) != names.end();

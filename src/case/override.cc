@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "case/toml_text.h"
+#include "case/too_large.h"
 #include "case/utf8.h"
 #include "tourmaline/error.h"
+#include "value.h"
 
 namespace tourmaline::casefile {
 
@@ -92,7 +94,7 @@ std::optional<toml::table> parsed(const std::string &value, const std::string &p
       *reason = "there are several";
   } catch (const toml::parse_error &error) {
     if (reason)
-      *reason = error.description();
+      *reason = toml_complaint(error);
   }
   return std::nullopt;
 }
@@ -105,6 +107,8 @@ toml::table value_of(const Override &asked) {
   std::string reason;
   if (auto table = parsed(asked.value, asked.place, &reason))
     return std::move(*table);
+  if (const std::string text = too_large_in_toml(asked.value); !text.empty())
+    fail(asked, text);
   if (is_bare(asked.value) && asked.value.find('\n') == std::string::npos)
     if (auto table = parsed("'''" + asked.value + "'''", asked.place))
       return std::move(*table);

@@ -4,14 +4,14 @@
 
 #include <algorithm>
 #include <fstream>
+#include <functional>
 #include <utility>
 
 #include "case/conditions.h"
 #include "case/electrodes.h"
 #include "case/holding.h"
-#include "case/nearest.h"
 #include "case/schema.h"
-#include "case/toml_text.h"
+#include "case/unknown_keys.h"
 #include "case/utf8.h"
 #include "override.h"
 #include "tourmaline/error.h"
@@ -21,66 +21,10 @@ namespace tourmaline::casefile {
 
 namespace {
 
-/// The names of the keys and tables directly inside one table.
-class Names : public Visitor {
- public:
-  std::vector<std::string> all;
-  std::vector<std::pair<std::string, std::string>> refused;
-  std::vector<Key> laws;  ///< on whose texts it may depend which other keys there are
-
-  void key(const Key &key, Value value) override {
-    all.push_back(key.name);
-    if (std::holds_alternative<std::string *>(value) && !key.choices.empty())
-      laws.push_back(key);
-  }
-  bool given(const Key &key, bool) override {
-    all.push_back(key.name);
-    return false;
-  }
-  void table(const Key &key, const Body &) override { all.push_back(key.name); }
-  int count(const Key &key, int) override {
-    all.push_back(key.name);
-    return 0;
-  }
-  void entry(const Key &, int, const Body &) override {}
-  void refuse(const std::string &name, const std::string &reason) override {
-    refused.emplace_back(name, reason);
-  }
+/// Keys that must be given are not; all others of the table have been read.
+struct MissingKeys : CaseError {
+  using CaseError::CaseError;
 };
-
-/// The tables, by their paths, that have a key of a certain name.
-class TablesWith : public Visitor {
- public:
-  explicit TablesWith(std::string name) : name_(std::move(name)) {}
-
-  std::vector<std::string> found;
-
-  void key(const Key &key, Value) override {
-    if (key.name == name_)
-      found.push_back(path_);
-  }
-  bool given(const Key &, bool) override { return true; }
-  void table(const Key &key, const Body &body) override {
-    const std::string outside = path_;
-    path_ += (path_.empty() ? "" : ".") + key.name;
-    body(*this);
-    path_ = outside;
-  }
-  int count(const Key &, int) override { return 1; }
-  void entry(const Key &key, int, const Body &body) override { table(key, body); }
-
- private:
-  std::string name_, path_;
-};
-
-// A key that has strayed into another table.
-std::string found_elsewhere(const std::string &name) {
-  Case scratch;
-  TablesWith tables(name);
-  declare(tables, scratch);
-  const std::string words = fmt::format("{}", fmt::join(tables.found, "], ["));
-  return words.empty() ? "" : fmt::format("; there is one of that name in [{}]", words);
-}
 
 /// Reads one table of the case file.
 class Reader : public Visitor {
@@ -89,6 +33,7 @@ class Reader : public Visitor {
   struct Context {
     std::filesystem::path folder;  ///< of the case
     const MeshFileReader &read_mesh;
+    std::function<std::string()> unknown_keys;  ///< what is wrong with all of them
   };
 
   Reader(const toml::table &table, std::string path, const Context &context)
@@ -100,7 +45,8 @@ class Reader : public Visitor {
     body(names);
     check_laws(names.laws);
     for (const auto &[name, node] : table_)
-      check_known(name, node, names);
+      if (!names.hold(std::string(name.str())))
+        throw CaseError(context_.unknown_keys());
     body(*this);
     if (!missing_.empty())
       fail_missing();
@@ -235,25 +181,8 @@ class Reader : public Visitor {
       meanings += (meanings.empty() ? "" : "; ") + (missing_.size() > 1 ? key.name + ", " : "") +
                   key.description + unit;
     }
-    throw CaseError(
+    throw MissingKeys(
         fmt::format("{}: missing, but must be given: {}", where(table_.source(), names), meanings));
-  }
-
-  void check_known(const toml::key &key, const toml::node &node, const Names &names) const {
-    const std::string name(key.str());
-    if (std::find(names.all.begin(), names.all.end(), name) != names.all.end())
-      return;
-    const std::string place = where(key.source(), shortened(name));
-    for (const auto &[refused, reason] : names.refused)
-      if (name == refused)
-        throw CaseError(place + " = " + quoted(node) + ": " + reason);
-    constexpr std::size_t most = 12;
-    std::string allowed;
-    if (names.all.size() <= most)
-      allowed = "; allowed: " + fmt::format("{}", fmt::join(names.all, ", "));
-    const std::string meant = did_you_mean(name, names.all);
-    throw CaseError(place + " = " + quoted(node) + ": unknown key" + allowed +
-                    (meant.empty() ? found_elsewhere(name) : meant));
   }
 
   const toml::table &table_;
@@ -271,8 +200,8 @@ toml::table parsed(const std::string &text, const std::string &name) {
   try {
     return toml::parse(text, std::string_view(name));
   } catch (const toml::parse_error &error) {
-    throw CaseError(fmt::format("{}: is not TOML: {}", place_of(error.source()),
-                                std::string(error.description())));
+    throw CaseError(
+        fmt::format("{}: is not TOML: {}", place_of(error.source()), toml_complaint(error)));
   }
 }
 
@@ -311,7 +240,11 @@ Case read_text(const std::string &text, const std::string &name,
     apply_override(root, assignment);
   Case asked;
   asked.source = name;
-  const Reader::Context context{std::filesystem::path(name).parent_path(), read_mesh};
+  const auto unknown = [&] {
+    Case scratch;
+    return unknown_keys(root, "", [&](Visitor &visitor) { declare(visitor, scratch); });
+  };
+  const Reader::Context context{std::filesystem::path(name).parent_path(), read_mesh, unknown};
   Reader(root, "", context).read_all([&](Visitor &visitor) { declare(visitor, asked); });
   if (asked.output.every == 0)
     asked.output.every = steps_between_files(asked.time.steps);
@@ -321,28 +254,45 @@ Case read_text(const std::string &text, const std::string &name,
   return asked;
 }
 
-std::vector<std::pair<std::string, MaterialCase>> read_materials(const std::string &text,
-                                                                 const std::string &name) {
-  const toml::table root = parsed(text, name);
+namespace {
+
+void read_entry(const toml::node &node, const std::string &file, MaterialEntry &entry) {
+  const toml::table *table = node.as_table();
+  if (!table)
+    throw CaseError(fmt::format("{} {}: must be a table, the material of that name",
+                                place_of(node.source()), entry.name));
   const MeshFileReader none;
-  const Reader::Context context{std::filesystem::path(name).parent_path(), none};
-  std::vector<std::pair<std::string, MaterialCase>> entries;
+  const auto unknown = [&] {
+    MaterialCase scratch;
+    return unknown_keys(*table, entry.name,
+                        [&](Visitor &visitor) { declare_entry(visitor, scratch); });
+  };
+  const Reader::Context context{std::filesystem::path(file).parent_path(), none, unknown};
+  Reader(*table, entry.name, context).read_all([&](Visitor &visitor) {
+    declare_entry(visitor, entry.given);
+  });
+}
+
+}  // namespace
+
+std::vector<MaterialEntry> read_materials(const std::string &text, const std::string &name) {
+  const toml::table root = parsed(text, name);
+  std::vector<MaterialEntry> entries;
   for (const auto &[key, node] : root) {
-    const std::string entry(key.str());
-    const toml::table *table = node.as_table();
-    if (!table)
-      throw CaseError(fmt::format("{} {}: must be a table, the material of that name",
-                                  place_of(node.source()), entry));
-    entries.emplace_back(entry, MaterialCase{});
-    Reader(*table, entry, context).read_all([&](Visitor &visitor) {
-      declare_entry(visitor, entries.back().second);
-    });
+    entries.push_back({std::string(key.str()), {}, {}});
+    try {
+      read_entry(node, name, entries.back());
+    } catch (const MissingKeys &error) {
+      entries.back().mistake = error.what();
+    } catch (const CaseError &error) {
+      entries.back().mistake = error.what();
+      entries.back().given = {};  // half of which is there
+    }
   }
   return entries;
 }
 
-std::vector<std::pair<std::string, MaterialCase>> read_materials(
-    const std::filesystem::path &file) {
+std::vector<MaterialEntry> read_materials(const std::filesystem::path &file) {
   return read_materials(text_of_file(file), file.string());
 }
 

@@ -43,10 +43,36 @@ class Writer : public Visitor {
   std::string path_, keys_, tables_;
 };
 
+FormulaVector zero(int dimension) {
+  return FormulaVector(static_cast<std::size_t>(dimension), Formula(0.));
+}
+
+// An entry of a library says itself what its class is.
+void fill_in(MaterialCase &material, int dimension) {
+  if (!material.symmetry && !material.library)
+    material.symmetry = "6mm";
+  if (!material.poling.empty())
+    return;
+  material.poling = zero(dimension);
+  material.poling.back() = Formula(1.);
+}
+
+// Defaults that the program has no need to write down.
+void fill_in(Case &asked) {
+  fill_in(asked.material, asked.dimension);
+  for (RegionCase &region : asked.regions)
+    fill_in(region.material, asked.dimension);
+  if (asked.load.force.empty())
+    asked.load.force = zero(asked.dimension);
+  if (asked.initial.displacement.empty())
+    asked.initial.displacement = zero(asked.dimension);
+}
+
 }  // namespace
 
 std::string resolved(const Case &asked) {
-  Case copy = asked;  // a visitor may change what it visits; this one does not
+  Case copy = asked;
+  fill_in(copy);
   Writer writer("");
   declare(writer, copy);
   return writer.text();

@@ -8,6 +8,7 @@
 
 #include "case/nearest.h"
 #include "case/toml_text.h"
+#include "case/too_large.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::casefile {
@@ -248,6 +249,15 @@ void read_into(const Item &item, std::vector<std::string> &names) {
 }
 
 }  // namespace
+
+std::string toml_complaint(const toml::parse_error &error) {
+  std::string text(error.description());
+  // It says of 1e400 only that it "could not be interpreted as a value".
+  const std::size_t begin = text.find('\'');
+  const std::string reason =
+      begin == std::string::npos ? "" : too_large_in_toml(text.substr(begin + 1));
+  return text + (reason.empty() ? "" : "; " + reason);
+}
 
 std::string quoted(const toml::node &node) {
   return shortened(quoted_whole(node));

@@ -10,6 +10,9 @@ namespace tourmaline::casefile {
 /// `file:line:column`, or the `--set` that a value comes from.
 std::string place_of(const toml::source_region &source);
 
+/// What TOML's reader has to say against a text.
+std::string toml_complaint(const toml::parse_error &error);
+
 /// A value as an error text quotes it: on one line, and not all of it when it is long.
 std::string quoted(const toml::node &node);
 

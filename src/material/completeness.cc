@@ -59,10 +59,12 @@ bool gives_tensor(const MaterialCase &given, const std::string &kind) {
   });
 }
 
-// One of the constants that say something of the kind; empty: none does.
+// One of the constants that say something of the kind; empty: none does. One that its class does not
+// have is another mistake.
 std::string given_constant(const MaterialCase &given, const std::string &kind) {
   for (const auto &[key, value] : given.constants)
-    if (casefile::form_of(key).kind == kind)
+    if (casefile::form_of(key).kind == kind &&
+        casefile::absence(given.symmetry.value_or("6mm"), key).empty())
       return key;
   return "";
 }

@@ -28,4 +28,8 @@ std::vector<std::string> missing_constants(const casefile::MaterialCase &given);
 /// All gaps as one text, "elastic constants c12, c13; density"; empty when nothing is missing.
 std::string missing_words(const casefile::MaterialCase &given);
 
+/// Throws CaseError, which names all that is missing, unless all these materials of a case, each
+/// with its entry, are complete.
+void require_complete(const std::vector<casefile::MaterialCase> &materials);
+
 }  // namespace tourmaline::material

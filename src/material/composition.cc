@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
+#include "material/completeness.h"
 #include "material/orientation.h"
 #include "tourmaline/error.h"
 
@@ -17,6 +18,15 @@ bool varies(const casefile::FormulaVector &direction) {
                      [](const casefile::Formula &entry) { return entry.depends_on_place(); });
 }
 
+std::vector<casefile::MaterialCase> asked_materials(const casefile::Case &asked) {
+  if (asked.regions.empty())
+    return {asked.material};
+  std::vector<casefile::MaterialCase> all;
+  for (const casefile::RegionCase &region : asked.regions)
+    all.push_back(region.material);
+  return all;
+}
+
 bool is_polar(const Constants &c) {
   return c.piezoelectric.squaredNorm() > 0 || c.pyroelectric.squaredNorm() > 0;
 }
@@ -25,10 +35,9 @@ bool is_polar(const Constants &c) {
 
 template <int dim>
 Composition<dim>::Composition(const casefile::Case &asked) {
-  if (asked.regions.empty())
-    add(asked.material);
-  for (const casefile::RegionCase &region : asked.regions)
-    add(region.material);
+  require_complete(asked_materials(asked));
+  for (const casefile::MaterialCase &material : asked_materials(asked))
+    add(material);
   fill_conductors();
   check_reference_temperatures();
   for (Part &part : parts_)

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "case/given.h"
 #include "case/symmetry.h"
 #include "material/completeness.h"
+#include "material/coupling.h"
 #include "material/crystal_class.h"
 #include "material/library.h"
 #include "tourmaline/error.h"
@@ -115,13 +118,10 @@ class Conversion {
   }
 
   Tensor permittivity(const Stiffness &c, const Piezoelectric &e) const {
-    const Tensor clamped = e * c.ldlt().solve(e.transpose());  // eps^T - eps^S
     if (given_.permittivity)
       return matrix33(*given_.permittivity);
-    if (given_.permittivity_T)
-      return matrix33(*given_.permittivity_T) - clamped;
-    if (crystal_.gives("eps11_T"))
-      return along_axes("eps", "_T", vacuum) - clamped;
+    if (const std::optional<Tensor> free = free_permittivity())
+      return *free - clamped_part({.stiffness = c, .piezoelectric = e});
     return crystal_.gives("eps11") ? along_axes("eps", "", vacuum) : along_axes("beta", "", 1);
   }
 
@@ -152,6 +152,15 @@ class Conversion {
   }
 
   const CrystalClass &crystal() const { return crystal_; }
+
+  /// eps^T, where that is what is given
+  std::optional<Tensor> free_permittivity() const {
+    if (given_.permittivity_T)
+      return matrix33(*given_.permittivity_T);
+    if (crystal_.gives("eps11_T"))
+      return along_axes("eps", "_T", vacuum);
+    return std::nullopt;
+  }
 
  private:
   bool gives_any(const std::string &letters) const {
@@ -205,6 +214,30 @@ void check_conductor(const MaterialCase &given) {
 
 }  // namespace
 
+namespace {
+
+// eps^T is measured, and with piezoelectric constants that are too large for it nothing is left of
+// eps^S = eps^T - d c d^T.
+void check_coupling(const Conversion &conversion, const Constants &c, const std::string &where) {
+  const std::optional<Tensor> free = conversion.free_permittivity();
+  if (!free)
+    return;
+  using Spectrum = Eigen::SelfAdjointEigenSolver<Tensor>;
+  const Spectrum at_strain(c.permittivity), at_stress(*free);
+  if (at_strain.eigenvalues()(0) > 0 || !(at_stress.eigenvalues()(0) > 0))
+    return;
+  throw CaseError(fmt::format(
+      "{} permittivity at constant strain, eps^T - d c d^T, is not positive definite: its smallest "
+      "eigenvalue is {:.6g} C/(V m), of the state {}, although that of eps^T is {:.6g}. The "
+      "piezoelectric constants are too large for this stiffness and permittivity (coupling factor "
+      "{:.4g}, and none reaches 1): check their units, d in C/N (1 pC/N = 1e-12 C/N), e in C/m^2, "
+      "stiffness in Pa (1 GPa = 1e9 Pa), compliance in 1/Pa",
+      where, at_strain.eigenvalues()(0), state(at_strain.eigenvectors().col(0).eval()),
+      at_stress.eigenvalues()(0), coupling_factor(clamped_part(c), *free)));
+}
+
+}  // namespace
+
 MaterialCase with_entry(const MaterialCase &asked) {
   return asked.library ? casefile::merged(find(asked).given, asked) : asked;
 }
@@ -221,19 +254,58 @@ Constants electromechanical(const MaterialCase &given) {
   }
   c.piezoelectric = conversion.piezoelectric(c.stiffness);
   c.permittivity = conversion.permittivity(c.stiffness, c.piezoelectric);
+  check_coupling(conversion, c, where_of(given));
   return c;
 }
 
+namespace {
+
+// `"PVDF-film", class 6mm, lacks: density`; empty when it lacks nothing.
+std::string lack_of(const MaterialCase &given) {
+  const std::string missing = missing_words(given);
+  return missing.empty()
+             ? ""
+             : fmt::format("{}, class {}, lacks: {}",
+                           given.library ? "\"" + *given.library + "\"" : "the material",
+                           symmetry_of(given), missing);
+}
+
+std::string remedy(bool some_have_entries, bool some_have_none) {
+  return fmt::format(". Give them{}{}", some_have_entries ? " beside the entry" : "",
+                     some_have_none ? ", or a library entry that has them (`tourmaline materials` "
+                                      "lists them)"
+                                    : "");
+}
+
+}  // namespace
+
+void require_complete(const std::vector<MaterialCase> &materials) {
+  std::vector<std::pair<std::string, std::string>> lacks;  // what, and of which
+  bool entries = false, none = false;
+  for (const MaterialCase &asked : materials) {
+    const MaterialCase given = with_entry(asked);
+    check_class(given);
+    const std::string lack = lack_of(given);
+    if (lack.empty())
+      continue;
+    (given.library ? entries : none) = true;
+    const auto same = std::find_if(lacks.begin(), lacks.end(),
+                                   [&](const auto &other) { return other.first == lack; });
+    if (same == lacks.end())
+      lacks.emplace_back(lack, where_of(given));
+    else
+      same->second += ", " + where_of(given);
+  }
+  std::string text;
+  for (const auto &[lack, places] : lacks)
+    text += (text.empty() ? "" : "; and ") + places + " " + lack;
+  if (!text.empty())
+    throw CaseError(text + remedy(entries, none));
+}
+
 Constants constants_of(const MaterialCase &asked) {
+  require_complete({asked});
   const MaterialCase given = with_entry(asked);
-  check_class(given);
-  if (const std::string missing = missing_words(given); !missing.empty())
-    throw CaseError(fmt::format("{} {}, class {}, lacks: {}. Give them{}", where_of(given),
-                                given.library ? "\"" + *given.library + "\"" : "the material",
-                                symmetry_of(given), missing,
-                                given.library ? " beside the entry"
-                                              : ", or a library entry that has them (`tourmaline "
-                                                "materials` lists them)"));
   Constants c = electromechanical(given);
   const Conversion conversion(given);
   c.conductor = given.conductor.value_or(false);

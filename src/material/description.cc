@@ -186,15 +186,24 @@ std::string tensors(const MaterialCase &asked, const MaterialCase &given) {
 
 }  // namespace
 
+namespace {
+
+std::string state_of(const Entry &entry) {
+  std::string text;
+  if (const auto missing = missing_constants(entry.given); entry.is_read() && !missing.empty())
+    text = fmt::format("add {}", fmt::join(missing, ", "));
+  if (!entry.mistake.empty())
+    text += (text.empty() ? "" : "; ") + ("cannot be used: " + entry.mistake);
+  return text.empty() ? "complete" : text;
+}
+
+}  // namespace
+
 std::string describe_library(const std::string &file) {
   std::string text;
-  for (const Entry &entry : file.empty() ? library() : materials_in(file)) {
-    const auto missing = missing_constants(entry.given);
-    text +=
-        fmt::format("{:<18} {:<10} {:<42} {}\n", entry.name, entry.given.symmetry.value_or("6mm"),
-                    missing.empty() ? "complete" : fmt::format("add {}", fmt::join(missing, ", ")),
-                    entry.given.source);
-  }
+  for (const Entry &entry : file.empty() ? library() : materials_in(file))
+    text += fmt::format("{:<18} {:<10} {:<42} {}\n", entry.name,
+                        entry.given.symmetry.value_or("6mm"), state_of(entry), entry.given.source);
   return text;
 }
 
@@ -210,19 +219,22 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json as_json(const std::string &name, const MaterialCase &given) {
-  Json json{{"name", name},
+Json as_json(const Entry &entry) {
+  const MaterialCase &given = entry.given;
+  Json json{{"name", entry.name},
             {"source", given.source},
             {"symmetry", given.symmetry.value_or("6mm")},
             {"conductor", given.conductor.value_or(false)},
             {"constants", given.constants},
             {"tensors", Json::array()},
-            {"complete", gaps(given).empty()},
+            {"complete", gaps(given).empty() && entry.mistake.empty()},
             {"missing", Json::array()}};
+  if (!entry.mistake.empty())
+    json["mistake"] = entry.mistake;
   for (const auto &[key, is_given] : casefile::given_tensors(given))
     if (is_given)
       json["tensors"].push_back(key);
-  for (const Gap &gap : gaps(given))
+  for (const Gap &gap : entry.is_read() ? gaps(given) : std::vector<Gap>{})
     for (const std::string &constant : gap.constants)
       json["missing"].push_back(
           {{"key", constant}, {"unit", unit_of(constant)}, {"reason", gap.reason}});
@@ -238,12 +250,12 @@ std::string printed(const Json &json) {
 std::string library_json(const std::string &file) {
   Json all = Json::array();
   for (const Entry &entry : file.empty() ? library() : materials_in(file))
-    all.push_back(as_json(entry.name, entry.given));
+    all.push_back(as_json(entry));
   return printed(all);
 }
 
 std::string entry_json(const MaterialCase &asked) {
-  return printed(as_json(*asked.library, with_entry(asked)));
+  return printed(as_json({*asked.library, with_entry(asked), ""}));
 }
 
 }  // namespace tourmaline::material

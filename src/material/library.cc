@@ -2,41 +2,28 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "case/nearest.h"
 #include "library_text.h"
-#include "tourmaline/case/reader.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::material {
 
-namespace {
-
-std::vector<Entry> sorted(const std::vector<std::pair<std::string, casefile::MaterialCase>> &read) {
-  std::vector<Entry> entries;
-  entries.reserve(read.size());
-  for (const auto &[name, given] : read)
-    entries.push_back({name, given});
-  return entries;
-}
-
-}  // namespace
-
 const std::vector<Entry> &library() {
   static const std::vector<Entry> entries =
-      sorted(casefile::read_materials(std::string(library_text), "library"));
+      casefile::read_materials(std::string(library_text), "library");
   return entries;
 }
 
 std::vector<Entry> materials_in(const std::string &file) {
-  return sorted(casefile::read_materials(std::filesystem::path(file)));
+  return casefile::read_materials(std::filesystem::path(file));
 }
 
 Entry find(const casefile::MaterialCase &asked) {
   const std::vector<Entry> own = asked.file ? materials_in(*asked.file) : std::vector<Entry>{};
   std::vector<std::string> names;
   for (const Entry &entry : asked.file ? own : library()) {
+    if (entry.name == *asked.library && !entry.mistake.empty())
+      throw CaseError(entry.mistake);
     if (entry.name == *asked.library)
       return entry;
     names.push_back(entry.name);

@@ -101,9 +101,14 @@ void measure_curve(ContactPiece &piece, const Places &places) {
   if (closed ? area_of(piece, places) < 0 : piece.rows.front() > piece.rows.back())
     std::reverse(piece.rows.begin(), piece.rows.end());
   const auto &[x, y] = places[piece.rows.front()];
+  const double size = std::max(spread(piece, places, &std::pair<double, double>::first),
+                               spread(piece, places, &std::pair<double, double>::second));
+  const auto coordinate = [&](double at) {
+    return number_text(std::abs(at) <= 1e-12 * size ? 0 : at, 4);
+  };
   piece.abscissa = "length along the contact [m]";
-  piece.origin = fmt::format("{}from ({}, {}) m{}", closed ? "closed, " : "", number_text(x, 4),
-                             number_text(y, 4), closed ? " counter-clockwise" : "");
+  piece.origin = fmt::format("{}from ({}, {}) m{}", closed ? "closed, " : "", coordinate(x),
+                             coordinate(y), closed ? " counter-clockwise" : "");
   piece.along.push_back(0);
   for (std::size_t i = 1; i < piece.rows.size(); ++i) {
     const auto &[ax, ay] = places[piece.rows[i - 1]];

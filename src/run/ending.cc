@@ -11,10 +11,12 @@ namespace {
 
 constexpr std::array<const char *, 4> balances{"energy", "force", "charge", "heat"};
 
-std::string place(int dimension, const Vector3 &point) {
+// A coordinate that is round-off beside the body's size is 0.
+std::string place(int dimension, const Vector3 &point, double size) {
   std::string text;
   for (int c = 0; c < dimension; ++c)
-    text += fmt::format("{}{:.4g}", c == 0 ? "(" : ", ", point[c] == 0 ? 0. : point[c]);
+    text += fmt::format("{}{:.4g}", c == 0 ? "(" : ", ",
+                        std::abs(point[c]) <= 1e-12 * size ? 0. : point[c]);
   return text + ")";
 }
 
@@ -26,15 +28,16 @@ std::string line(const std::string &name, const std::string &text) {
   return fmt::format("  {:<13} {}\n", name, text);
 }
 
-std::string extreme_line(int dimension, const output::Extreme &extreme) {
-  const std::string most = number(extreme.maximum), at_most = place(dimension, extreme.at_maximum);
+std::string extreme_line(int dimension, const output::Extreme &extreme, double size) {
+  const std::string most = number(extreme.maximum),
+                    at_most = place(dimension, extreme.at_maximum, size);
   // A length has no interesting minimum.
   if (extreme.field == "displacement")
     return line(extreme.field, fmt::format("at most {} m, at {}", most, at_most));
   const char *unit = extreme.field == "potential" ? "V" : "K";
   return line(extreme.field,
               fmt::format("{} {} at {} to {} {} at {}", number(extreme.minimum), unit,
-                          place(dimension, extreme.at_minimum), most, unit, at_most));
+                          place(dimension, extreme.at_minimum, size), most, unit, at_most));
 }
 
 }  // namespace
@@ -67,12 +70,12 @@ void Highlights::restore(const output::SavedNumbers &numbers) {
 }
 
 std::string ending_text(int dimension, const Highlights &highlights,
-                        const std::vector<output::Extreme> &extremes) {
+                        const std::vector<output::Extreme> &extremes, double size) {
   const output::HistoryRow &last = highlights.last();
   std::string text = fmt::format("{} {} done, t = {:.6g} s\n", last.step,
                                  last.step == 1 ? "step" : "steps", last.time);
   for (const output::Extreme &extreme : extremes)
-    text += extreme_line(dimension, extreme);
+    text += extreme_line(dimension, extreme, size);
   if (last.stick + last.slip + last.open > 0)
     text += line("contact", fmt::format("{} of {} nodes stick, {} slip, {} are open", last.stick,
                                         last.stick + last.slip + last.open, last.slip, last.open));

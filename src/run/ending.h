@@ -31,9 +31,9 @@ class Highlights {
 };
 
 /// What a run says at its end: extremes with their places, contact, balances, where the results
-/// are; a line each. `dimension` coordinates a place.
+/// are; a line each. `dimension` coordinates a place, in a body of that size [m].
 std::string ending_text(int dimension, const Highlights &highlights,
-                        const std::vector<output::Extreme> &extremes);
+                        const std::vector<output::Extreme> &extremes, double size);
 
 /// The lines that name the folder and the page, where there is one.
 std::string places_text(const std::filesystem::path &directory);

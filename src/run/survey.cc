@@ -11,6 +11,7 @@
 #include "material/constants.h"
 #include "mesh/mesh.h"
 #include "run/locking.h"
+#include "run/plausibility.h"
 
 namespace tourmaline::run {
 
@@ -144,10 +145,16 @@ output::MaterialRecord record(const std::string &region, const casefile::Materia
 
 std::string materials_in_words(const casefile::Case &asked) {
   std::string text = "\n# Materials of this case\n";
-  for (const output::MaterialRecord &part : materials_of(asked))
-    text += fmt::format("# {}, {}: {}\n",
-                        part.region.empty() ? "(the whole body)" : casefile::toml_text(part.region),
-                        one_line(part.material), part.couplings);
+  const std::vector<output::MaterialRecord> parts = materials_of(asked);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const bool whole = asked.regions.empty();
+    const casefile::MaterialCase &material = whole ? asked.material : asked.regions[i].material;
+    text +=
+        fmt::format("# {}, {}, class {}: {}\n",
+                    whole ? "(the whole body)" : casefile::toml_text(parts[i].region),
+                    one_line(parts[i].material),
+                    material::with_entry(material).symmetry.value_or("6mm"), parts[i].couplings);
+  }
   return text;
 }
 
@@ -166,7 +173,10 @@ std::string survey(const casefile::Case &asked) {
   std::string text = materials_in_words(asked);
   if (asked.mesh.content || !asked.regions.empty() || varies(asked.material))
     text += asked.dimension == 2 ? survey_in<2>(asked) : survey_in<3>(asked);
+  std::vector<std::string> warnings = material_warnings(asked);
   if (const std::string warning = slender_warning(asked); !warning.empty())
+    warnings.push_back(warning);
+  for (const std::string &warning : warnings)
     text += "\n# warning: " + warning + "\n";
   return text;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 
 #include "case/interval.h"
@@ -9,6 +10,7 @@
 #include "parallel/ranks.h"
 #include "report/page.h"
 #include "run/memory.h"
+#include "run/plausibility.h"
 #include "run/resumption.h"
 #include "run/step_check.h"
 #include "run/survey.h"
@@ -218,6 +220,17 @@ output::Summary TimeLoop<dim>::close_tables(Schedule &schedule) {
   return done;
 }
 
+double largest_extent(const std::vector<Vector3> &points) {
+  double largest = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto [least, most] =
+        std::minmax_element(points.begin(), points.end(),
+                            [axis](const auto &a, const auto &b) { return a[axis] < b[axis]; });
+    largest = std::max(largest, (*most)[axis] - (*least)[axis]);
+  }
+  return largest;
+}
+
 template <int dim>
 void TimeLoop<dim>::tell(const output::Summary &done, int signal) const {
   if (!parallel::is_first())
@@ -228,8 +241,8 @@ void TimeLoop<dim>::tell(const output::Summary &done, int signal) const {
     std::cerr << fmt::format("tourmaline: {} came when all steps were done; the run is complete\n",
                              signal_name(signal));
   if (!quiet_)
-    std::cout << ending_text(dim, highlights_, done.extremes) << places_text(folder_->directory())
-              << std::flush;
+    std::cout << ending_text(dim, highlights_, done.extremes, largest_extent(model_.body.points()))
+              << places_text(folder_->directory()) << std::flush;
 }
 
 // Everything that later steps, or what is told of the run at its end, depend on.
@@ -318,6 +331,10 @@ std::vector<std::string> TimeLoop<dim>::warnings() const {
   for (const std::string &warning : route_->warnings())
     all.push_back(warning);
   if (const std::string text = locking_->warning(); !text.empty())
+    all.push_back(text);
+  for (const std::string &text : material_warnings(model_.asked))
+    all.push_back(text);
+  if (const std::string text = strain_warning(model_, std::span(state_)); !text.empty())
     all.push_back(text);
   return all;
 }

@@ -682,6 +682,9 @@ RouteReport IterativeRoute<dim>::report() const {
   report.condense_seconds = system_.set_up_seconds();
   report.substitution_seconds = linear_seconds_;
   report.unknowns = std::count(is_prescribed_.begin(), is_prescribed_.end(), false);
+  for (std::size_t unknown = 0; unknown < is_prescribed_.size(); ++unknown)
+    report.electric_and_thermal_unknowns +=
+        !is_prescribed_[unknown] && unknown % body::Fields<dim>::count >= dim;
   report.krylov_iterations = krylov_iterations_;
   report.krylov_largest = krylov_largest_;
   report.preconditioners = system_.set_ups();

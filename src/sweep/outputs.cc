@@ -156,7 +156,7 @@ class Chooser {
              (meant ? "; did you mean \"" + before + *meant + behind + "\"?" : "") +
              "; allowed: " + joined(names_, false) +
              ", each also as min:NAME, max:NAME, mean:NAME, rms:NAME, last:NAME or NAME@TIME" +
-             ", and " + joined(names_, true));
+             ", and " + joined(names_, true) + "; the folder of a study is said by -o or --folder");
   }
 
   const Output *find(const std::string &name) const {

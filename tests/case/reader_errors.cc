@@ -317,8 +317,75 @@ const BadOverride bad_overrides[] = {
     {"output={evry=3}", "did you mean \"every\"?"},
     {"boundary[1].on[0]=lft", "did you mean \"left\"?"},
     {"boundary[3].potential=1", "on: missing"},
+    {"time.end=1e400", "the number 1e400 is too large: double precision ends at 1.8e+308"},
+    {"time.end=-1.5e999", "the number -1.5e999 is too large"},
+    {"time.end=1_000e307", "the number 1000e307 is too large"},
+    {"time.steps=99999999999999999999", "the integer 99999999999999999999 is too large: at most"},
+    {"mesh.box.max=[1e400,1]", "the number 1e400 is too large"},
+    {"boundary[0].potential=\"2*1e400*t\"", "the number 1e400 is too large"},
 };
 INSTANTIATE_TEST_SUITE_P(All, BadOverrides, testing::ValuesIn(bad_overrides));
+
+TEST(Errors, ANumberThatIsTooLargeIsNamedInAFileToo) {
+  const std::string error = error_in(changed("end = 0.2", "end = 1e400"));
+  EXPECT_THAT(error, testing::StartsWith("case.toml:11:"));
+  EXPECT_THAT(error, HasSubstr("the number 1e400 is too large"));
+}
+
+// The example with several mistakes in its keys, in the order of the file.
+std::string misspelt() {
+  std::string text = example;
+  for (const auto &[right, wrong] : std::initializer_list<std::pair<const char *, const char *>>{
+           {"cells = ", "ceells = "},
+           {"steps = 20", "stps = 20"},
+           {"potential = 0", "potental = 0"},
+           {"bound = 15", "bonud = 15"},
+           {"[output]", "[ouptut]"}})
+    text.replace(text.find(right), std::string(right).size(), wrong);
+  return text;
+}
+
+TEST(UnknownKeys, AreAllNamedAtOnceWithPlaceAndNearestName) {
+  const std::string error = error_in(misspelt());
+  std::size_t last = 0;
+  for (const char *piece :
+       {"case.toml:4:41 [mesh.box] ceells = [64, 64]: unknown key", "did you mean \"cells\"?",
+        "case.toml:12:1 [time] stps = 20: unknown key", "did you mean \"steps\"?",
+        "case.toml:17:1 [boundary[0]] potental = 0", "did you mean \"potential\"?",
+        "case.toml:31:30 [contact.friction] bonud = 15", "did you mean \"bound\"?",
+        "case.toml:37:2 ouptut", "did you mean \"output\"?"}) {
+    const std::size_t place = error.find(piece, last);
+    ASSERT_NE(place, std::string::npos) << piece << " in\n" << error;
+    last = place;
+  }
+  EXPECT_THAT(error, Not(HasSubstr("\n")));
+}
+
+TEST(UnknownKeys, OfTheCommandLineStandBehindThoseOfTheFile) {
+  const std::string error = error_in(changed("steps = 20", "steps = 20\nstpes = 3"),
+                                     {"solver.methud=condensed", "tittle=x"});
+  EXPECT_THAT(error, testing::StartsWith("case.toml:13:1 [time] stpes = 3: unknown key"));
+  EXPECT_THAT(error, HasSubstr("; and --set solver.methud=condensed [solver] methud"));
+  EXPECT_THAT(error, HasSubstr("; and --set tittle=x tittle"));
+}
+
+TEST(UnknownKeys, AreNamedBesideValuesThatAreWrong) {
+  const std::string error =
+      error_in(changed("steps = 20", "stpes = 20"),
+               {"boundary[0].displacement=3", "contact.friction.law=tresco", "contact.haet=1"});
+  EXPECT_THAT(error, HasSubstr("did you mean \"steps\"?"));
+  EXPECT_THAT(error, HasSubstr("did you mean \"heat\"?"));
+  // Nobody knows what keys that law has.
+  EXPECT_THAT(error, Not(HasSubstr("bound =")));
+}
+
+TEST(UnknownKeys, OfAFileThatIsNoCaseAreCounted) {
+  std::string text = example;
+  for (int i = 0; i < 300; ++i)
+    text += "nonsense" + std::to_string(i) + " = 1\n";
+  EXPECT_THAT(error_in(text), testing::EndsWith("; and 280 more unknown keys"));
+  EXPECT_LT(error_in(text).size(), 5000u);
+}
 
 TEST(Errors, AVeryLongOverrideIsNotRepeatedInFull) {
   EXPECT_LT(error_in(example, {"title=[" + std::string(50000, '1') + "]"}).size(), 500u);

@@ -18,6 +18,18 @@ TEST(Resolved, FillsInTheDefaults) {
     EXPECT_THAT(text, HasSubstr(line));
 }
 
+TEST(Resolved, FillsInWhatIsNothingOrPointsUp) {
+  const std::string plane = resolved(read_text(example, "case.toml"));
+  for (const char *line : {"poling = [0, 1]\n", "force = [0, 0]\n", "displacement = [0, 0]\n"})
+    EXPECT_THAT(plane, HasSubstr(line));
+  EXPECT_THAT(plane, testing::Not(HasSubstr("symmetry")));  // the entry's
+  const std::string solid = resolved(read_text(cube, "cube.toml"));
+  EXPECT_THAT(solid, HasSubstr("poling = [0, 0, 1]\n"));
+  EXPECT_THAT(solid, HasSubstr("force = [0, 0, 0]\n"));
+  EXPECT_THAT(resolved(read_text(example, "case.toml", {"material={c11=1}"})),
+              HasSubstr("symmetry = \"6mm\"\n"));
+}
+
 TEST(Resolved, DoesNotInventWhatTheCaseLacks) {
   const std::string text = resolved(read_text(cube, "cube.toml"));
   EXPECT_THAT(text, testing::Not(HasSubstr("[contact")));

@@ -130,6 +130,7 @@ INSTANTIATE_TEST_SUITE_P(Files, CommandLine, testing::ValuesIn(files), in_camel_
 const BadInput values[] = {
     override("unknown table", "sovler.method=condensed", "did you mean \"solver\"?"),
     override("unknown key", "contact.frictoin=3", "did you mean \"friction\"?"),
+    override("number that is too large", "time.end=1e400", "the number 1e400 is too large"),
     override("wrong type", "time.steps=many", "must be an integer"),
     override("negative bound", "contact.friction.bound=-15", "must be >= 0 N/m^2"),
     override("end that is no number", "time.end=nan", "is not a finite number"),
@@ -246,8 +247,8 @@ TEST_F(Program, CheckSaysWhichCouplingsAMaterialHas) {
       "c11 = 1e11\nc12 = 5e10\nc13 = 5e10\nc33 = 1e11\nc44 = 2e10\nbeta11 = 1e-8\nbeta33 = 1e-8\n"
       "k11 = 1\nk33 = 1\ndensity = 5000\nspecific_heat = 400\nreference_temperature = 293");
   ASSERT_EQ(run("check case.toml"), 0) << complained_;
-  EXPECT_THAT(said_, HasSubstr("# (the whole body), material of the case: not piezoelectric, not "
-                               "pyroelectric, without thermal expansion\n"));
+  EXPECT_THAT(said_, HasSubstr("# (the whole body), material of the case, class 6mm: not piezoelectric, "
+                               "not pyroelectric, without thermal expansion\n"));
   ASSERT_EQ(run("check case.toml --set material.d33=3e-11"), 2);
   EXPECT_THAT(complained_, HasSubstr("piezoelectric constants d31, d15 (d33 is given"));
 }
@@ -271,6 +272,28 @@ TEST_F(Program, HelpAndVersionGoToStandardOutput) {
     EXPECT_NE(said_, "") << arguments;
     EXPECT_EQ(complained_, "") << arguments;
   }
+}
+
+TEST_F(Program, HelpListsEveryCommand) {
+  ASSERT_EQ(run("--help"), 0);
+  for (const char *command :
+       {"run", "sweep", "check", "report", "figures", "materials", "schema", "reference"})
+    EXPECT_THAT(said_, HasSubstr("\n  " + std::string(command))) << command;
+}
+
+TEST_F(Program, FileOfMaterialsIsShownDespiteItsMistakesAndOneEntryNeedsOnlyItself) {
+  std::ofstream(here() / "mine.toml")
+      << "[good]\nsource=\"x\"\nsymmetry=\"isotropic\"\nyoung=1e9\npoisson=0.3\neps11=10\n"
+         "k11=1\ndensity=1000\nspecific_heat=1000\nreference_temperature=293\n[bad]\nyoung=3\n";
+  EXPECT_EQ(run("materials --file mine.toml"), 0) << complained_;
+  EXPECT_THAT(said_, HasSubstr("good"));
+  EXPECT_THAT(said_, HasSubstr("mine.toml:11:1 [bad] source: missing"));
+  EXPECT_EQ(run("materials --file mine.toml good"), 0) << complained_;
+  EXPECT_EQ(run("materials --file mine.toml bad"), 2);
+  EXPECT_THAT(complained_, HasSubstr("mine.toml:11:1 [bad] source: missing"));
+  std::ofstream(here() / "case.toml") << good_case;
+  EXPECT_EQ(run("check case.toml --set 'material={library=\"good\",file=\"mine.toml\"}'"), 0)
+      << complained_;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "material/composition.h"
 #include "material/constants.h"
 #include "material/description.h"
 #include "material/library.h"
@@ -97,6 +98,53 @@ TEST(Completeness, AllThatIsMissingIsSaidAtOnce) {
                         "and form, or none); density. Give them"));
 }
 
+casefile::MaterialCase named(const std::string &entry, std::map<std::string, double> constants) {
+  casefile::MaterialCase asked;
+  asked.library = entry;
+  asked.constants = std::move(constants);
+  return asked;
+}
+
+casefile::Case in_regions(const std::vector<casefile::MaterialCase> &materials) {
+  casefile::Case asked;
+  asked.dimension = 2;
+  int line = 0;
+  for (const casefile::MaterialCase &material : materials) {
+    casefile::RegionCase region;
+    region.material = material;
+    region.material.where = "case.toml:" + std::to_string(++line) + ":1 [region.material]";
+    asked.regions.push_back(region);
+  }
+  return asked;
+}
+
+std::string complaint(const casefile::Case &asked) {
+  try {
+    Composition<2>{asked};
+  } catch (const CaseError &error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Completeness, AllThatIsMissingOfAllRegionsIsSaidAtOnce) {
+  const casefile::MaterialCase entry = named("BaTiO3-Liu2014", {{"d31", -4e-11}});
+  const std::string said =
+      complaint(in_regions({film_without({"density"}), film(), entry, film_without({"density"}),
+                            film_without({"d31", "k11"})}));
+  EXPECT_THAT(said, testing::StartsWith("case.toml:1:1 [region.material], case.toml:4:1 "
+                                        "[region.material] the material, class 6mm, lacks: "
+                                        "density"));
+  EXPECT_THAT(said, HasSubstr("; and case.toml:3:1 [region.material] \"BaTiO3-Liu2014\", class "
+                              "6mm, lacks: piezoelectric constants d33, d15"));
+  EXPECT_THAT(said, HasSubstr("; and case.toml:5:1 [region.material] the material, class 6mm, "
+                              "lacks: piezoelectric constants d31"));
+  EXPECT_THAT(said, HasSubstr("thermal conductivity k11"));
+  EXPECT_THAT(said, testing::Not(HasSubstr("case.toml:2:1")));
+  EXPECT_THAT(said, testing::EndsWith("Give them beside the entry, or a library entry that has "
+                                      "them (`tourmaline materials` lists them)"));
+}
+
 TEST(Completeness, ClassesHaveTheirOwnConstants) {
   casefile::MaterialCase crystal;
   crystal.symmetry = "mm2";
@@ -171,6 +219,40 @@ TEST(MaterialsCommand, ShowsWhatThereIsOfAnUnfinishedEntry) {
   const auto entry = nlohmann::json::parse(entry_json(asked));
   EXPECT_FALSE(entry.at("complete").get<bool>());
   EXPECT_EQ(entry.at("constants").at("c12"), 2e11);
+  std::filesystem::remove(file);
+}
+
+TEST(MaterialsCommand, ShowsTheEntriesOfAFileBesideThoseThatAreWrong) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "tourmaline-mixed.toml";
+  const std::string isotropic =
+      "symmetry = \"isotropic\"\nyoung = 1e9\npoisson = 0.3\neps11 = 10\ndensity = 1000\n"
+      "specific_heat = 1000\nreference_temperature = 293\n";
+  std::ofstream(file) << "[whole]\nsource = \"data sheet\"\nk11 = 1\n" + isotropic +
+                             "[sourceless]\n" + isotropic +
+                             "[misspelt]\nsource = \"data sheet\"\nk1l = 1\npoison = 1\n" +
+                             isotropic;
+  const std::string list = describe_library(file.string());
+  EXPECT_THAT(list, testing::ContainsRegex("whole +isotropic +complete +data sheet\n"));
+  EXPECT_THAT(list,
+              testing::ContainsRegex("sourceless +isotropic +add k11; cannot be used: .*:11:1 "
+                                     "\\[sourceless\\] source: missing, but must be given"));
+  EXPECT_THAT(list, testing::ContainsRegex("misspelt .*cannot be used: .*:21:1 .*k1l = 1: unknown "
+                                           "key.* and .*:22:1 .*poison = 1: unknown key"));
+  const auto json = nlohmann::json::parse(library_json(file.string()));
+  ASSERT_EQ(json.size(), 3u);
+  for (const auto &entry : json) {
+    EXPECT_EQ(entry.at("complete").get<bool>(), entry.at("name") == "whole");
+    EXPECT_EQ(entry.contains("mistake"), entry.at("name") != "whole");
+  }
+  casefile::MaterialCase asked;
+  asked.file = file.string();
+  asked.library = "whole";
+  EXPECT_EQ(complaint(asked), "");
+  EXPECT_THAT(describe(asked), HasSubstr("data sheet"));
+  asked.library = "misspelt";
+  EXPECT_THAT(complaint(asked), AllOf(HasSubstr("k1l = 1"), HasSubstr("poison = 1")));
+  asked.library = "sourceless";
+  EXPECT_THAT(complaint(asked), HasSubstr("source: missing, but must be given"));
   std::filesystem::remove(file);
 }
 

@@ -278,6 +278,7 @@ reference_temperature = 293
   asked.library = "gleu";
   EXPECT_THAT(complaint(asked), HasSubstr("did you mean \"glue\"?"));
   std::ofstream(file) << "[glue]\nsource = \"x\"\nyuong = 3e9\n";
+  asked.library = "glue";
   EXPECT_THAT(complaint(asked), HasSubstr("did you mean \"young\"?"));
   std::filesystem::remove(file);
 }

@@ -6,7 +6,7 @@ import sys
 
 program, page = sys.argv[1:]
 help_text = subprocess.run([program, "--help-all"], check=True, capture_output=True, text=True).stdout
-asked = {"reference": set()}  # which --help-all does not list
+asked = {}
 for block in re.split(r"\n(?=\w)", help_text.split("\nSubcommands:\n")[1]):
     asked[block.split("\n")[0]] = {name for names in re.findall(r"^    (-\S+)", block, re.M)
                                    for name in names.split(",")}

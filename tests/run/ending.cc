@@ -29,7 +29,7 @@ TEST(Ending, ItNamesExtremesWithTheirPlacesContactAndTheWorstBalance) {
   Highlights highlights;
   highlights.see(row(1, 1e-9, 1e-13));
   highlights.see(row(2, 1e-12, 1e-10));
-  EXPECT_EQ(ending_text(2, highlights, extremes),
+  EXPECT_EQ(ending_text(2, highlights, extremes, 1),
             "2 steps done, t = 1 s\n"
             "  displacement  at most 2e-09 m, at (0.1, 0)\n"
             "  potential     -1 V at (0, 0.5) to 3 V at (1, 0)\n"
@@ -37,19 +37,31 @@ TEST(Ending, ItNamesExtremesWithTheirPlacesContactAndTheWorstBalance) {
             "  balances      closed up to 1.0e-09 (energy, step 1)\n");
 }
 
+TEST(Ending, ACoordinateThatIsRoundOffBesideTheBodysSizeIsZero) {
+  const std::vector<output::Extreme> rounded{
+      {"potential", -1, 3, {1.2e-18, -3e-17, 0}, {2e-13, 1e-3, 0}}};
+  Highlights highlights;
+  highlights.see(row(1, 0, 0));
+  EXPECT_THAT(ending_text(2, highlights, rounded, 1),
+              HasSubstr("-1 V at (0, 0) to 3 V at (0, 0.001)"));
+  // A body of nanometres.
+  EXPECT_THAT(ending_text(2, highlights, rounded, 1e-9),
+              HasSubstr("-1 V at (0, 0) to 3 V at (2e-13, 0.001)"));
+}
+
 TEST(Ending, WithoutContactThereIsNoneToTell) {
   Highlights highlights;
   output::HistoryRow free = row(1, 0, 0);
   free.stick = free.slip = 0;
   highlights.see(free);
-  EXPECT_THAT(ending_text(3, highlights, {}),
+  EXPECT_THAT(ending_text(3, highlights, {}, 1),
               testing::AllOf(HasSubstr("1 step done"), Not(HasSubstr("contact"))));
 }
 
 TEST(Ending, AnImbalanceThatIsNoNumberIsTheWorst) {
   Highlights highlights;
   highlights.see(row(1, 1e-9, std::nan("")));
-  EXPECT_THAT(ending_text(2, highlights, {}), HasSubstr("nan (heat, step 1)"));
+  EXPECT_THAT(ending_text(2, highlights, {}, 1), HasSubstr("nan (heat, step 1)"));
 }
 
 TEST(Ending, ACheckpointKeepsTheWorstBalance) {
@@ -59,7 +71,7 @@ TEST(Ending, ACheckpointKeepsTheWorstBalance) {
   before.save(numbers);
   after.restore(numbers);
   after.see(row(2, 1e-9, 0));
-  EXPECT_THAT(ending_text(2, after, {}), HasSubstr("1.0e-03 (energy, step 1)"));
+  EXPECT_THAT(ending_text(2, after, {}, 1), HasSubstr("1.0e-03 (energy, step 1)"));
 }
 
 TEST(Ending, APageIsNamedWhereThereIsOne) {

@@ -132,6 +132,7 @@ INSTANTIATE_TEST_SUITE_P(
                     WrongOutput{"max:slop", "did you mean \"max:slip\"?"},
                     WrongOutput{"slop@0.1", "did you mean \"slip@0.1\"?"},
                     WrongOutput{"max:", "no column of history.csv"},
+                    WrongOutput{"results", "the folder of a study is said by -o or --folder"},
                     WrongOutput{":slip", "allowed: last:NAME"},
                     WrongOutput{"average:slip", "allowed: last:NAME, min:NAME"},
                     WrongOutput{"slip@", "write NAME@TIME"}, WrongOutput{"slip@0", "above 0"},

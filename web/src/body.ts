@@ -125,6 +125,24 @@ export class Body {
     this.material.uniforms.colours.value = look.range.signed ? this.maps.signed : this.maps.even;
   }
 
+  /** What the body covers of the scene over all states, with the arrows of its poling. */
+  reach(scale: number): { low: number[]; high: number[] } {
+    const low = [0, 0, 0], high = [0, 0, 0];
+    const cover = (at: number, c: number) => {
+      low[c] = Math.min(low[c], at);
+      high[c] = Math.max(high[c], at);
+    };
+    const { points } = this.grid;
+    const displacement = this.result.field('displacement');
+    ['x', 'y', 'z'].forEach((axis, c) => {
+      const u = displacement?.has(axis) ? displacement.values(axis).data : new Float32Array(points.length / 3);
+      for (let i = 0, node = c; i < u.length; ++i, node = node + 3 < points.length ? node + 3 : c)
+        cover((points[node] - this.centre[c] + scale * u[i]) / this.size, c);
+    });
+    if (this.result.poling) this.inScene(this.result.poling).forEach((at, i) => cover(at, i % 3));
+    return { low, high };
+  }
+
   place(state: number, scale: number) {
     const key = `${state} ${scale}`;
     if (key === this.placed) return;

@@ -129,6 +129,7 @@ export class Chart {
 }
 
 function padded(least: number, greatest: number, factor: number): [number, number] {
+  if (least === 0 && greatest === 0) return [0, 1];
   if (least === greatest) return [(least - (Math.abs(least) || 1)) * factor, (greatest + (Math.abs(greatest) || 1)) * factor];
   const room = (greatest - least) * 0.06;
   return [(least === 0 ? 0 : least - room) * factor, (greatest === 0 ? 0 : greatest + room) * factor];

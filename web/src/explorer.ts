@@ -277,7 +277,8 @@ export class Explorer {
     const state = view.result.stateAt(this.timeline.time);
     const place = [0, 1, 2].slice(0, view.result.dimension).map((c) =>
       hit.weights.reduce((sum, w, k) => sum + (w === 0 ? 0 : w * grid.points[3 * grid.triangles[3 * hit.triangle + k] + c]), 0));
-    const items = [item(place.map((v) => shown(v, 5)).join(', '), 'm', node === undefined ? 'at' : `node ${grid.nodes[node]} at`)];
+    const coordinate = (v: number) => shown(Math.abs(v) <= 1e-12 * view.body.size ? 0 : v, 5);
+    const items = [item(place.map(coordinate).join(', '), 'm', node === undefined ? 'at' : `node ${grid.nodes[node]} at`)];
     const own = new Set<string>();
     const add = (field: Field, component: string) => {
       const values = field.values(component);

@@ -6,7 +6,33 @@ import { shown } from './numbers';
 import { Result, Table } from './results';
 import { Timeline } from './timeline';
 
-interface Group { title: string; unit: string; columns: [name: string, label: string][]; bars?: boolean }
+interface Group {
+  title: string;
+  unit: string;
+  columns: [name: string, label: string][];
+  bars?: boolean;
+  /** sizes up to this one are round-off */
+  least?: number;
+}
+
+/** A column's greatest size; 0 when it is not there. */
+function greatest(history: Table, name: string): number {
+  return (history.column(name) ?? new Float32Array()).reduce((most, v) => Math.max(most, Math.abs(v)), 0);
+}
+
+/**
+ * What potentials, charges and temperatures have to exceed to be more than round-off. An energy that is 1e-28 of the
+ * largest says so of its field (judge_round_off in src/report/result.cc); charges are measured by electric energy over
+ * potential: where nothing flows through the rest of the boundary, that of an earth is 0 but for round-off.
+ */
+function roundOff(history: Table) {
+  const energies = ['elastic_energy', 'electric_energy', 'thermal_energy'].map((n) => greatest(history, n));
+  const all = Math.max(...energies);
+  const below = (name: string) => history.names.includes(name) && greatest(history, name) < 1e-28 * all;
+  const potential = Math.max(greatest(history, 'min_potential'), greatest(history, 'max_potential'));
+  const electric = below('electric_energy') ? Infinity : 0, thermal = below('thermal_energy') ? Infinity : 0;
+  return { electric, thermal, charge: electric + (potential > 0 ? (1e-11 * energies[1]) / potential : 0) };
+}
 
 /** Of a plane body everything holds for a metre of its depth. */
 function groups(history: Table, dimension: 2 | 3): Group[] {
@@ -15,10 +41,11 @@ function groups(history: Table, dimension: 2 | 3): Group[] {
     .map((n): [string, string] => [n, n.slice(prefix.length)]);
   const electrodes = (quantity: string) => history.names.filter((n) => n.startsWith('electrode_') && n.endsWith(quantity))
     .map((n): [string, string] => [n, n.slice('electrode_'.length, -quantity.length - 1)]);
+  const least = roundOff(history);
   return [
-    { title: 'Voltage of electrodes', unit: 'V', columns: electrodes('voltage') },
-    { title: 'Charge on electrodes', unit: 'C' + per, columns: electrodes('charge') },
-    { title: 'Current into electrodes', unit: 'A' + per, columns: electrodes('current') },
+    { title: 'Voltage of electrodes', unit: 'V', columns: electrodes('voltage'), least: least.electric },
+    { title: 'Charge on electrodes', unit: 'C' + per, columns: electrodes('charge'), least: least.charge },
+    { title: 'Current into electrodes', unit: 'A' + per, columns: electrodes('current'), least: least.electric },
     { title: 'Energies', unit: 'J' + per, columns: [['elastic_energy', 'elastic'], ['electric_energy', 'electric'],
       ['thermal_energy', 'thermal'], ['coupling_energy', 'coupling']] },
     { title: 'Friction dissipation and power of the loads', unit: 'W' + per,
@@ -27,12 +54,14 @@ function groups(history: Table, dimension: 2 | 3): Group[] {
       ['conduction_loss', 'conduction'], ['time_step_loss', 'time step']] },
     { title: 'Newton iterations', unit: '', columns: [['newton_iterations', 'iterations']], bars: true },
     { title: 'Contact nodes', unit: '', columns: [['stick', 'stick'], ['slip', 'slip'], ['open', 'open']] },
-    { title: 'Charge', unit: 'C' + per, columns: named('charge_') },
-    { title: 'Heat out of the body', unit: 'W' + per, columns: named('heat_').filter(([n]) => n !== 'heat_source') },
+    { title: 'Charge', unit: 'C' + per, columns: named('charge_'), least: least.charge },
+    { title: 'Heat out of the body', unit: 'W' + per, columns: named('heat_').filter(([n]) => n !== 'heat_source'),
+      least: least.thermal },
     { title: 'Largest displacement', unit: 'm', columns: [['max_displacement', '|u|']] },
-    { title: 'Potential, lowest and highest', unit: 'V', columns: [['min_potential', 'lowest'], ['max_potential', 'highest']] },
+    { title: 'Potential, lowest and highest', unit: 'V', columns: [['min_potential', 'lowest'], ['max_potential', 'highest']],
+      least: least.electric },
     { title: 'Temperature, lowest and highest', unit: 'K',
-      columns: [['min_temperature', 'lowest'], ['max_temperature', 'highest']] },
+      columns: [['min_temperature', 'lowest'], ['max_temperature', 'highest']], least: least.thermal },
   ];
 }
 
@@ -45,10 +74,12 @@ export class History {
   constructor(result: Result, private readonly timeline: Timeline, private readonly sync: string) {
     const history = result.history!;
     const time = [...(history.column('time') ?? [])];
-    const parts = groups(history, result.dimension).map((group) => ({ group, curves: curvesOf(group, history) }))
-      .filter(({ curves }) => curves.length > 0);
-    this.content = time.length <= mostStepsInTable ? tableOf(parts, time)
-      : element('div', { class: 'charts' }, ...parts.map(({ group, curves }) => this.chart(group, curves, time)));
+    const all = groups(history, result.dimension);
+    const parts = all.map((group) => ({ group, curves: curvesOf(group, history) })).filter(({ curves }) => curves.length > 0);
+    const silent = all.filter((g) => g.columns.some(([n]) => isRoundOff(g, history, n)) && !parts.some((p) => p.group === g));
+    const notes = silent.length > 0 && element('p', { class: 'note' }, `Below round-off: ${silent.map((g) => g.title).join(', ')}.`);
+    this.content = element('div', {}, time.length <= mostStepsInTable ? tableOf(parts, time)
+      : element('div', { class: 'charts' }, ...parts.map(({ group, curves }) => this.chart(group, curves, time))), notes);
   }
 
   private chart(group: Group, curves: Curve[], time: number[]): HTMLElement {
@@ -57,10 +88,15 @@ export class History {
   }
 }
 
+function isRoundOff(group: Group, history: Table, name: string): boolean {
+  const size = greatest(history, name);
+  return size > 0 && size <= (group.least ?? 0);
+}
+
 function curvesOf(group: Group, history: Table): Curve[] {
   return group.columns.flatMap(([name, label], i): Curve[] => {
     const values = history.column(name);
-    if (!values || (group.columns.length > 1 && allZero(values))) return [];
+    if (!values || (group.columns.length > 1 && allZero(values)) || isRoundOff(group, history, name)) return [];
     return [{ label, values, colour: lineColours[i % lineColours.length], bars: group.bars,
       points: values.length < 12 && !group.bars }];
   });

@@ -11,16 +11,9 @@ import { fieldTitle, shown } from './numbers';
 import { coloursOf, groupsOf, legend } from './setting';
 import { Timeline } from './timeline';
 
-/** A camera that has the body in view at the first and the last moment. */
+/** A camera that has the body in view at every moment. */
 export function homeCamera(body: Body): Camera {
-  const low = [0, 0, 0], high = [0, 0, 0];
-  for (const state of [0, body.result.times.length - 1]) {
-    body.place(state, body.suitableScale);
-    body.places.forEach((at, i) => {
-      low[i % 3] = Math.min(low[i % 3], at);
-      high[i % 3] = Math.max(high[i % 3], at);
-    });
-  }
+  const { low, high } = body.reach(body.suitableScale);
   const middle = low.map((v, c) => (v + high[c]) / 2) as [number, number, number];
   const half = low.map((v, c) => (high[c] - v) / 2);
   if (body.result.dimension === 3) {

@@ -67,7 +67,7 @@ export function inBrief(result: Result): string {
   const { summary } = result;
   const parts = [`${result.dimension}D`];
   if (summary) {
-    parts.push(`${Number(summary.sizes.nodes).toLocaleString('en').replace(/,/g, ' ')} nodes`, `${summary.sizes.steps} steps`);
+    parts.push(`${Number(summary.sizes.nodes).toLocaleString('en').replace(/,/g, ' ')} nodes`, `${summary.sizes.steps} ${summary.sizes.steps === 1 ? 'step' : 'steps'}`);
     if (summary.seconds?.total) parts.push(`computed in ${seconds(summary.seconds.total)}`);
     parts.push(`Tourmaline ${summary.versions.tourmaline}`);
   }

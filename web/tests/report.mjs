@@ -236,10 +236,16 @@ await inBrowser(desktop, async (context) => {
     assert.notEqual(await pixels(tab, '#contact canvas', 1), late);
     await goTo(tab, 50);
   });
-  await test('energies, dissipation, iterations and charge are drawn over time', async () => {
+  await test('energies, dissipation and iterations are drawn over time', async () => {
     const titles = await tab.locator('#history figcaption').allTextContents();
-    for (const title of ['Energies', 'Friction dissipation and power of the loads', 'Newton iterations', 'Charge'])
+    for (const title of ['Energies', 'Friction dissipation and power of the loads', 'Newton iterations'])
       assert.ok(titles.includes(title), `no "${title}" in ${titles}`);
+  });
+  await test('the charge of the only grounded side, which is 0 but for round-off, is not drawn as a curve', async () => {
+    const charges = tableOf(conductive, 'history.csv').map((row) => Math.abs(row.charge_right));
+    assert.ok(Math.max(...charges) > 0 && Math.max(...charges) < 1e-18, String(Math.max(...charges)));
+    assert.ok(!(await tab.locator('#history figcaption').allTextContents()).includes('Charge'));
+    assert.match(await tab.locator('#history').textContent(), /Below round-off: Charge\./);
   });
   await test('the case as run, sizes, versions and timings are told', async () => {
     const text = await tab.locator('#run').textContent();
@@ -496,7 +502,7 @@ await inBrowser(desktop, async (context) => {
   await test('of a plane body units are those of a metre of depth', async () => {
     const units = await tab.locator('#history .chart').evaluateAll((charts) => charts.map((c) =>
       [c.querySelector('figcaption').textContent, c.dataset.unit]));
-    for (const [title, unit] of [['Energies', 'J/m'], ['Power and losses', 'W/m'], ['Charge', 'C/m']])
+    for (const [title, unit] of [['Energies', 'J/m'], ['Power and losses', 'W/m']])
       assert.equal(new Map(units).get(title), unit);
   });
   await test('of two contacts nothing is complained of', () => assert.deepEqual(complaints, []));
@@ -521,9 +527,12 @@ await test('a case of one step has a table instead of curves', async () => {
   await inBrowser(desktop, async (context) => {
     const { tab } = await open(context, join(out, 'report.html'));
     assert.equal(await tab.locator('#history canvas').count(), 0);
+    assert.match(await tab.locator('.brief').first().textContent(), / · 1 step · /);
     const said = new Map(await tab.locator('#history tbody tr').evaluateAll((rows) => rows.map((r) =>
       [r.querySelector('th').textContent, [Number(r.querySelector('td').dataset.value), r.querySelector('td').textContent]])));
     const [row] = tableOf(out, 'history.csv');
+    const charges = [...said].filter(([name]) => name.startsWith('Charge'));
+    assert.ok(charges.length > 0 && charges.every(([, [, text]]) => text.endsWith(' C/m')), String(charges));
     for (const [name, column, unit] of [['Energies: elastic', 'elastic_energy', 'J/m'], ['Largest displacement', 'max_displacement', 'm']]) {
       const [value, text] = said.get(name);
       assert.ok(Math.abs(value - row[column]) <= 1e-6 * Math.abs(row[column]), `${name}: ${value}, history.csv has ${row[column]}`);

@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "tourmaline/case/case.h"
@@ -22,10 +21,19 @@ Case read_text(const std::string &text, const std::string &name,
                const std::vector<std::string> &overrides = {},
                const MeshFileReader &read_mesh = {});
 
-/// The entries of a file of materials, by name. Throws CaseError.
-std::vector<std::pair<std::string, MaterialCase>> read_materials(const std::filesystem::path &file);
+/// An entry of a file of materials.
+struct MaterialEntry {
+  std::string name;
+  MaterialCase given;   ///< empty where a mistake keeps it from being read
+  std::string mistake;  ///< what is wrong with it, as one paragraph; empty: nothing
+
+  bool is_read() const { return !given.where.empty(); }
+};
+
+/// The entries of a file of materials, by name. Throws CaseError where the file is none; what is
+/// wrong with one entry is that entry's.
+std::vector<MaterialEntry> read_materials(const std::filesystem::path &file);
 /// The same for its text; error texts call it `name`.
-std::vector<std::pair<std::string, MaterialCase>> read_materials(const std::string &text,
-                                                                 const std::string &name);
+std::vector<MaterialEntry> read_materials(const std::string &text, const std::string &name);
 
 }  // namespace tourmaline::casefile

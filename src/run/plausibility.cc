@@ -1,0 +1,118 @@
+#include "run/plausibility.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "body/derived.h"
+#include "case/toml_text.h"
+#include "material/constants.h"
+#include "material/coupling.h"
+#include "run/survey.h"
+
+namespace tourmaline::run {
+
+namespace {
+
+// Relaxor crystals, the most strongly coupled materials, have factors of 0.95. Nearly
+// incompressible rubber beside steel has 1e4 between the materials; the usual slips, MPa and GPa,
+// make 1e6 and 1e9.
+constexpr double largest_coupling = 0.98, largest_ratio_inside = 1e4, largest_ratio_between = 1e5,
+                 largest_strain = 0.1;
+
+constexpr const char *units =
+    "check the units: stiffness in Pa (1 GPa = 1e9 Pa), d in C/N (1 pC/N = 1e-12 C/N), e in C/m^2";
+
+struct Part {
+  std::string name;
+  material::Constants constants;
+  bool is_isotropic;
+
+  auto diagonal() const { return constants.stiffness.diagonal(); }
+};
+
+std::vector<Part> parts_of(const casefile::Case &asked) {
+  const std::vector<output::MaterialRecord> records = materials_of(asked);
+  std::vector<Part> parts;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const bool whole = asked.regions.empty();
+    const casefile::MaterialCase given =
+        material::with_entry(whole ? asked.material : asked.regions[i].material);
+    parts.push_back({(whole ? "" : "region " + casefile::toml_text(records[i].region) + ", ") +
+                         records[i].material,
+                     material::constants_of(given), given.symmetry == "isotropic"});
+  }
+  return parts;
+}
+
+std::string coupling_warning(const Part &part) {
+  if (part.constants.conductor)
+    return "";
+  const double factor = material::coupling_factor(part.constants);
+  return factor <= largest_coupling
+             ? ""
+             : fmt::format(
+                   "{}: the electromechanical coupling factor is {:.6g}, and no known material "
+                   "reaches {}; {}",
+                   part.name, factor, largest_coupling, units);
+}
+
+// Of an isotropic material one constant has a unit; the other makes rubber incompressible.
+std::string ratio_warning(const Part &part) {
+  Eigen::Index most = 0, least = 0;
+  const double largest = part.diagonal().maxCoeff(&most),
+               smallest = part.diagonal().minCoeff(&least);
+  if (part.is_isotropic || largest <= largest_ratio_inside * smallest)
+    return "";
+  return fmt::format("{}: the stiffness c{}{} = {:.4g} Pa is {:.2g} times c{}{} = {:.4g} Pa; {}",
+                     part.name, most + 1, most + 1, largest, largest / smallest, least + 1,
+                     least + 1, smallest, units);
+}
+
+std::string contrast_warning(const std::vector<Part> &parts) {
+  const auto [soft, stiff] =
+      std::minmax_element(parts.begin(), parts.end(), [](const Part &a, const Part &b) {
+        return a.diagonal().maxCoeff() < b.diagonal().maxCoeff();
+      });
+  const double ratio = stiff->diagonal().maxCoeff() / soft->diagonal().maxCoeff();
+  return ratio <= largest_ratio_between ? ""
+                                        : fmt::format("{} is {:.2g} times as stiff as {}; {}",
+                                                      stiff->name, ratio, soft->name, units);
+}
+
+void add(const std::string &warning, std::vector<std::string> &all) {
+  if (!warning.empty() && std::find(all.begin(), all.end(), warning) == all.end())
+    all.push_back(warning);
+}
+
+}  // namespace
+
+std::vector<std::string> material_warnings(const casefile::Case &asked) {
+  const std::vector<Part> parts = parts_of(asked);
+  std::vector<std::string> all;
+  for (const Part &part : parts) {
+    add(coupling_warning(part), all);
+    add(ratio_warning(part), all);
+  }
+  add(contrast_warning(parts), all);
+  return all;
+}
+
+template <int dim>
+std::string strain_warning(const solve::Model<dim> &model, std::span<const double> state) {
+  const body::LargestStrain found = body::largest_strain(model.body, state);
+  if (!(found.size > largest_strain))
+    return "";
+  std::string place;
+  for (int axis = 0; axis < dim; ++axis)
+    place += fmt::format("{}{:.4g}", axis == 0 ? "(" : ", ", found.at[axis]);
+  return fmt::format(
+      "at the end strains reach {:.2g}, at {}), and the theory is linear, for strains far below 1; "
+      "check the units of loads and material constants",
+      found.size, place);
+}
+
+template std::string strain_warning<2>(const solve::Model<2> &, std::span<const double>);
+template std::string strain_warning<3>(const solve::Model<3> &, std::span<const double>);
+
+}  // namespace tourmaline::run

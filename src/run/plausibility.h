@@ -1,0 +1,22 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "solve/model.h"
+
+namespace tourmaline::run {
+
+/// Warnings of material constants that are possible and yet hardly meant, as those in GPa or pC/N
+/// instead of Pa and C/N: an electromechanical coupling factor above 0.98, diagonal stiffnesses
+/// of one material that differ by more than 1e4, of two materials by more than 1e5. Throws
+/// CaseError for materials that are not complete.
+std::vector<std::string> material_warnings(const casefile::Case &asked);
+
+/// A warning of strains above 0.1, for which a linear theory does not hold; empty when there are
+/// none. All ranks ask together.
+template <int dim>
+std::string strain_warning(const solve::Model<dim> &model, std::span<const double> state);
+
+}  // namespace tourmaline::run

@@ -1,0 +1,245 @@
+#include "run/plausibility.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "material/completeness.h"
+#include "material/constants.h"
+#include "material/coupling.h"
+#include "material/library.h"
+#include "run/survey.h"
+#include "tourmaline/case/reader.h"
+#include "tourmaline/error.h"
+#include "tourmaline/mesh/gmsh.h"
+
+#include "../cases/run_case.h"
+
+namespace tourmaline::run {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+namespace fs = std::filesystem;
+
+const fs::path repository(TOURMALINE_SOURCE_DIR);
+
+casefile::Case of(const std::vector<casefile::MaterialCase> &materials) {
+  casefile::Case asked;
+  asked.dimension = 3;
+  if (materials.size() == 1) {
+    asked.material = materials.front();
+    return asked;
+  }
+  for (const casefile::MaterialCase &material : materials) {
+    casefile::RegionCase region;
+    region.on = {"part" + std::to_string(asked.regions.size())};
+    region.material = material;
+    asked.regions.push_back(region);
+  }
+  return asked;
+}
+
+// With thermal constants, which most sources do not give.
+casefile::MaterialCase completed(const std::string &name) {
+  casefile::MaterialCase asked;
+  asked.library = name;
+  for (const std::string &constant : material::missing_constants(material::with_entry(asked)))
+    asked.constants[constant] = constant == "specific_heat" ? 400 : constant[0] == 'k' ? 1 : 1e-6;
+  return asked;
+}
+
+TEST(Plausibility, NoMaterialOfTheLibraryIsSuspicious) {
+  for (const material::Entry &entry : material::library())
+    EXPECT_THAT(material_warnings(of({completed(entry.name)})), IsEmpty()) << entry.name;
+}
+
+TEST(Plausibility, NoTwoMaterialsOfTheLibraryAreSuspiciousTogether) {
+  for (const material::Entry &one : material::library())
+    for (const material::Entry &other : material::library())
+      EXPECT_THAT(material_warnings(of({completed(one.name), completed(other.name)})), IsEmpty())
+          << one.name << " and " << other.name;
+}
+
+TEST(Plausibility, NoCaseOfTheRepositoryIsSuspicious) {
+  int n_cases = 0;
+  for (const auto &file : fs::recursive_directory_iterator(repository / "cases"))
+    if (file.path().extension() == ".toml") {
+      ++n_cases;
+      const auto asked = casefile::read_file(file.path(), {}, mesh::read_mesh_file);
+      EXPECT_THAT(material_warnings(asked), IsEmpty()) << file.path();
+    }
+  EXPECT_GE(n_cases, 20);
+}
+
+// A ceramic as a data sheet has it, in Pa and C/N.
+casefile::MaterialCase ceramic() {
+  casefile::MaterialCase asked;
+  asked.constants = {{"c11", 127e9},
+                     {"c12", 80e9},
+                     {"c13", 85e9},
+                     {"c33", 117e9},
+                     {"c44", 23e9},
+                     {"e31", -6.6},
+                     {"e33", 23.2},
+                     {"e15", 17},
+                     {"eps11", 1704},
+                     {"eps33", 1434},
+                     {"k11", 1.5},
+                     {"k33", 1.5},
+                     {"density", 7500},
+                     {"specific_heat", 420},
+                     {"reference_temperature", 293}};
+  return asked;
+}
+
+casefile::MaterialCase scaled(casefile::MaterialCase asked, char letter, double factor) {
+  for (auto &[key, value] : asked.constants)
+    if (key[0] == letter && std::isdigit(static_cast<unsigned char>(key[1])))
+      value *= factor;
+  return asked;
+}
+
+// k^2 = 1 - eps33^S/eps33^T for a field along the axis, and the like for one across it.
+TEST(CouplingFactor, IsThatOfTheMostCoupledDirection) {
+  const material::Constants c = material::constants_of(ceramic());
+  const material::Tensor clamped = material::clamped_part(c);
+  const double along = clamped(2, 2) / (c.permittivity(2, 2) + clamped(2, 2)),
+               across = clamped(0, 0) / (c.permittivity(0, 0) + clamped(0, 0));
+  EXPECT_NEAR(material::coupling_factor(c), std::sqrt(std::max(along, across)), 1e-12);
+  EXPECT_GT(material::coupling_factor(c), 0.7);
+}
+
+TEST(Plausibility, StiffnessInGigapascalsCouplesTooStrongly) {
+  EXPECT_THAT(material_warnings(of({ceramic()})), IsEmpty());
+  EXPECT_THAT(material_warnings(of({scaled(ceramic(), 'c', 1e-9)})),
+              ElementsAre(AllOf(HasSubstr("coupling factor is 1, and no known material"),
+                                HasSubstr("1 GPa = 1e9 Pa"))));
+}
+
+TEST(Plausibility, OneConstantInGigapascalsStandsOut) {
+  casefile::MaterialCase plain = scaled(ceramic(), 'e', 1);
+  for (const char *key : {"e31", "e33", "e15"})
+    plain.constants.erase(key);
+  EXPECT_THAT(material_warnings(of({plain})), IsEmpty());
+  plain.constants["c44"] = 23;
+  EXPECT_THAT(
+      material_warnings(of({plain})),
+      ElementsAre(HasSubstr("the stiffness c11 = 1.27e+11 Pa is 5.5e+09 times c44 = 23 Pa")));
+}
+
+TEST(Plausibility, OneMaterialInOtherUnitsThanAnotherStandsOut) {
+  casefile::MaterialCase steel;
+  steel.symmetry = "isotropic";
+  steel.conductor = true;
+  steel.constants = {{"young", 200e9},  {"poisson", 0.3},       {"k11", 50},
+                     {"density", 7800}, {"specific_heat", 500}, {"reference_temperature", 293}};
+  EXPECT_THAT(material_warnings(of({ceramic(), steel})), IsEmpty());
+  steel.constants["young"] = 200;
+  EXPECT_THAT(material_warnings(of({ceramic(), steel})),
+              ElementsAre(HasSubstr("times as stiff as region \"part1\"")));
+  // Rubber that is nearly incompressible is softer in shear by far, and not in other units.
+  steel.constants["young"] = 1e6;
+  steel.constants["poisson"] = 0.49999;
+  EXPECT_THAT(material_warnings(of({ceramic(), steel})), IsEmpty());
+}
+
+TEST(Plausibility, ConstantsPerStressThatAreTooLargeAreNamedAsTheCause) {
+  casefile::MaterialCase sheet = ceramic();
+  for (const char *key : {"e31", "e33", "e15", "eps11", "eps33"})
+    sheet.constants.erase(key);
+  sheet.constants.insert({{"d31", -2.74e-10},
+                          {"d33", 5.93e-10},
+                          {"d15", 7.41e-10},
+                          {"eps11_T", 3130},
+                          {"eps33_T", 3400}});
+  EXPECT_THAT(material_warnings(of({sheet})), IsEmpty());
+  for (const char *key : {"d31", "d33", "d15"})
+    sheet.constants[key] *= 1e12;
+  try {
+    material_warnings(of({sheet}));
+    FAIL() << "d in pC/N passed";
+  } catch (const CaseError &error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("eps^T - d c d^T, is not positive definite"),
+                                    HasSubstr("piezoelectric constants are too large"),
+                                    HasSubstr("1 pC/N = 1e-12 C/N"), HasSubstr("coupling factor")));
+  }
+}
+
+// One without piezoelectric constants has no such cause.
+TEST(Plausibility, PermittivityOfItselfIsStillNamedAsSuch) {
+  casefile::MaterialCase asked = ceramic();
+  asked.constants.erase("eps11");
+  asked.constants.erase("eps33");
+  asked.permittivity_T = {{1e-8, 2e-8, 0}, {2e-8, 1e-8, 0}, {0, 0, 1e-8}};
+  try {
+    material::constants_of(asked);
+    FAIL();
+  } catch (const CaseError &error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("permittivity is not positive definite"),
+                                    Not(HasSubstr("too large"))));
+  }
+}
+
+const std::string strip = R"([mesh]
+box = { min = [0, 0], max = [1, 0.5], cells = [8, 4], cell = "quadrilateral" }
+[material]
+symmetry = "isotropic"
+young = 1e9
+poisson = 0.3
+eps11 = 10
+k11 = 1
+density = 1000
+specific_heat = 1000
+reference_temperature = 293
+[time]
+end = 1
+steps = 1
+[[boundary]]
+on = "left"
+displacement = [0, 0]
+potential = 0
+temperature = 0
+[[boundary]]
+on = "right"
+displacement = ["0.2*t", 0]
+)";
+
+std::vector<std::string> warnings_of(const std::vector<std::string> &overrides) {
+  const tourmaline::testing::RunCase run(casefile::read_text(strip, "strip.toml", overrides));
+  return run.summary()["warnings"].get<std::vector<std::string>>();
+}
+
+TEST(Plausibility, StrainsThatALinearTheoryDoesNotKnowAreToldAtTheEnd) {
+  EXPECT_THAT(warnings_of({}), ElementsAre(HasSubstr("strains reach 0.2")));
+  EXPECT_THAT(warnings_of({"boundary[1].displacement=[\"0.02*t\",0]"}), IsEmpty());
+  EXPECT_THAT(warnings_of({"solver.method=monolithic"}), ElementsAre(HasSubstr("strains reach")));
+  EXPECT_THAT(warnings_of({"solver.body=iterative"}), ElementsAre(HasSubstr("strains reach")));
+}
+
+TEST(Survey, TellsTheClassOfAnEntryThatDoesNotSayIt) {
+  const casefile::Case asked =
+      casefile::read_text(strip, "strip.toml", {"material={library=\"BaTiO3-Liu2014\"}"});
+  EXPECT_THAT(survey(asked), HasSubstr("# (the whole body), BaTiO3-Liu2014, class 6mm: piezo"));
+}
+
+TEST(Plausibility, ARunAndItsCheckTellTheSameOfTheMaterial) {
+  const std::vector<std::string> soft{
+      "material={c11=127,c12=80,c13=85,c33=117,c44=23,e31=-6.6,"
+      "e33=23,e15=17,eps11=1704,eps33=1434,k11=1,k33=1,"
+      "density=7500,specific_heat=420,reference_temperature=293}",
+      "boundary[1].displacement=[0,0]"};
+  EXPECT_THAT(warnings_of(soft),
+              ElementsAre(HasSubstr("material of the case: the electromechanical "
+                                    "coupling factor is 1")));
+  EXPECT_THAT(survey(casefile::read_text(strip, "strip.toml", soft)),
+              HasSubstr("# warning: material of the case: the electromechanical coupling factor"));
+}
+
+}  // namespace
+}  // namespace tourmaline::run
