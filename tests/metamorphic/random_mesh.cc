@@ -1,8 +1,8 @@
 #include "random_mesh.h"
 
 #include <algorithm>
-#include <array>
 #include <numbers>
+#include <numeric>
 
 namespace tourmaline::testing {
 namespace {
@@ -14,22 +14,18 @@ class Grid {
   explicit Grid(const MeshShape &shape) : shape_(shape) {}
 
   bool closed(int axis) const { return shape_.ring && axis == 1; }
-  int vertices(int axis) const { return shape_.cells[axis] + (closed(axis) ? 0 : 1); }
+  Index vertices() const {
+    Index counts = shape_.cells;
+    for (int axis = 0; axis < shape_.dimension; ++axis)
+      counts[axis] += closed(axis) ? 0 : 1;
+    return counts;
+  }
   int number(const Index &at) const {
+    const Index counts = vertices();
     int result = 0;
     for (int axis = shape_.dimension; axis-- > 0;)
-      result = result * vertices(axis) + at[axis] % vertices(axis);
+      result = result * counts[axis] + at[axis] % counts[axis];
     return result;
-  }
-  /// All indices below `counts`, the first axis fastest.
-  template <class Visit>
-  void each(const Index &counts, const Visit &visit) const {
-    Index at(counts.size(), 0);
-    for (std::size_t axis = 0; axis < counts.size();) {
-      visit(at);
-      for (axis = 0; axis < counts.size() && ++at[axis] == counts[axis]; ++axis)
-        at[axis] = 0;
-    }
   }
   bool ends(const Index &at, int side) const {
     return !closed(side / 2) && at[side / 2] == (side % 2 == 0 ? 0 : shape_.cells[side / 2]);
@@ -41,84 +37,73 @@ class Grid {
     Eigen::VectorXd s(shape_.dimension);
     for (int axis = 0; axis < shape_.dimension; ++axis)
       s[axis] = (at[axis] + (inside ? random.between(-0.15, 0.15) : 0)) / shape_.cells[axis];
-    return shape_.ring ? on_ring(s) : on_box(s);
+    const Eigen::Map<const Eigen::VectorXd> size(shape_.size.data(), shape_.dimension);
+    Eigen::VectorXd x = s.cwiseProduct(size);
+    if (shape_.ring) {
+      const double radius = size[0] + s[0] * (size[1] - size[0]), turn = 2 * std::numbers::pi;
+      x.head(2) << radius * std::cos(turn * s[1]), radius * std::sin(turn * s[1]);
+    }
+    return x;
   }
 
  private:
-  Eigen::VectorXd on_box(Eigen::VectorXd s) const {
-    for (int axis = 0; axis < shape_.dimension; ++axis)
-      s[axis] *= shape_.size[axis];
-    return s;
-  }
-  Eigen::VectorXd on_ring(Eigen::VectorXd s) const {
-    const double radius = shape_.size[0] + s[0] * (shape_.size[1] - shape_.size[0]),
-                 angle = 2 * std::numbers::pi * s[1];
-    s.head(2) << radius * std::cos(angle), radius * std::sin(angle);
-    if (shape_.dimension == 3)
-      s[2] *= shape_.size[2];
-    return s;
-  }
-
   const MeshShape &shape_;
 };
 
-Index step(Index at, int axis) {
-  ++at[axis];
-  return at;
+// All indices below `counts`, the first axis fastest.
+std::vector<Index> all_below(const Index &counts) {
+  std::vector<Index> all;
+  Index at(counts.size(), 0);
+  for (std::size_t axis = 0; axis < counts.size();) {
+    all.push_back(at);
+    for (axis = 0; axis < counts.size() && ++at[axis] == counts[axis]; ++axis)
+      at[axis] = 0;
+  }
+  return all;
+}
+
+Index sum(Index a, const Index &b) {
+  std::transform(a.begin(), a.end(), b.begin(), a.begin(), std::plus());
+  return a;
 }
 
 // Kuhn's simplices: one for each order in which the axes lead from the first corner to the last.
-std::vector<std::vector<Index>> simplices_of(const Index &first) {
+std::vector<std::vector<Index>> simplices_at(const Index &first) {
   std::vector<std::vector<Index>> all;
-  std::vector<int> axes(first.size());
-  for (std::size_t i = 0; i < axes.size(); ++i)
-    axes[i] = static_cast<int>(i);
+  Index axes(first.size());
+  std::iota(axes.begin(), axes.end(), 0);
   do {
-    std::vector<Index> path{first};
-    Eigen::MatrixXd order = Eigen::MatrixXd::Zero(first.size(), first.size());
-    for (std::size_t i = 0; i < axes.size(); ++i) {
-      path.push_back(step(path.back(), axes[i]));
-      order(static_cast<Eigen::Index>(i), axes[i]) = 1;
+    all.push_back({first});
+    for (const int axis : axes) {
+      all.back().push_back(all.back().back());
+      ++all.back().back()[axis];
     }
-    if (order.determinant() < 0)
-      std::swap(path[path.size() - 2], path.back());
-    all.push_back(path);
   } while (std::next_permutation(axes.begin(), axes.end()));
   return all;
 }
 
-std::vector<Index> cuboid_of(const Index &first) {
-  std::vector<Index> corners{first, step(first, 0), step(step(first, 0), 1), step(first, 1)};
-  for (std::size_t i = 0; first.size() == 3 && i < 4; ++i)
-    corners.push_back(step(corners[i], 2));
+std::vector<std::vector<Index>> cells_at(const Index &first, bool simplices) {
+  if (simplices)
+    return simplices_at(first);
+  std::vector<Index> corners = all_below(Index(first.size(), 2));
+  for (Index &corner : corners)
+    corner = sum(corner, first);
+  return {corners};
+}
+
+// Of corners with the first axis fastest; of simplices any order is right.
+std::vector<int> in_order_of_gmsh(std::vector<int> corners) {
+  for (std::size_t i = 3; i < corners.size(); i += 4)
+    std::swap(corners[i - 1], corners[i]);
   return corners;
 }
 
-// Local vertices of a cell's facets, in Gmsh's order.
-std::vector<std::vector<int>> facets_of(std::size_t vertices, int dimension) {
-  if (dimension == 2)
-    return vertices == 3 ? std::vector<std::vector<int>>{{0, 1}, {1, 2}, {2, 0}}
-                         : std::vector<std::vector<int>>{{0, 1}, {1, 2}, {2, 3}, {3, 0}};
-  if (vertices == 4)
-    return {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}};
-  return {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
-}
-
-void add_cell(SampleMesh &mesh, const Grid &grid, const std::vector<Index> &corners, int region) {
-  mesh.cells.emplace_back();
-  mesh.region.push_back(region);
+std::vector<int> numbers(const Grid &grid, const std::vector<Index> &corners, int side = -1) {
+  std::vector<int> all;
   for (const Index &corner : corners)
-    mesh.cells.back().push_back(grid.number(corner));
-  const int dimension = static_cast<int>(corners[0].size());
-  for (const auto &local : facets_of(corners.size(), dimension))
-    for (int side = 0; side < 2 * dimension; ++side)
-      if (std::all_of(local.begin(), local.end(),
-                      [&](int v) { return grid.ends(corners[v], side); })) {
-        mesh.facets.emplace_back();
-        for (const int v : local)
-          mesh.facets.back().push_back(mesh.cells.back()[v]);
-        mesh.side.push_back(side);
-      }
+    if (side < 0 || grid.ends(corner, side))
+      all.push_back(grid.number(corner));
+  return in_order_of_gmsh(all);
 }
 
 }  // namespace
@@ -127,19 +112,22 @@ SampleMesh random_mesh(const MeshShape &shape, Random &random) {
   const Grid grid(shape);
   SampleMesh mesh;
   mesh.simplices = shape.simplices;
-  Index counts;
-  for (int axis = 0; axis < shape.dimension; ++axis)
-    counts.push_back(grid.vertices(axis));
-  grid.each(counts, [&](const Index &at) { mesh.points.push_back(grid.place(at, random)); });
-  grid.each(shape.cells, [&](const Index &at) {
-    const int axis = shape.layered / 2, n = shape.cells[axis],
-              depth = shape.layered % 2 == 0 ? at[axis] : n - 1 - at[axis];
-    const int region = shape.regions == 2 && 2 * depth + 1 > n ? 1 : 0;
-    if (!shape.simplices)
-      return add_cell(mesh, grid, cuboid_of(at), region);
-    for (const auto &corners : simplices_of(at))
-      add_cell(mesh, grid, corners, region);
-  });
+  for (const Index &at : all_below(grid.vertices()))
+    mesh.points.push_back(grid.place(at, random));
+  const int axis = shape.layered / 2, n = shape.cells[axis];
+  const int facet = shape.simplices ? shape.dimension : 1 << (shape.dimension - 1);
+  for (const Index &at : all_below(shape.cells)) {
+    const int depth = shape.layered % 2 == 0 ? at[axis] : n - 1 - at[axis];
+    for (const auto &corners : cells_at(at, shape.simplices)) {
+      mesh.cells.push_back(numbers(grid, corners));
+      mesh.region.push_back(shape.regions == 2 && 2 * depth + 1 > n ? 1 : 0);
+      for (int side = 0; side < 2 * shape.dimension; ++side)
+        if (const auto on_side = numbers(grid, corners, side); int(on_side.size()) == facet) {
+          mesh.facets.push_back(on_side);
+          mesh.side.push_back(side);
+        }
+    }
+  }
   return mesh;
 }
 

@@ -16,25 +16,13 @@ Eigen::MatrixXd axes_to_axes(int dimension, Random &random) {
   return turn;
 }
 
-// Cells of a mirrored mesh go round the other way.
-void turn_inside_out(std::vector<int> &cell, int dimension) {
-  if (dimension == 2 || cell.size() == 4) {
-    std::swap(cell[1], cell[dimension == 2 ? cell.size() - 1 : 2]);
-    return;
-  }
-  std::swap(cell[1], cell[3]);
-  std::swap(cell[5], cell[7]);
-}
-
-// Another vertex first, the same way round.
-void start_elsewhere(std::vector<int> &cell, int dimension) {
-  if (dimension == 3 && cell.size() == 4) {
-    std::rotate(cell.begin(), cell.begin() + 1, cell.begin() + 3);
-    return;
-  }
-  const std::ptrdiff_t round = cell.size() == 8 ? 4 : static_cast<std::ptrdiff_t>(cell.size());
-  for (auto first = cell.begin(); first != cell.end(); first += round)
-    std::rotate(first, first + 1, first + round);
+// Another vertex first, the same way round; simplices any way.
+void start_elsewhere(std::vector<int> &cell, bool is_simplex, Random &random) {
+  if (is_simplex)
+    return random.shuffle(cell);
+  for (int turns = random.below(4); turns-- > 0;)
+    for (auto first = cell.begin(); first != cell.end(); first += 4)
+      std::rotate(first, first + 1, first + 4);
 }
 
 std::vector<int> random_order(std::size_t n, Random &random) {
@@ -79,9 +67,6 @@ Sample turned(Sample sample, const Eigen::MatrixXd &turn) {
   const bool mirrors = turn.determinant() < 0;
   for (Eigen::VectorXd &point : sample.mesh.points)
     point = turn * point;
-  for (std::vector<int> &cell : sample.mesh.cells)
-    if (mirrors)
-      turn_inside_out(cell, sample.dimension());
   for (SampleMaterial &material : sample.materials) {
     material.poling = turn * material.poling;
     // Axis 2 follows from 3 and 1 by the right hand, so it is axis 1 that a mirror reverses: all
@@ -103,8 +88,10 @@ Sample turned(Sample sample, const Eigen::MatrixXd &turn) {
 }
 
 Units random_units(Random &random) {
-  const auto one = [&random] { return random.sized(0.1, 10); };
-  return {one(), one(), one(), one(), one()};
+  // Of densities and heat capacities not too far from what the program takes for sensible.
+  const double length = random.sized(0.3, 3), time = random.sized(0.1, 10);
+  const auto one = [&random] { return random.sized(1. / 300, 300); };
+  return {length, one(), one(), one(), time};
 }
 
 Sample in_units(Sample sample, const Units &units) {
@@ -144,8 +131,7 @@ Sample renumbered(Sample sample, Random &random) {
       for (int &vertex : element)
         vertex = now[vertex];
   for (std::vector<int> &cell : mesh.cells)
-    for (int turns = random.below(3); turns-- > 0;)
-      start_elsewhere(cell, sample.dimension());
+    start_elsewhere(cell, mesh.simplices, random);
   return sample;
 }
 
