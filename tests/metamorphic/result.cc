@@ -63,7 +63,7 @@ MatrixXd values(const Table &table, const Quantity &quantity) {
 }
 
 // Points that stick have slips, and so dissipation, of round-off, those without friction such
-// tangential tractions, and where nothing else lets charge in a boundary has such a charge.
+// tangential tractions, and where nothing comes from outside add up to such forces and charges.
 void measure(Result &result, double step) {
   auto &all = result.quantities;
   for (auto &[name, values] : all)
@@ -75,6 +75,9 @@ void measure(Result &result, double step) {
   const MatrixXd &extremes = all.at("history m*_potential").all;  // greatest, least
   const double charge =
       all.at("history *_energy").size / (extremes.col(0) - extremes.col(1)).cwiseAbs().maxCoeff();
+  const double force = all.at("history *_energy").size / all.at("nodes u_*").size;
+  at_least("history reaction_*", force);
+  at_least("history contact_force_*", force);
   at_least("contact slip_*", all.at("nodes u_*").size);
   at_least("contact slip_rate*", all.at("nodes u_*").size / step);
   at_least("history friction_dissipation*", all.at("history *_power").size);

@@ -110,17 +110,22 @@ std::string table(const SampleMaterial &material) {
 
 }  // namespace
 
-bool Sample::has_conductor() const {
-  return std::any_of(materials.begin(), materials.end(), [](const auto &m) { return m.conductor; });
-}
-
 bool Sample::has_free_components() const {
   return std::any_of(conditions.begin(), conditions.end(),
                      [](const Condition &c) { return !c.free.empty(); });
 }
 
-bool Sample::has_friction() const {
-  return find("contact.friction", "bound") != nullptr;
+bool Sample::contact_is_tilted() const {
+  for (std::size_t i = 0; i < mesh.facets.size(); ++i) {
+    if (fmt::format("side{}", mesh.side[i]) != contact)
+      continue;
+    Eigen::ArrayXd size = Eigen::ArrayXd::Zero(dimension());
+    for (const int vertex : mesh.facets[i])
+      size = size.max((mesh.points[vertex] - mesh.points[mesh.facets[i][0]]).array().abs());
+    if ((size > 1e-6 * size.maxCoeff()).all())
+      return true;
+  }
+  return false;
 }
 
 const Condition *Sample::find(const std::string &table, const std::string &key) const {
@@ -140,9 +145,9 @@ std::string Sample::text() const {
     out += "material = " + table(materials[0]) + "\n";
   if (!contact.empty())
     out += fmt::format("contact.on = \"{}\"\n", contact);
-  if (has_friction())
+  if (find("contact.friction", "bound"))
     out += "contact.friction.law = \"tresca\"\n";
-  if (find("contact.heat", "coefficient") != nullptr)
+  if (find("contact.heat", "coefficient"))
     out += "contact.heat.law = \"exchange\"\n";
   for (const Condition &condition : conditions)
     if (condition.on.empty())

@@ -68,9 +68,9 @@ struct Sample {
   std::string solver = "method = \"condensed\", body = \"direct\"";
 
   int dimension() const { return static_cast<int>(mesh.points.front().size()); }
-  bool has_conductor() const;
   bool has_free_components() const;
-  bool has_friction() const;
+  bool contact_is_tilted() const;  ///< to the axes, somewhere
+  /// nullptr: none.
   const Condition *find(const std::string &table, const std::string &key) const;
   std::string text() const;  ///< the case file, whose mesh file is `sample.msh`
 };

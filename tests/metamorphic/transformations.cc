@@ -87,11 +87,13 @@ Sample turned(Sample sample, const Eigen::MatrixXd &turn) {
   return sample;
 }
 
+// None in which the program would find a constant out of all sense.
 Units random_units(Random &random) {
-  // Of densities and heat capacities not too far from what the program takes for sensible.
-  const double length = random.sized(0.3, 3), time = random.sized(0.1, 10);
-  const auto one = [&random] { return random.sized(1. / 300, 300); };
-  return {length, one(), one(), one(), time};
+  return {.length = random.sized(0.3, 3),
+          .force = random.sized(1. / 300, 300),
+          .voltage = random.sized(0.01, 100),
+          .temperature = random.sized(1. / 300, 300),
+          .time = random.sized(0.1, 10)};
 }
 
 Sample in_units(Sample sample, const Units &units) {
