@@ -53,7 +53,7 @@ void Composition<dim>::fill_conductors() {
                                                                       Eigen::EigenvaluesOnly)
                                     .eigenvalues()
                                     .maxCoeff());
-  if (largest == 0)  // all metal
+  if (largest == 0)              // all metal
     largest = 8.8541878128e-12;  // of the vacuum
   for (Part &part : parts_)
     if (part.crystal.conductor)
