@@ -11,8 +11,10 @@ using Eigen::MatrixXd;
 struct Quantity {
   std::string table, begin, end;
   Dimension dimension;
-  bool is_vector = false, is_linear = true, is_of_depth = false;  // of a metre of it in 2D
+  bool is_vector = false, is_linear = true;
 
+  // In 2D of a metre of depth: sums over the body, not voltages.
+  bool is_of_depth() const { return table == "history" && dimension.voltage != 1; }
   bool is_place() const { return is_vector && begin.empty(); }
   std::string name() const { return table + " " + begin + "*" + end; }
   bool has(const std::string &column) const {
@@ -22,7 +24,7 @@ struct Quantity {
 };
 
 const std::vector<Quantity> &all_quantities() {
-  constexpr bool vector = true, linear = true, of_depth = true;
+  constexpr bool vector = true;
   constexpr Dimension energy{1, 1}, power{1, 1, 0, 0, -1}, charge{1, 1, -1}, stress{-2, 1};
   static const std::vector<Quantity> all{
       {"nodes", "", "", {1}, vector},  // places
@@ -36,18 +38,18 @@ const std::vector<Quantity> &all_quantities() {
       {"contact", "slip_rate", "", {1, 0, 0, 0, -1}, false, false},
       {"contact", "heat_flux", "", {-1, 1, 0, 0, -1}},
       {"history", "m", "_potential", {0, 0, 1}, false, false},  // least and greatest
-      {"history", "", "_energy", energy, false, false, of_depth},
-      {"history", "", "_power", power, false, false, of_depth},
-      {"history", "", "_loss", power, false, false, of_depth},
-      {"history", "friction_dissipation", "", power, false, false, of_depth},
-      {"history", "load_", "", {0, 1}, vector, linear, of_depth},
-      {"history", "reaction_", "", {0, 1}, vector, linear, of_depth},
-      {"history", "contact_force_", "", {0, 1}, vector, linear, of_depth},
-      {"history", "charge_side", "", charge, false, linear, of_depth},
-      {"history", "electrode_", "_charge", charge, false, linear, of_depth},
+      {"history", "", "_energy", energy, false, false},
+      {"history", "", "_power", power, false, false},
+      {"history", "", "_loss", power, false, false},
+      {"history", "friction_dissipation", "", power, false, false},
+      {"history", "load_", "", {0, 1}, vector},
+      {"history", "reaction_", "", {0, 1}, vector},
+      {"history", "contact_force_", "", {0, 1}, vector},
+      {"history", "charge_side", "", charge},
+      {"history", "electrode_", "_charge", charge},
       {"history", "electrode_", "_voltage", {0, 0, 1}},
-      {"history", "electrode_", "_current", {1, 1, -1, 0, -1}, false, linear, of_depth},
-      {"history", "heat_side", "", power, false, linear, of_depth}};
+      {"history", "electrode_", "_current", {1, 1, -1, 0, -1}},
+      {"history", "heat_side", "", power}};
   return all;
 }
 
@@ -152,7 +154,7 @@ Result image_of(Result result, const Image &image) {
         found != result.quantities.end()) {
       auto &[all, size] = found->second;
       const double factor =
-          image.units.factor(quantity.dimension) / (quantity.is_of_depth ? depth : 1);
+          image.units.factor(quantity.dimension) / (quantity.is_of_depth() ? depth : 1);
       all *= factor;
       size *= factor;
       if (quantity.is_vector)
