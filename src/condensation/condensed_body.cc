@@ -45,6 +45,7 @@ void CondensedBody<dim>::number(const std::vector<body::Prescribed> &prescribed,
   std::vector<bool> taken_out(n_unknowns, false);
   for (const body::Prescribed &p : prescribed)
     taken_out[p.unknown] = true;
+  is_prescribed_ = taken_out;
   for (const Node node : contact_nodes)
     for (int c = 0; c < dim; ++c)
       taken_out[unknown<dim>(node, c)] = false;
@@ -152,7 +153,7 @@ double CondensedBody<dim>::backward_error(std::span<const double> right_side,
   for (std::size_t i = 0; i < residual.size(); ++i)
     residual[i] = force[i] - residual[i];
   for (const std::size_t i : unknown_of_)
-    scales[i] = scale(i);
+    scales[i] = is_prescribed_[i] ? 0 : scale(i);
   return body::backward_error(operator_, step_, scales, residual, force, state);
 }
 

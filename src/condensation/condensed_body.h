@@ -42,7 +42,7 @@ class CondensedBody {
   void expand(const Eigen::VectorXd &c, std::span<double> state);
 
   /// |b - K x| / (|K| |x| + |b|) over the free unknowns, scaled, in the maximum norm; q [N] are the
-  /// forces at the contact.
+  /// forces at the contact, of which those of supports at prescribed components do not count.
   double backward_error(std::span<const double> right_side, std::span<const double> state,
                         const Eigen::VectorXd &q) const;
 
@@ -92,6 +92,7 @@ class CondensedBody {
   std::vector<int> variable_of_;         // by unknown of the body; -1: prescribed
   std::vector<std::size_t> unknown_of_;  // by variable of the matrix
   std::vector<std::size_t> prescribed_;  // unknowns taken out
+  std::vector<bool> is_prescribed_;      // by unknown of the body, also in contact
   std::vector<int> contact_variables_;
   std::vector<bool> is_contact_variable_;
   std::array<double, body::Fields<dim>::count> scale_{};

@@ -56,12 +56,14 @@ void Composition<dim>::add(const casefile::MaterialCase &asked) {
 
 template <int dim>
 void Composition<dim>::fill_conductors() {
-  double largest = 8.8541878128e-12;  // of the vacuum, for a body that is all metal
+  double largest = 0;
   for (const Part &part : parts_)
     largest = std::max(largest, Eigen::SelfAdjointEigenSolver<Tensor>(part.crystal.permittivity,
                                                                       Eigen::EigenvaluesOnly)
                                     .eigenvalues()
                                     .maxCoeff());
+  if (largest == 0)              // all metal
+    largest = 8.8541878128e-12;  // of the vacuum
   for (Part &part : parts_)
     if (part.crystal.conductor)
       part.crystal.permittivity = contrast * largest * Tensor::Identity();

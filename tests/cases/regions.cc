@@ -252,7 +252,7 @@ TEST(Conductor, MayNotHaveTwoElectrodesNorOneOfUnknownVoltageBesideAPotential) {
 }
 
 // The largest entry of a tensor depends on its axes, the largest permittivity does not.
-TEST(Conductor, ItsPermittivityDoesNotDependOnTheAxesInWhichTheOthersAreGiven) {
+TEST(Conductor, ItsPermittivityDependsNeitherOnTheAxesNorOnTheUnitsInWhichTheOthersAreGiven) {
   const auto of = [](const std::string &permittivity) {
     const casefile::Case asked = casefile::read_text(
         with_steel, "case.toml",
@@ -267,6 +267,8 @@ TEST(Conductor, ItsPermittivityDoesNotDependOnTheAxesInWhichTheOthersAreGiven) {
   const double along = of("[[1e-9,0,0],[0,1e-9,0],[0,0,3e-9]]");
   EXPECT_NEAR(along, 1e6 * 3e-9, 1e-12);
   EXPECT_NEAR(of("[[2e-9,0,1e-9],[0,1e-9,0],[1e-9,0,2e-9]]"), along, 1e-14);
+  // With voltages in mV all of them are below the vacuum's in SI units.
+  EXPECT_NEAR(of("[[1e-15,0,0],[0,1e-15,0],[0,0,3e-15]]"), 1e-6 * along, 1e-18);
 }
 
 // A ring of cells that a turn maps onto one another: poled along the radius, it must answer alike

@@ -304,10 +304,10 @@ class HeldFriction : public ::testing::TestWithParam<std::tuple<Variant, const c
     const casefile::Case c = asked(variant.text, variant.overrides, {method});
     Reference<dim> reference(c);
     const output::TemporaryFolder folder;
-    RunOptions options{.quiet = true};
+    run::RunOptions options{.quiet = true};
     if (variant.own_law)
       options.friction = ellipse_at;
-    simulate(c, folder.path(), options);
+    run::simulate(c, folder.path(), options);
     const Table contact = testing::read_table(folder / "contact.csv"),
                 nodes = testing::read_table(folder / "nodes.csv"),
                 history = testing::read_table(folder / "history.csv");

@@ -1,0 +1,77 @@
+#include "run/account.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+
+#include "parallel/ranks.h"
+#include "run/process.h"
+
+namespace tourmaline::run {
+
+namespace {
+
+std::size_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024 * static_cast<std::size_t>(usage.ru_maxrss);
+}
+
+}  // namespace
+
+Account::Account() : start_(process_age()) {}
+
+void Account::step(int n, const solve::StepOutcome &outcome, double seconds) {
+  newton_total_ += outcome.newton_iterations;
+  newton_max_ = std::max(newton_max_, outcome.newton_iterations);
+  if (n == 1)
+    newton_first_ = outcome.newton_iterations;
+  in_steps_ += seconds;
+}
+
+void Account::put(const solve::RouteReport &report, int steps, output::Summary &summary) const {
+  put_iterations(report, summary);
+  summary.factorisations = report.factorisations;
+  if (report.negative_pivots >= 0)
+    summary.negative_pivots = report.negative_pivots;
+  summary.backward_error = report.backward_error;
+  summary.forward_error = report.forward_error;
+  summary.is_refined = report.is_refined;
+  summary.seconds.start = start_;
+  summary.seconds.analyse = report.analyse_seconds;
+  summary.seconds.factorise = report.factorise_seconds;
+  summary.seconds.condense = report.condense_seconds;
+  summary.seconds.step = {in_steps_, in_steps_ / steps, report.substitution_seconds,
+                          report.contact_seconds};
+  summary.seconds.total = before_ + process_age();
+  summary.peak_memory_bytes = parallel::sum(peak_memory());
+}
+
+void Account::put_iterations(const solve::RouteReport &report, output::Summary &summary) const {
+  summary.iterations = {{"newton_total", newton_total_},
+                        {"newton_max", newton_max_},
+                        {"newton_first", newton_first_}};
+  if (report.krylov_iterations > 0) {
+    summary.iterations["krylov_total"] = static_cast<std::int64_t>(report.krylov_iterations);
+    summary.iterations["krylov_max"] = report.krylov_largest;
+    summary.iterations["preconditioners"] = report.preconditioners;
+    summary.iterations["safe_steps"] = report.safe_steps;
+  }
+}
+
+void Account::save(output::SavedNumbers &numbers) const {
+  numbers.put("newton", {double(newton_total_), double(newton_max_), double(newton_first_)});
+  numbers.put("seconds", {in_steps_, before_ + process_age()});
+}
+
+void Account::restore(const output::SavedNumbers &numbers) {
+  const auto newton = numbers.get("newton", 3);
+  newton_total_ = static_cast<int>(newton[0]);
+  newton_max_ = static_cast<int>(newton[1]);
+  newton_first_ = static_cast<int>(newton[2]);
+  const auto seconds = numbers.get("seconds", 2);
+  in_steps_ = seconds[0];
+  before_ = seconds[1];
+}
+
+}  // namespace tourmaline::run

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "output/checkpoint.h"
+#include "output/summary.h"
+#include "solve/route.h"
+
+namespace tourmaline::run {
+
+/// What a run's steps have taken so far, those of earlier processes that it goes on from included.
+class Account {
+ public:
+  Account();
+
+  /// Of step n, which took that long.
+  void step(int n, const solve::StepOutcome &outcome, double seconds);
+
+  /// Iterations, times, memory and the route's own figures, into those entries of a summary.
+  /// Collective.
+  void put(const solve::RouteReport &report, int steps, output::Summary &summary) const;
+
+  void save(output::SavedNumbers &numbers) const;
+  void restore(const output::SavedNumbers &numbers);
+
+ private:
+  void put_iterations(const solve::RouteReport &report, output::Summary &summary) const;
+
+  double start_;         // seconds of this process before it made an account
+  double before_ = 0;    // seconds of the processes that it goes on from
+  double in_steps_ = 0;  // seconds
+  int newton_total_ = 0, newton_max_ = 0, newton_first_ = 0;
+};
+
+}  // namespace tourmaline::run

@@ -1,0 +1,111 @@
+#include "run/chosen_route.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "case/electrodes.h"
+#include "parallel/ranks.h"
+#include "run/available_memory.h"
+#include "run/memory.h"
+#include "solve/condensed_route.h"
+#include "solve/iterative_route.h"
+#include "solve/monolithic_route.h"
+
+namespace tourmaline::run {
+
+namespace {
+
+constexpr double gibibyte = 1 << 30;
+
+template <int dim>
+std::unique_ptr<solve::Route> make_route(const solve::Model<dim> &model, bool iterative) {
+  if (model.asked.solver.method == "monolithic")
+    return solve::monolithic_route(model);
+  if (iterative) {
+    casefile::require_given_voltages(model.asked, "the iterative solver");
+    return solve::iterative_route(model);
+  }
+  return solve::condensed_route(model);
+}
+
+}  // namespace
+
+template <int dim>
+ChosenRoute<dim>::ChosenRoute(const solve::Model<dim> &model, bool iterative,
+                              output::Progress &progress)
+    : model_(model), progress_(progress), iterative_(iterative) {
+  progress_.stage(iterative_ ? "preconditioner" : "factorisation");
+  route_ = make_route(model_, iterative_);
+}
+
+template <int dim>
+solve::StepOutcome ChosenRoute<dim>::advance(int n, std::span<const double> right_side,
+                                             std::span<const double> state,
+                                             std::span<double> next) {
+  if (!iterative_ || model_.asked.solver.body != "automatic")
+    return route_->advance(model_.time(n), right_side, state, next);
+  const std::vector<double> start(next.begin(), next.end());
+  try {
+    return route_->advance(model_.time(n), right_side, state, next);
+  } catch (const SolveError &error) {
+    factorise_after_all(n, error);
+  }
+  std::copy(start.begin(), start.end(), next.begin());
+  return route_->advance(model_.time(n), right_side, state, next);
+}
+
+// "automatic" took the iterative solution to save memory. Where that fails, a factorisation is
+// worth all the memory that there is.
+template <int dim>
+void ChosenRoute<dim>::factorise_after_all(int n, const SolveError &error) {
+  route_.reset();
+  const double needed = factorised_memory(model_.asked), available = available_memory().bytes;
+  if (parallel::from_first(needed > available) != 0)
+    throw SolveError(
+        fmt::format("{} A factorisation needs about {:.3g} GiB of memory, and {:.3g} "
+                    "GiB are available",
+                    error.what(), needed / gibibyte, available / gibibyte));
+  iterative_ = false;
+  direct_from_ = n;
+  progress_.stage("factorisation");
+  route_ = make_route(model_, iterative_);
+}
+
+template <int dim>
+std::vector<std::string> ChosenRoute<dim>::warnings() const {
+  if (direct_from_ > 0)
+    return {fmt::format(
+        "solver.body = \"automatic\": the iterative solution of the body's equations, taken to "
+        "save memory, failed in step {}; from there on they were factorised",
+        direct_from_)};
+  if (iterative_ && model_.asked.solver.body == "automatic")
+    return {fmt::format(
+        "solver.body = \"automatic\": the body's equations were solved iteratively, because a "
+        "factorisation needs about {:.3g} GiB, more than half of what is available",
+        factorised_memory(model_.asked) / gibibyte)};
+  return {};
+}
+
+template <int dim>
+void ChosenRoute<dim>::save(output::SavedNumbers &numbers) const {
+  numbers.put("iterative", {double(iterative_)});
+  numbers.put("direct from", {double(direct_from_)});
+  route_->save(numbers);
+}
+
+template <int dim>
+void ChosenRoute<dim>::restore(const output::SavedNumbers &numbers) {
+  direct_from_ = static_cast<int>(numbers.get("direct from", 1)[0]);
+  route_->restore(numbers);
+}
+
+template <int dim>
+bool ChosenRoute<dim>::was_iterative(const output::SavedNumbers &numbers) {
+  return numbers.get("iterative", 1)[0] != 0;
+}
+
+template class ChosenRoute<2>;
+template class ChosenRoute<3>;
+
+}  // namespace tourmaline::run

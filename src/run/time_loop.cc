@@ -1,0 +1,345 @@
+#include "run/time_loop.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+
+#include "case/interval.h"
+#include "case/resolved.h"
+#include "parallel/ranks.h"
+#include "report/page.h"
+#include "run/memory.h"
+#include "run/plausibility.h"
+#include "run/resumption.h"
+#include "run/step_check.h"
+#include "run/survey.h"
+#include "run/versions.h"
+#include "stopwatch.h"
+#include "tourmaline/contact/friction.h"
+#include "tourmaline/error.h"
+
+namespace tourmaline::run {
+
+// The steps are done: what is missing then is only the page.
+void put_page_in(const std::filesystem::path &directory) {
+  try {
+    report::write_page({directory}, directory / "report.html");
+  } catch (const MachineError &error) {
+    throw MachineError(fmt::format("{}; all other results are in {}, and --resume makes the page",
+                                   error.what(), directory.string()));
+  }
+}
+
+template <int dim>
+solve::Model<dim> announced(const casefile::Case &asked, output::Progress &progress) {
+  progress.stage("mesh and operator");
+  return solve::Model<dim>(asked);
+}
+
+// Evaluates the case's formulas once before anything is written: a formula that is undefined
+// somewhere should not leave a folder behind. Then opens the folder, which may fail, before the
+// factorisation.
+template <int dim>
+TimeLoop<dim>::TimeLoop(const casefile::Case &asked, const std::filesystem::path &directory,
+                        const RunOptions &options, std::optional<output::Checkpoint> checkpoint,
+                        std::unique_ptr<output::FolderLock> lock)
+    : checkpoint_(std::move(checkpoint)),
+      inputs_(parallel::is_first() ? inputs_of(asked) : ""),
+      contents_(parallel::is_first() ? contents_of(asked) : decltype(contents_){}),
+      quiet_(options.quiet),
+      progress_(asked.time.steps, options.quiet || !parallel::is_first()),
+      iterative_(checkpoint_ ? ChosenRoute<dim>::was_iterative(checkpoint_->numbers)
+                             : solves_iteratively(asked)),
+      model_(announced<dim>(asked, progress_)) {
+  state_ = body::initial_state(model_.body, asked.initial);
+  std::vector<double> trial = state_;
+  prescribe(model_.time(1), trial);
+  sum_loads(model_.time(1));
+  for (const auto &node : model_.interface)
+    model_.friction(
+        contact::contact_place(node.point, model_.time(1), Eigen::Matrix<double, dim, 0>{}));
+  if (options.friction)
+    model_.friction = options.friction;
+  open_folder(directory, std::move(lock));
+  recorder_.emplace(model_, *folder_);
+  locking_.emplace(model_);
+  route_.emplace(model_, iterative_, progress_);
+}
+
+template <int dim>
+void TimeLoop<dim>::open_folder(const std::filesystem::path &directory,
+                                std::unique_ptr<output::FolderLock> lock) {
+  const output::Piece piece{parallel::rank(), parallel::n_ranks()};
+  const auto open = [&] {
+    if (checkpoint_)
+      folder_.emplace(directory, dim, piece, *checkpoint_, std::move(lock));
+    else
+      folder_.emplace(directory, dim, piece, std::move(lock));
+  };
+  parallel::on_first([&] {
+    open();
+    folder_->put_case(casefile::resolved(model_.asked));
+  });
+  if (!folder_)
+    open();
+}
+
+// Returns the first step to take.
+template <int dim>
+int TimeLoop<dim>::begin() {
+  if (!checkpoint_) {
+    recorder_->initial(state_);
+    return 1;
+  }
+  restore();
+  done_ = saved_step_ = static_cast<int>(checkpoint_->step);
+  checkpoint_.reset();
+  return done_ + 1;
+}
+
+template <int dim>
+void TimeLoop<dim>::prescribe(double time, std::vector<double> &state) const {
+  for (const body::Prescribed &p : model_.prescribed)
+    state[p.unknown] = p.value.value(p.point, time);
+}
+
+template <int dim>
+void TimeLoop<dim>::sum_loads(double time) {
+  loads_.assign(model_.n_unknowns(), 0.);
+  model_.loads.integrate(time, loads_);
+}
+
+template <int dim>
+void TimeLoop<dim>::step(int n) {
+  Stopwatch watch;
+  sum_loads(model_.time(n));
+  StepCheck(n, model_.time(n)).loads(dim, model_.body.points(), loads_);
+  right_side_ = loads_;
+  if (route_->route().is_refined())
+    model_.cells.add_history(state_, right_side_);
+  else
+    model_.op.add_history(state_, right_side_);
+  next_ = state_;
+  prescribe(model_.time(n), next_);
+  const solve::StepOutcome outcome = route_->advance(n, right_side_, state_, next_);
+  account_.step(n, outcome, watch.lap());
+  const output::HistoryRow row = record(n, outcome);
+  highlights_.see(row);
+  locking_->step(row, next_);
+  progress_.step(row);
+  std::swap(state_, next_);
+  done_ = n;
+}
+
+template <int dim>
+output::HistoryRow TimeLoop<dim>::record(int n, const solve::StepOutcome &outcome) {
+  solve::Route &route = route_->route();
+  return recorder_->step(n, outcome, loads_, state_, next_, route,
+                         [&] { return route.accuracy(right_side_, next_, outcome); });
+}
+
+template <int dim>
+void TimeLoop<dim>::march(int first, Schedule &schedule) {
+  for (int n = first; n <= model_.asked.time.steps; ++n) {
+    step(n);
+    if (n < model_.asked.time.steps)
+      pause(n, schedule.after(n));
+  }
+}
+
+template <int dim>
+void TimeLoop<dim>::pause(int n, const Schedule::Pause &pause) {
+  if (pause.saves)
+    save(n);
+  if (pause.stopped_by != 0)
+    throw Stopped(fmt::format("stopped by {} after step {} of {}; the results of these steps and a "
+                              "checkpoint are in {}",
+                              signal_name(pause.stopped_by), n, model_.asked.time.steps,
+                              folder_->directory().string()),
+                  pause.stopped_by);
+}
+
+template <int dim>
+void TimeLoop<dim>::run() {
+  const int first = begin();
+  Schedule schedule(casefile::interval(model_.asked.output.checkpoint));
+  const output::Summary done = take_steps(first, schedule);
+  // From here on only the page may be missing, which `--resume` makes.
+  parallel::on_first([&] { put_report(); });
+  progress_.done();
+  tell(done, schedule.received());
+}
+
+// The error that ends the steps also says where those before it are.
+template <int dim>
+output::Summary TimeLoop<dim>::take_steps(int first, Schedule &schedule) {
+  try {
+    march(first, schedule);
+    return close_tables(schedule);
+  } catch (const CaseError &error) {
+    keep_what_there_is();
+    throw CaseError(error.what() + what_is_left());
+  } catch (const SolveError &error) {
+    keep_what_there_is();
+    throw SolveError(error.what() + what_is_left());
+  } catch (const MachineError &error) {
+    keep_what_there_is();
+    throw MachineError(
+        error.what() + what_is_left() +
+        (saved_step_ > 0 ? fmt::format("; --resume goes on after step {}", saved_step_) : ""));
+  } catch (const Stopped &) {
+    keep_what_there_is();
+    throw;
+  } catch (const std::exception &) {
+    if (parallel::n_ranks() == 1)  // otherwise the others know nothing of it
+      keep_what_there_is();
+    throw;
+  }
+}
+
+template <int dim>
+std::string TimeLoop<dim>::what_is_left() const {
+  if (done_ == 0)
+    return "; no step has been computed";
+  return fmt::format("; the results of {} of {} are in {}",
+                     done_ == 1 ? "step 1" : fmt::format("steps 1 to {}", done_),
+                     model_.asked.time.steps, folder_->directory().string());
+}
+
+// From now on a signal lets the run be finished: it is nearly done.
+template <int dim>
+output::Summary TimeLoop<dim>::close_tables(Schedule &schedule) {
+  if (parallel::is_first())
+    schedule.answer(
+        "tourmaline: all steps are done; the results are being finished (a second signal ends "
+        "this at once)\n");
+  recorder_->finish(state_);
+  const output::Summary done = summary();
+  parallel::on_first([&] { folder_->put_summary(done); });
+  return done;
+}
+
+double largest_extent(const std::vector<Vector3> &points) {
+  double largest = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto [least, most] =
+        std::minmax_element(points.begin(), points.end(),
+                            [axis](const auto &a, const auto &b) { return a[axis] < b[axis]; });
+    largest = std::max(largest, (*most)[axis] - (*least)[axis]);
+  }
+  return largest;
+}
+
+template <int dim>
+void TimeLoop<dim>::tell(const output::Summary &done, int signal) const {
+  if (!parallel::is_first())
+    return;
+  for (const std::string &warning : done.warnings)
+    std::cerr << "tourmaline: warning: " << warning << '\n';
+  if (signal != 0)
+    std::cerr << fmt::format("tourmaline: {} came when all steps were done; the run is complete\n",
+                             signal_name(signal));
+  if (!quiet_)
+    std::cout << ending_text(dim, highlights_, done.extremes, largest_extent(model_.body.points()))
+              << places_text(folder_->directory()) << std::flush;
+}
+
+// Everything that later steps, or what is told of the run at its end, depend on.
+template <int dim>
+void TimeLoop<dim>::save(int n) {
+  parallel::on_first([&] {
+    output::Checkpoint checkpoint;
+    checkpoint.program = program_version();
+    checkpoint.inputs = inputs_;
+    checkpoint.ranks = parallel::n_ranks();
+    checkpoint.step = n;
+    output::SavedNumbers &numbers = checkpoint.numbers;
+    numbers.put("state", state_);
+    account_.save(numbers);
+    route_->save(numbers);
+    recorder_->save(numbers);
+    highlights_.save(numbers);
+    locking_->save(numbers);
+    folder_->put_checkpoint(std::move(checkpoint));
+  });
+  saved_step_ = n;
+}
+
+template <int dim>
+void TimeLoop<dim>::restore() {
+  const output::SavedNumbers &numbers = checkpoint_->numbers;
+  numbers.fill("state", state_);
+  account_.restore(numbers);
+  route_->restore(numbers);
+  recorder_->restore(state_, numbers);
+  highlights_.restore(numbers);
+  locking_->restore(numbers);
+}
+
+template <int dim>
+void TimeLoop<dim>::put_report() {
+  if (!model_.asked.output.report)
+    return;
+  progress_.stage("report");
+  put_page_in(folder_->directory());
+}
+
+// The error that ended the steps is the one to tell of.
+template <int dim>
+void TimeLoop<dim>::keep_what_there_is() {
+  progress_.done();
+  try {
+    recorder_->finish(state_);
+    parallel::on_first([&] { put_report(); });
+  } catch (const std::exception &) {
+  }
+  progress_.done();
+}
+
+template <int dim>
+output::Summary TimeLoop<dim>::summary() const {
+  const solve::RouteReport report = route_->route().report();
+  output::Summary summary;
+  summary.title = model_.asked.title;
+  summary.version = program_version();
+  summary.components = component_versions();
+  summary.inputs = contents_;
+  summary.sizes = {{"dimension", dim},
+                   {"nodes", model_.body.n_nodes()},
+                   {"cells", model_.body.n_cells()},
+                   {"unknowns", report.unknowns},
+                   {"electric_and_thermal_unknowns", report.electric_and_thermal_unknowns},
+                   {"contact_nodes", model_.interface.size()},
+                   {"factor_entries", report.factor_entries},
+                   {"factor_flops", static_cast<std::int64_t>(report.factor_flops)},
+                   {"steps", model_.asked.time.steps},
+                   {"ranks", parallel::n_ranks()}};
+  account_.put(report, model_.asked.time.steps, summary);
+  summary.seconds.mesh = model_.mesh_seconds;
+  summary.seconds.assemble = model_.assemble_seconds;
+  summary.seconds.output = recorder_->seconds();
+  summary.warnings = warnings();
+  summary.extremes = recorder_->extremes(state_);
+  summary.materials = materials_of(model_.asked);
+  return summary;
+}
+
+template <int dim>
+std::vector<std::string> TimeLoop<dim>::warnings() const {
+  std::vector<std::string> all = recorder_->warnings();
+  for (const std::string &warning : route_->warnings())
+    all.push_back(warning);
+  if (const std::string text = locking_->warning(); !text.empty())
+    all.push_back(text);
+  for (const std::string &text : material_warnings(model_.asked))
+    all.push_back(text);
+  if (const std::string text = strain_warning(model_, std::span(state_)); !text.empty())
+    all.push_back(text);
+  return all;
+}
+
+template class TimeLoop<2>;
+template class TimeLoop<3>;
+
+}  // namespace tourmaline::run

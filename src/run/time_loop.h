@@ -1,0 +1,83 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "output/checkpoint.h"
+#include "output/folder_lock.h"
+#include "output/progress.h"
+#include "output/result_folder.h"
+#include "output/summary.h"
+#include "run/account.h"
+#include "run/chosen_route.h"
+#include "run/ending.h"
+#include "run/locking.h"
+#include "run/recorder.h"
+#include "run/schedule.h"
+#include "solve/model.h"
+#include "tourmaline/case/case.h"
+#include "tourmaline/run/simulation.h"
+
+namespace tourmaline::run {
+
+/// The steps of a run and all that is written while they are taken.
+template <int dim>
+class TimeLoop {
+ public:
+  /// Builds the body and opens the folder; starts behind the checkpoint, if there is one. Throws
+  /// CaseError, SolveError, MachineError.
+  TimeLoop(const casefile::Case &asked, const std::filesystem::path &directory,
+           const RunOptions &options, std::optional<output::Checkpoint> checkpoint,
+           std::unique_ptr<output::FolderLock> lock);
+  /// Takes all steps and finishes the results. Throws the same and Stopped; what was written before
+  /// stays.
+  void run();
+
+ private:
+  void open_folder(const std::filesystem::path &directory,
+                   std::unique_ptr<output::FolderLock> lock);
+  int begin();
+  void march(int first, Schedule &schedule);
+  output::Summary take_steps(int first, Schedule &schedule);
+  void prescribe(double time, std::vector<double> &state) const;
+  void sum_loads(double time);
+  void step(int n);
+  output::HistoryRow record(int n, const solve::StepOutcome &outcome);
+  void pause(int n, const Schedule::Pause &pause);
+  void save(int n);
+  void restore();
+  output::Summary close_tables(Schedule &schedule);
+  void put_report();
+  void keep_what_there_is();
+  std::string what_is_left() const;
+  void tell(const output::Summary &done, int signal) const;
+  output::Summary summary() const;
+  std::vector<std::string> warnings() const;
+
+  Account account_;
+  std::optional<output::Checkpoint> checkpoint_;  // to start from
+  std::string inputs_;                            // of the run, for later checkpoints
+  std::map<std::string, std::string> contents_;   // of the files it reads: digests
+  bool quiet_;
+  output::Progress progress_;
+  bool iterative_;  // decided once: what is available changes with what is taken
+  solve::Model<dim> model_;
+  std::vector<double> state_;  // of the last step that is done
+  std::vector<double> next_, loads_, right_side_;
+  std::optional<output::ResultFolder> folder_;
+  std::optional<Recorder<dim>> recorder_;
+  std::optional<ChosenRoute<dim>> route_;
+  int done_ = 0;        // steps
+  int saved_step_ = 0;  // of the checkpoint that is there; 0: none
+  Highlights highlights_;
+  std::optional<LockingWatch<dim>> locking_;
+};
+
+/// Makes report.html, where all other results are. Throws MachineError.
+void put_page_in(const std::filesystem::path &directory);
+
+}  // namespace tourmaline::run
