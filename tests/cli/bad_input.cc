@@ -247,8 +247,9 @@ TEST_F(Program, CheckSaysWhichCouplingsAMaterialHas) {
       "c11 = 1e11\nc12 = 5e10\nc13 = 5e10\nc33 = 1e11\nc44 = 2e10\nbeta11 = 1e-8\nbeta33 = 1e-8\n"
       "k11 = 1\nk33 = 1\ndensity = 5000\nspecific_heat = 400\nreference_temperature = 293");
   ASSERT_EQ(run("check case.toml"), 0) << complained_;
-  EXPECT_THAT(said_, HasSubstr("# (the whole body), material of the case, class 6mm: not piezoelectric, "
-                               "not pyroelectric, without thermal expansion\n"));
+  EXPECT_THAT(said_,
+              HasSubstr("# (the whole body), material of the case, class 6mm: not piezoelectric, "
+                        "not pyroelectric, without thermal expansion\n"));
   ASSERT_EQ(run("check case.toml --set material.d33=3e-11"), 2);
   EXPECT_THAT(complained_, HasSubstr("piezoelectric constants d31, d15 (d33 is given"));
 }

@@ -44,9 +44,9 @@ TEST(Ending, ACoordinateThatIsRoundOffBesideTheBodysSizeIsZero) {
   highlights.see(row(1, 0, 0));
   EXPECT_THAT(ending_text(2, highlights, rounded, 1),
               HasSubstr("-1 V at (0, 0) to 3 V at (0, 0.001)"));
-  // A body of nanometres.
+  // In a body of nanometres it is a place.
   EXPECT_THAT(ending_text(2, highlights, rounded, 1e-9),
-              HasSubstr("-1 V at (0, 0) to 3 V at (2e-13, 0.001)"));
+              HasSubstr("-1 V at (1.2e-18, -3e-17) to 3 V at (2e-13, 0.001)"));
 }
 
 TEST(Ending, WithoutContactThereIsNoneToTell) {

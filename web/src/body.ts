@@ -125,8 +125,8 @@ export class Body {
     this.material.uniforms.colours.value = look.range.signed ? this.maps.signed : this.maps.even;
   }
 
-  /** What the body covers of the scene over all states, with the arrows of its poling. */
-  reach(scale: number): { low: number[]; high: number[] } {
+  /** What the body covers of the scene over all states; of a thin body the arrows of its poling reach beyond it. */
+  reach(scale: number, arrows: boolean): { low: number[]; high: number[] } {
     const low = [0, 0, 0], high = [0, 0, 0];
     const cover = (at: number, c: number) => {
       low[c] = Math.min(low[c], at);
@@ -139,7 +139,7 @@ export class Body {
       for (let i = 0, node = c; i < u.length; ++i, node = node + 3 < points.length ? node + 3 : c)
         cover((points[node] - this.centre[c] + scale * u[i]) / this.size, c);
     });
-    if (this.result.poling) this.inScene(this.result.poling).forEach((at, i) => cover(at, i % 3));
+    if (arrows && this.result.poling) this.inScene(this.result.poling).forEach((at, i) => cover(at, i % 3));
     return { low, high };
   }
 

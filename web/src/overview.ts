@@ -12,8 +12,8 @@ import { coloursOf, groupsOf, legend } from './setting';
 import { Timeline } from './timeline';
 
 /** A camera that has the body in view at every moment. */
-export function homeCamera(body: Body): Camera {
-  const { low, high } = body.reach(body.suitableScale);
+export function homeCamera(body: Body, arrows = false): Camera {
+  const { low, high } = body.reach(body.suitableScale, arrows);
   const middle = low.map((v, c) => (v + high[c]) / 2) as [number, number, number];
   const half = low.map((v, c) => (high[c] - v) / 2);
   if (body.result.dimension === 3) {
@@ -50,7 +50,7 @@ export class Overview {
         element('figcaption', {}, heading), picture.canvas, below));
     };
     if (result.boundaries.length > 0)
-      add('Physical setting', new Picture(body, camera, coloursOf(groups)),
+      add('Physical setting', new Picture(body, homeCamera(body, true), coloursOf(groups)),
         () => ({ state: 0, scale: 0, mesh: false, component: '', range: even }), legend(groups, result));
     const plain = result.field('displacement');
     if (plain)
