@@ -31,8 +31,8 @@ double relative_size(std::span<const double> change, std::span<const double> sta
   constexpr double nothing = 1e-6;  // of the largest field
   std::array<double, 3> sizes{}, changes{};
   for (std::size_t i = 0; i < state.size(); ++i) {
-    const int component = static_cast<int>(i % Fields<dim>::count);
-    const int field = std::max(0, component - dim + 1);
+    const std::size_t component = i % Fields<dim>::count;
+    const int field = field_of<dim>(i);
     sizes[field] = larger(sizes[field], std::abs(state[i]) / scale[component]);
     changes[field] = larger(changes[field], std::abs(change[i]) / scale[component]);
   }

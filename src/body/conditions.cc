@@ -72,6 +72,13 @@ std::vector<double> initial_state(const Discretisation<dim> &body,
   return state;
 }
 
+std::vector<bool> mask_of(const std::vector<Prescribed> &prescribed, std::size_t n_unknowns) {
+  std::vector<bool> mask(n_unknowns, false);
+  for (const Prescribed &p : prescribed)
+    mask[p.unknown] = true;
+  return mask;
+}
+
 template std::vector<Prescribed> prescribed_unknowns<2>(
     const Discretisation<2> &, const std::vector<casefile::BoundaryCase> &,
     const std::vector<casefile::ElectrodeCase> &);

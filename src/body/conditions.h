@@ -27,6 +27,9 @@ std::vector<Prescribed> prescribed_unknowns(
     const Discretisation<dim> &body, const std::vector<casefile::BoundaryCase> &boundaries,
     const std::vector<casefile::ElectrodeCase> &electrodes = {});
 
+/// By unknown of the body, whether it is prescribed.
+std::vector<bool> mask_of(const std::vector<Prescribed> &prescribed, std::size_t n_unknowns);
+
 /// The nodes that each electrode holds. Throws CaseError for an electrode that holds none because
 /// other conditions stand first at all of them.
 template <int dim>

@@ -80,7 +80,7 @@ class Discretisation {
                      Modes modes = Modes::none) const;
   /// The same at the points where derivatives of the fields are one order more accurate than
   /// elsewhere (Barlow 1976): the centre for degree 1; for degree 2 Gauss's points, two in each
-  /// direction or as many on a simplex as it has corners.
+  /// direction, or on a simplex those of a symmetric rule for cubics.
   void for_each_cell_sampled(const std::function<void(const Quadrature<dim> &)> &visit) const;
   /// Calls `visit` for every facet of the named boundaries on this rank. Throws CaseError for an
   /// unknown name.

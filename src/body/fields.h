@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "body/discretisation.h"
 
 namespace tourmaline::body {
@@ -14,6 +16,13 @@ struct Fields {
 template <int dim>
 constexpr std::size_t unknown(Node node, int component) {
   return std::size_t{node} * Fields<dim>::count + component;
+}
+
+/// The field that an unknown, or a component of a node, belongs to: 0 displacement, 1 potential,
+/// 2 temperature.
+template <int dim>
+constexpr int field_of(std::size_t unknown) {
+  return std::max(0, static_cast<int>(unknown % Fields<dim>::count) - dim + 1);
 }
 
 }  // namespace tourmaline::body

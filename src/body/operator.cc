@@ -1,6 +1,7 @@
 #include "body/operator.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "cell_block.h"
 #include "parallel/ranks.h"
@@ -212,6 +213,18 @@ std::vector<double> Operator<dim>::diagonal(double step) const {
         Vector<n>::Map(&diagonal[unknown<dim>(i, 0)]) = step_block(e, step).diagonal();
   parallel::sum(diagonal);
   return diagonal;
+}
+
+template <int dim>
+std::array<double, Operator<dim>::n> Operator<dim>::scales(double step) const {
+  const std::vector<double> entries = diagonal(step);
+  std::array<double, 3> largest{};
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    largest[field_of<dim>(i)] = std::max(largest[field_of<dim>(i)], std::abs(entries[i]));
+  std::array<double, n> scales;
+  for (int c = 0; c < n; ++c)
+    scales[c] = 1 / std::sqrt(largest[field_of<dim>(c)]);
+  return scales;
 }
 
 template <int dim>

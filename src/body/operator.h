@@ -81,6 +81,10 @@ class Operator {
   /// The diagonal of storage - step / theta_ref G.
   std::vector<double> diagonal(double step) const;
 
+  /// Of each component of a node, 1 / sqrt(largest diagonal entry of its field): in unknowns that
+  /// are measured by it the fields' blocks are of one size.
+  std::array<double, n> scales(double step) const;
+
   /// |storage - step / theta_ref G| |x|, entry by entry, the size of the terms of a product; on
   /// several ranks at most that of their shares.
   std::vector<double> sizes(double step, std::span<const double> x) const;

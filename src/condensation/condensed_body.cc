@@ -22,9 +22,8 @@ template <int dim>
 CondensedBody<dim>::CondensedBody(const body::Operator<dim> &op, double step,
                                   const std::vector<body::Prescribed> &prescribed,
                                   const std::vector<Node> &contact_nodes, int threads)
-    : operator_(op), step_(step) {
+    : operator_(op), step_(step), scale_(op.scales(step)) {
   number(prescribed, contact_nodes);
-  scale_fields();
   std::vector<double> scales;
   for (const std::size_t i : unknown_of_)
     scales.push_back(scale(i));
@@ -42,10 +41,8 @@ template <int dim>
 void CondensedBody<dim>::number(const std::vector<body::Prescribed> &prescribed,
                                 const std::vector<Node> &contact_nodes) {
   const std::size_t n_unknowns = operator_.graph().n_nodes() * Fields<dim>::count;
-  std::vector<bool> taken_out(n_unknowns, false);
-  for (const body::Prescribed &p : prescribed)
-    taken_out[p.unknown] = true;
-  is_prescribed_ = taken_out;
+  is_prescribed_ = body::mask_of(prescribed, n_unknowns);
+  std::vector<bool> taken_out = is_prescribed_;
   for (const Node node : contact_nodes)
     for (int c = 0; c < dim; ++c)
       taken_out[unknown<dim>(node, c)] = false;
@@ -57,7 +54,7 @@ void CondensedBody<dim>::number(const std::vector<body::Prescribed> &prescribed,
     }
     variable_of_[i] = static_cast<int>(unknown_of_.size());
     unknown_of_.push_back(i);
-    n_electric_and_thermal_ += i % Fields<dim>::count >= dim;
+    n_electric_and_thermal_ += body::field_of<dim>(i) > 0;
   }
   for (const Node node : contact_nodes)
     for (int c = 0; c < dim; ++c)
@@ -65,19 +62,6 @@ void CondensedBody<dim>::number(const std::vector<body::Prescribed> &prescribed,
   is_contact_variable_.assign(unknown_of_.size(), false);
   for (const int v : contact_variables_)
     is_contact_variable_[v] = true;
-}
-
-template <int dim>
-void CondensedBody<dim>::scale_fields() {
-  const std::vector<double> diagonal = operator_.diagonal(step_);
-  std::array<double, Fields<dim>::count> largest{};
-  for (std::size_t i = 0; i < diagonal.size(); ++i)
-    largest[i % Fields<dim>::count] =
-        larger(largest[i % Fields<dim>::count], std::abs(diagonal[i]));
-  const double mechanical = *std::max_element(largest.begin(), largest.begin() + dim);
-  std::fill(largest.begin(), largest.begin() + dim, mechanical);
-  for (int c = 0; c < Fields<dim>::count; ++c)
-    scale_[c] = 1 / std::sqrt(largest[c]);
 }
 
 // Nodes in the order of nested dissection, each with its unknowns; the contact displacements last.

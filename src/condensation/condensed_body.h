@@ -72,7 +72,6 @@ class CondensedBody {
  private:
   void number(const std::vector<body::Prescribed> &prescribed,
               const std::vector<body::Node> &contact_nodes);
-  void scale_fields();
   std::vector<int> elimination_order() const;
   bool is_contact_variable(std::size_t v) const { return is_contact_variable_[v]; }
   Eigen::VectorXd residual_inside(const body::CellProducts<dim> &cells,
@@ -95,7 +94,7 @@ class CondensedBody {
   std::vector<bool> is_prescribed_;      // by unknown of the body, also in contact
   std::vector<int> contact_variables_;
   std::vector<bool> is_contact_variable_;
-  std::array<double, body::Fields<dim>::count> scale_{};
+  std::array<double, body::Fields<dim>::count> scale_;
   std::size_t n_electric_and_thermal_ = 0;
   std::optional<Factorisation> factorisation_;
   Eigen::MatrixXd stiffness_;

@@ -92,7 +92,6 @@ struct BodySystem<dim>::Parts {
   Parts &operator=(const Parts &) = delete;
 
   void number_rows();
-  void scale_fields();
   void preallocate();
   void make_solver(const std::vector<Vector3> &points);
   IS field(int first, int count) const;
@@ -102,6 +101,10 @@ struct BodySystem<dim>::Parts {
   void note_held_nodes();
   void project_own(PetscScalar *own) const;
   static PetscErrorCode multiply_free(Mat free, Vec x, Vec y);
+  std::vector<double> in_si(Vec scaled) const;
+  void put_rows(std::span<const double> rows, Vec scaled) const;
+  void project(std::span<double> vector) const;
+  void multiply_cells(Vec x, Vec y) const;
   Block block_of(Node node) const;
   void put_contact();
   void precondition();
@@ -121,7 +124,8 @@ struct BodySystem<dim>::Parts {
   std::vector<Node> node_of;          // by row
   std::vector<PetscInt> begin;        // of each rank's rows, and the end
   std::vector<std::pair<PetscInt, Block>> held;  // own rows, from the first one on, where Q != 1
-  std::array<double, n> scale{};
+  std::array<double, n> scale;
+  const body::CellProducts<dim> *cells = nullptr;  // once refined
   Mat matrix = nullptr;  // Q (K + C) Q + 1 - Q, as the preconditioner needs it
   Mat free = nullptr;    // its product with Q x, which the Krylov iteration takes
   Vec right_side = nullptr, solution = nullptr, projected = nullptr;
@@ -132,7 +136,10 @@ struct BodySystem<dim>::Parts {
 
 template <int dim>
 BodySystem<dim>::Parts::Parts(const body::Operator<dim> &the_operator, double the_step)
-    : op(the_operator), step(the_step), contact_index(the_operator.graph().n_nodes(), -1) {}
+    : op(the_operator),
+      step(the_step),
+      contact_index(the_operator.graph().n_nodes(), -1),
+      scale(the_operator.scales(the_step)) {}
 
 template <int dim>
 BodySystem<dim>::Parts::~Parts() {
@@ -165,16 +172,6 @@ void BodySystem<dim>::Parts::number_rows() {
     ++begin[static_cast<std::size_t>(-closeness[node_of[row]]) + 1];
   }
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
-}
-
-template <int dim>
-void BodySystem<dim>::Parts::scale_fields() {
-  const std::vector<double> diagonal = op.diagonal(step);
-  for (std::size_t i = 0; i < diagonal.size(); ++i)
-    scale[i % n] = std::max(scale[i % n], std::abs(diagonal[i]));
-  std::fill_n(scale.begin(), dim, *std::max_element(scale.begin(), scale.begin() + dim));
-  for (double &s : scale)
-    s = 1 / std::sqrt(s);
 }
 
 // Where ranks meet, a row has at most the entries that they have in it together.
@@ -327,8 +324,52 @@ PetscErrorCode BodySystem<dim>::Parts::multiply_free(Mat free, Vec x, Vec y) {
   PetscCall(VecGetArray(in->projected, &own));
   in->project_own(own);
   PetscCall(VecRestoreArray(in->projected, &own));
-  PetscCall(MatMult(in->matrix, in->projected, y));
+  if (in->cells != nullptr)
+    in->multiply_cells(in->projected, y);
+  else
+    PetscCall(MatMult(in->matrix, in->projected, y));
   PetscFunctionReturn(0);
+}
+
+// Unknowns of the whole body.
+template <int dim>
+std::vector<double> BodySystem<dim>::Parts::in_si(Vec scaled) const {
+  const PetscScalar *own = nullptr;
+  check(VecGetArrayRead(scaled, &own));
+  const std::vector<double> all = parallel::joined(std::vector<double>(own, own + own_count() * n));
+  check(VecRestoreArrayRead(scaled, &own));
+  std::vector<double> state(all.size());
+  for (std::size_t row = 0; row < node_of.size(); ++row)
+    for (int c = 0; c < n; ++c)
+      state[unknown<dim>(node_of[row], c)] = scale[c] * all[row * n + c];
+  return state;
+}
+
+// This rank's share of rows of the whole body, the electric and heat rows with their sign.
+template <int dim>
+void BodySystem<dim>::Parts::put_rows(std::span<const double> rows, Vec scaled) const {
+  PetscScalar *own = nullptr;
+  check(VecGetArray(scaled, &own));
+  for (PetscInt i = 0; i < own_count() * n; ++i) {
+    const int c = i % n;
+    own[i] = (c < dim ? 1 : -1) * scale[c] * rows[unknown<dim>(node_of[own_begin() + i / n], c)];
+  }
+  check(VecRestoreArray(scaled, &own));
+}
+
+// Q (K + C) x for an x in the range of Q.
+template <int dim>
+void BodySystem<dim>::Parts::multiply_cells(Vec x, Vec y) const {
+  using Vector = Eigen::Matrix<double, dim, 1>;
+  const std::vector<double> state = in_si(x);
+  std::vector<double> rows(state.size());
+  cells->multiply(step, state, rows);
+  for (const NodeTangent<dim> &at : contact) {
+    const std::size_t first = unknown<dim>(at.node, 0);
+    Vector::Map(&rows[first]) += at.stiffness * Vector::Map(&state[first]);
+  }
+  project(rows);
+  put_rows(rows, y);
 }
 
 template <int dim>
@@ -373,11 +414,8 @@ BodySystem<dim>::BodySystem(const body::Operator<dim> &op, double step,
     : parts_(std::make_unique<Parts>(op, step)) {
   start();
   Stopwatch watch;
-  parts_->is_prescribed.assign(op.graph().n_nodes() * Parts::n, false);
-  for (const body::Prescribed &p : prescribed)
-    parts_->is_prescribed[p.unknown] = true;
+  parts_->is_prescribed = body::mask_of(prescribed, op.graph().n_nodes() * Parts::n);
   parts_->number_rows();
-  parts_->scale_fields();
   parts_->preallocate();
   parts_->make_solver(points);
   parts_->set_up_seconds = watch.lap();
@@ -419,16 +457,34 @@ void BodySystem<dim>::refresh() {
 }
 
 template <int dim>
+void BodySystem<dim>::refine(const body::CellProducts<dim> &cells) {
+  parts_->cells = &cells;
+  // Stiff parts on soft ones take the basis its orthogonality: without this the iteration sees a
+  // residual that is not there.
+  check(KSPGMRESSetCGSRefinementType(parts_->solver, KSP_GMRES_CGS_REFINE_ALWAYS));
+}
+
+template <int dim>
+bool BodySystem<dim>::is_refined() const {
+  return parts_->cells != nullptr;
+}
+
+template <int dim>
 void BodySystem<dim>::project(std::span<double> vector) const {
+  parts_->project(vector);
+}
+
+template <int dim>
+void BodySystem<dim>::Parts::project(std::span<double> vector) const {
   using Vector = Eigen::Matrix<double, dim, 1>;
-  for (const auto &at : parts_->contact) {
+  for (const auto &at : contact) {
     const auto u = Vector::Map(&vector[unknown<dim>(at.node, 0)]);
-    const Vector projected = at.projector * u;
-    std::copy(projected.begin(), projected.end(), &vector[unknown<dim>(at.node, 0)]);
+    const Vector free_part = at.projector * u;
+    std::copy(free_part.begin(), free_part.end(), &vector[unknown<dim>(at.node, 0)]);
   }
   for (std::size_t i = 0; i < vector.size(); ++i) {
-    const bool projected = i % Parts::n < dim && parts_->contact_index[i / Parts::n] >= 0;
-    if (parts_->is_prescribed[i] && !projected)
+    const bool is_projected = i % n < dim && contact_index[i / n] >= 0;
+    if (is_prescribed[i] && !is_projected)
       vector[i] = 0;
   }
 }
@@ -437,30 +493,23 @@ template <int dim>
 Solved BodySystem<dim>::solve(std::span<const double> right_side, double reduction,
                               std::span<double> solution) {
   Parts &in = *parts_;
-  PetscScalar *values = nullptr;
-  check(VecGetArray(in.right_side, &values));
-  for (PetscInt i = 0; i < in.own_count() * Parts::n; ++i) {
-    const int c = i % Parts::n;
-    const Node node = in.node_of[in.own_begin() + i / Parts::n];
-    values[i] = (c < dim ? 1 : -1) * in.scale[c] * right_side[unknown<dim>(node, c)];
-  }
-  check(VecRestoreArray(in.right_side, &values));
+  in.put_rows(right_side, in.right_side);
   check(KSPSetTolerances(in.solver, reduction, 1e-300, PETSC_DEFAULT, PETSC_DEFAULT));
   check(KSPSolve(in.solver, in.right_side, in.solution));
   KSPConvergedReason reason{};
   PetscInt iterations = 0;
   check(KSPGetConvergedReason(in.solver, &reason));
   check(KSPGetIterationNumber(in.solver, &iterations));
-  const PetscScalar *found = nullptr;
-  check(VecGetArrayRead(in.solution, &found));
-  const std::vector<double> all =
-      parallel::joined(std::vector<double>(found, found + in.own_count() * Parts::n));
-  check(VecRestoreArrayRead(in.solution, &found));
-  for (std::size_t row = 0; row < in.node_of.size(); ++row)
-    for (int c = 0; c < Parts::n; ++c)
-      solution[unknown<dim>(in.node_of[row], c)] = in.scale[c] * all[row * Parts::n + c];
+  const std::vector<double> found = in.in_si(in.solution);
+  std::copy(found.begin(), found.end(), solution.begin());
   project(solution);
   return {static_cast<int>(iterations), reason > 0};
+}
+
+template <int dim>
+double BodySystem<dim>::relative_size(std::span<const double> change,
+                                      std::span<const double> state) const {
+  return body::relative_size<dim>(change, state, parts_->scale);
 }
 
 template <int dim>

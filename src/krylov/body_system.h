@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "body/cell_products.h"
 #include "body/conditions.h"
 #include "body/operator.h"
 #include "output/checkpoint.h"
@@ -53,12 +54,21 @@ class BodySystem {
   /// Makes the preconditioner that of the matrix as it is now, unless it is.
   void refresh();
 
+  /// From now on the iteration takes its products with K cell by cell; the preconditioner stays
+  /// that of the assembled matrix. Where its entries' round-off decides, thin bodies and constants
+  /// that differ by many powers of ten, only this finds the solution. `cells` outlives this object.
+  void refine(const body::CellProducts<dim> &cells);
+  bool is_refined() const;
+
   /// Solves for a projected right-hand side r until the residual is `reduction` times r, in scaled
   /// unknowns. The solution is in the range of Q: exactly zero in prescribed unknowns.
   Solved solve(std::span<const double> right_side, double reduction, std::span<double> solution);
 
   /// Q r.
   void project(std::span<double> vector) const;
+
+  /// body::relative_size of a change of the state.
+  double relative_size(std::span<const double> change, std::span<const double> state) const;
 
   /// body::backward_error of a projected residual.
   double backward_error(std::span<const double> residual, std::span<const double> right_side,

@@ -59,8 +59,8 @@ bool gives_tensor(const MaterialCase &given, const std::string &kind) {
   });
 }
 
-// One of the constants that say something of the kind; empty: none does. One that its class does not
-// have is another mistake.
+// One of the constants that say something of the kind; empty: none does. One that its class does
+// not have is another mistake.
 std::string given_constant(const MaterialCase &given, const std::string &kind) {
   for (const auto &[key, value] : given.constants)
     if (casefile::form_of(key).kind == kind &&

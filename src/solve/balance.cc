@@ -12,6 +12,7 @@
 namespace tourmaline::solve {
 
 using body::Energies;
+using body::field_of;
 using body::Fields;
 using body::LoadKind;
 
@@ -49,10 +50,11 @@ struct Balance<dim>::Step {
   std::vector<double> contact;    // by unknown [N]
   std::vector<double> friction;   // the part of it that opposes the slip
   std::vector<double> charges, charges_before;
-  double stored_before = 0;  // [J]
+  Energies stored_before;  // [J]
   // Of the sums: forces [N], charges [C], heats [W], energies [J].
   struct RoundOff {
-    double force = 0, charge = 0, heat = 0, energy = 0;
+    double force = 0, charge = 0, heat = 0;
+    std::array<double, 3> energy{};  // by field
   } round_off;
   std::vector<double> heat_supplied;  // by node, at prescribed temperatures [W]
 
@@ -70,10 +72,10 @@ template <int dim, class Value, class Product>
 Energies energy_of(std::size_t n, const Value &value, const Product &product) {
   Energies energy;
   for (std::size_t i = 0; i < n; ++i) {
-    const int component = static_cast<int>(i % Fields<dim>::count);
-    if (component < dim) {
+    const int field = field_of<dim>(i);
+    if (field == 0) {
       energy.elastic += value(i) * product(0, i) / 2;
-    } else if (component == Fields<dim>::potential) {
+    } else if (field == 1) {
       energy.electric -= value(i) * product(1, i) / 2;
       energy.coupling -= value(i) * product(2, i);
     } else {
@@ -81,6 +83,32 @@ Energies energy_of(std::size_t n, const Value &value, const Product &product) {
     }
   }
   return energy;
+}
+
+// The coupling's part is that of phi, which theta is coupled to where there is any.
+std::array<double, 3> by_field(const Energies &energy) {
+  return {energy.elastic, energy.electric + energy.coupling, energy.thermal};
+}
+
+// Which fields (u, phi, theta) have anything to do with one another, over others as well.
+template <int dim>
+std::array<std::array<bool, 3>, 3> coupled_fields(const body::Operator<dim> &op, double step,
+                                                  std::size_t n_unknowns) {
+  std::array<std::array<bool, 3>, 3> coupled{};
+  for (int g = 0; g < 3; ++g) {
+    std::vector<double> of_one(n_unknowns);
+    for (std::size_t i = 0; i < n_unknowns; ++i)
+      of_one[i] = field_of<dim>(i) == g;
+    const std::vector<double> rows = op.sizes(step, of_one);
+    for (std::size_t i = 0; i < n_unknowns; ++i)
+      if (rows[i] > 0)
+        coupled[field_of<dim>(i)][g] = true;
+  }
+  for (int over = 0; over < 3; ++over)
+    for (int f = 0; f < 3; ++f)
+      for (int g = 0; g < 3; ++g)
+        coupled[f][g] = coupled[f][g] || (coupled[f][over] && coupled[over][g]);
+  return coupled;
 }
 
 }  // namespace
@@ -101,20 +129,21 @@ Energies Balance<dim>::Step::energy_of_change() const {
 
 template <int dim>
 Balance<dim>::Balance(const Model<dim> &model, std::span<const double> initial)
-    : model_(model), state_(initial.begin(), initial.end()), is_prescribed_(initial.size(), false) {
+    : model_(model),
+      state_(initial.begin(), initial.end()),
+      is_prescribed_(body::mask_of(model.prescribed, initial.size())) {
   model.op.multiply_by_field(initial, products_);
   if (!model.electrodes.empty())
     electrode_charges_ = initial_charges(model, initial);
   stored_ = energy_of<dim>(
-                initial.size(), [&](std::size_t i) { return initial[i]; },
-                [&](int field, std::size_t i) { return products_.of[field][i]; })
-                .sum();
+      initial.size(), [&](std::size_t i) { return initial[i]; },
+      [&](int field, std::size_t i) { return products_.of[field][i]; });
   smallest_heat_ = smallest_heat();
+  coupled_ = coupled_fields(model.op, model.step, initial.size());
   charges_.assign(initial.size(), 0.);
   for (std::size_t i = Fields<dim>::potential; i < initial.size(); i += Fields<dim>::count)
     charges_[i] = products_.sum(i);
   for (const body::Prescribed &p : model.prescribed) {
-    is_prescribed_[p.unknown] = true;
     const int component = static_cast<int>(p.unknown % Fields<dim>::count);
     if (component == Fields<dim>::temperature)
       add_once(heat_boundaries_, p.boundary);
@@ -194,7 +223,7 @@ typename Balance<dim>::Step Balance<dim>::step_of(double time, std::span<const d
                                                   std::span<const double> state,
                                                   bool cell_by_cell) {
   Step step{time, loads, state, state_, products(state, cell_by_cell), {}, {}, {}, {}, {},
-            {},   0,     {},    {}};
+            {},   {},    {},    {}};
   step.products_before = cell_by_cell ? products(state_, true) : std::move(products_);
   step.conducted = cell_by_cell ? model_.cells.conducted(state) : model_.op.conducted(state);
   step.contact = by_unknown(outcome.contact_forces);
@@ -220,34 +249,9 @@ typename Balance<dim>::Step Balance<dim>::step_of(double time, std::span<const d
   step.stored_before = stored_;
   if (cell_by_cell)
     step.stored_before = energy_of<dim>(
-                             state_.size(), [&](std::size_t i) { return state_[i]; },
-                             [&](int f, std::size_t i) { return step.products_before.of[f][i]; })
-                             .sum();
+        state_.size(), [&](std::size_t i) { return state_[i]; },
+        [&](int f, std::size_t i) { return step.products_before.of[f][i]; });
   return step;
-}
-
-// Which fields (u, phi, theta) have anything to do with one another, over others as well.
-template <int dim>
-std::array<std::array<bool, 3>, 3> coupled_fields(const body::Operator<dim> &op, double step,
-                                                  std::size_t n_unknowns) {
-  const auto field = [](std::size_t i) {
-    return std::max(0, static_cast<int>(i % Fields<dim>::count) - dim + 1);
-  };
-  std::array<std::array<bool, 3>, 3> coupled{};
-  for (int g = 0; g < 3; ++g) {
-    std::vector<double> of_one(n_unknowns);
-    for (std::size_t i = 0; i < n_unknowns; ++i)
-      of_one[i] = field(i) == g;
-    const std::vector<double> rows = op.sizes(step, of_one);
-    for (std::size_t i = 0; i < n_unknowns; ++i)
-      if (rows[i] > 0)
-        coupled[field(i)][g] = true;
-  }
-  for (int over = 0; over < 3; ++over)
-    for (int f = 0; f < 3; ++f)
-      for (int g = 0; g < 3; ++g)
-        coupled[f][g] = coupled[f][g] || (coupled[f][over] && coupled[over][g]);
-  return coupled;
 }
 
 // A solution is uncertain by the round-off of the largest scaled unknown of the fields that are
@@ -258,27 +262,20 @@ template <int dim>
 void Balance<dim>::measure_round_off(Step &step) const {
   constexpr double eps = std::numeric_limits<double>::epsilon(), several = 1e2;
   const std::vector<double> diagonal = model_.op.diagonal(model_.step);
-  std::array<double, Fields<dim>::count> largest{};
-  for (std::size_t i = 0; i < diagonal.size(); ++i)
-    largest[i % Fields<dim>::count] =
-        larger(largest[i % Fields<dim>::count], std::abs(diagonal[i]));
-  const auto field = [](std::size_t i) {
-    return std::max(0, static_cast<int>(i % Fields<dim>::count) - dim + 1);
-  };
+  const auto scale = model_.op.scales(model_.step);
   std::array<double, 3> own{}, whole{};  // the largest scaled unknown, by field
   for (std::size_t i = 0; i < diagonal.size(); ++i)
-    own[field(i)] =
-        larger(own[field(i)], larger(std::abs(step.state[i]), std::abs(step.before[i])) *
-                                  std::sqrt(largest[i % Fields<dim>::count]));
-  const auto coupled = coupled_fields(model_.op, model_.step, diagonal.size());
+    own[field_of<dim>(i)] =
+        larger(own[field_of<dim>(i)], larger(std::abs(step.state[i]), std::abs(step.before[i])) /
+                                          scale[i % Fields<dim>::count]);
   for (int f = 0; f < 3; ++f)
     for (int g = 0; g < 3; ++g)
-      if (coupled[f][g])
+      if (coupled_[f][g])
         whole[f] = larger(whole[f], own[g]);
   std::vector<double> uncertain(diagonal.size());
   std::array<double, 3> most{};  // of the prescribed values, by field
   for (std::size_t i = 0; i < diagonal.size(); ++i)
-    uncertain[i] = eps * whole[field(i)] / std::sqrt(largest[i % Fields<dim>::count]);
+    uncertain[i] = eps * whole[field_of<dim>(i)] * scale[i % Fields<dim>::count];
   // Some neighbours' share of the row in its own field. Couplings to other fields do not count: no
   // larger in a sound case, they would excuse any imbalance of constants out of all proportion.
   constexpr double neighbours = 10;
@@ -287,28 +284,26 @@ void Balance<dim>::measure_round_off(Step &step) const {
     rows[i] = neighbours * std::abs(diagonal[i]) * uncertain[i];
   const double watt = model_.op.reference_temperature() / model_.step;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const int component = static_cast<int>(i % Fields<dim>::count);
-    if (component < dim)
+    const int field = field_of<dim>(i);
+    if (field == 0)
       step.round_off.force += rows[i];
-    else if (component == Fields<dim>::potential)
+    else if (field == 1)
       step.round_off.charge += rows[i];
     else
       step.round_off.heat += watt * rows[i];
-    step.round_off.energy += several * rows[i] * uncertain[i];
+    step.round_off.energy[field] += several * rows[i] * uncertain[i];
   }
   // What moves or holds prescribed values works against that round-off.
   for (const body::Prescribed &p : model_.prescribed) {
-    const int component = static_cast<int>(p.unknown % Fields<dim>::count);
-    if (component < dim)
-      most[0] = larger(most[0], std::abs(step.change(p.unknown)));
-    else
-      most[component - dim + 1] =
-          larger(most[component - dim + 1], std::abs(step.state[p.unknown]));
+    const int field = field_of<dim>(p.unknown);
+    most[field] =
+        larger(most[field], std::abs(field == 0 ? step.change(p.unknown) : step.state[p.unknown]));
   }
-  step.round_off.energy += most[0] * step.round_off.force + most[1] * step.round_off.charge +
-                           most[2] * step.round_off.heat / watt;
-  step.round_off.energy +=
-      several * eps * (std::abs(step.energy().sum()) + std::abs(step.stored_before));
+  const std::array<double, 3> work{most[0] * step.round_off.force, most[1] * step.round_off.charge,
+                                   most[2] * step.round_off.heat / watt};
+  const std::array<double, 3> now = by_field(step.energy()), before = by_field(step.stored_before);
+  for (int f = 0; f < 3; ++f)
+    step.round_off.energy[f] += work[f] + several * eps * (std::abs(now[f]) + std::abs(before[f]));
 }
 
 template <int dim>
@@ -328,7 +323,7 @@ typename Balance<dim>::Columns Balance<dim>::step(double time, std::span<const d
   }
   if (!model_.electrodes.empty())
     electrode_charges_ = electrode_charges(model_, step.charges, step.loads);
-  stored_ = step.energy().sum();
+  stored_ = step.energy();
   state_.assign(state.begin(), state.end());
   charges_ = std::move(step.charges);
   products_ = std::move(step.products);
@@ -360,8 +355,8 @@ void Balance<dim>::add_energy(const Step &step, Columns &columns) {
   const double per_watt = -model_.step / model_.op.reference_temperature();
   double load = 0, friction = 0, electric = 0, thermal = 0, conduction = 0;
   for (std::size_t i = 0; i < step.state.size(); ++i) {
-    const int component = static_cast<int>(i % Fields<dim>::count);
-    if (component < dim) {
+    const int field = field_of<dim>(i);
+    if (field == 0) {
       // What moves a prescribed displacement does work as a load does, and so does the foundation
       // along the normal: together it is zero where u_nu = 0. Friction is worked against.
       const double moving =
@@ -369,7 +364,7 @@ void Balance<dim>::add_energy(const Step &step, Columns &columns) {
       const double pressing = step.contact[i] - step.friction[i];
       load += (moving + pressing) * step.change(i);
       friction -= step.friction[i] * step.change(i);
-    } else if (component == Fields<dim>::potential) {
+    } else if (field == 1) {
       electric -= step.state[i] * (step.charges[i] - step.charges_before[i]);
     } else {
       const std::size_t node = i / Fields<dim>::count;
@@ -378,8 +373,8 @@ void Balance<dim>::add_energy(const Step &step, Columns &columns) {
     }
   }
   const Energies energy = step.energy(), shift = model_.op.energy_shift(step.state);
-  const double lost = step.energy_of_change().sum();
-  const double before = step.stored_before;
+  const Energies loss = step.energy_of_change();
+  const double lost = loss.sum(), before = step.stored_before.sum();
   Sum imbalance;
   for (const double term :
        {energy.sum(), -before, lost, -load, -electric, -thermal, friction, conduction})
@@ -393,17 +388,61 @@ void Balance<dim>::add_energy(const Step &step, Columns &columns) {
                                  {"load_power", load / k},
                                  {"electric_power", electric / k},
                                  {"thermal_power", thermal / k},
-                                 {"friction_dissipation", friction / k},
+                                 {"friction_dissipation", without_round_off(friction, step) / k},
                                  {"conduction_loss", conduction / k},
                                  {"time_step_loss", lost / k}});
-  put_imbalance("energy_imbalance", imbalance.value, imbalance.size, step.round_off.energy,
-                columns);
-  // Energy that does not change, such as that of a temperature that nothing is coupled to, hides no
-  // lack of the others.
-  const double size =
-      imbalance.size - std::abs(energy.sum()) - std::abs(before) + std::abs(energy.sum() - before);
+  const std::array<double, 3> &round_off = step.round_off.energy;
+  put_imbalance("energy_imbalance", imbalance.value, imbalance.size,
+                round_off[0] + round_off[1] + round_off[2], columns);
   judged_.back().second =
-      relative_to(columns.back().second * imbalance.size, std::max(size, step.round_off.energy));
+      lack_of_energy(step, imbalance.size, by_field(loss),
+                     {{{-load, friction}, {-electric}, {-thermal, conduction}}});
+}
+
+// Energy that does not change hides no lack, and neither does that of fields, such as a
+// temperature, that others are not coupled to: each set of coupled fields has a balance of its own.
+// `works` are what the field takes from outside, with a minus, and gives. A field of which there is
+// nothing may hold what a solver let through from the others, 1e-14 of their scaled unknowns or
+// less.
+template <int dim>
+double Balance<dim>::lack_of_energy(const Step &step, double whole,
+                                    const std::array<double, 3> &lost,
+                                    const std::array<std::vector<double>, 3> &works) const {
+  constexpr double leaked = 1e-28;
+  const std::array<double, 3> now = by_field(step.energy()), before = by_field(step.stored_before);
+  double worst = 0;
+  for (int f = 0; f < 3; ++f) {
+    double stored = 0, loss = 0, round_off = 0;
+    Sum imbalance;
+    for (int g = 0; g < 3; ++g) {
+      if (g != f && !coupled_[f][g])
+        continue;
+      stored += now[g] - before[g];
+      loss += lost[g];
+      round_off += step.round_off.energy[g];
+      for (const double work : works[g])
+        imbalance.add(work);
+    }
+    imbalance.add(stored);
+    imbalance.add(loss);
+    const double lacks = std::abs(imbalance.value);
+    worst = larger(worst, relative_to(std::isnan(lacks) ? lacks : std::max(0., lacks - round_off),
+                                      std::max({imbalance.size, round_off, leaked * whole})));
+  }
+  return worst;
+}
+
+// A point that sticks moves by what the iteration leaves, in any direction.
+template <int dim>
+double Balance<dim>::without_round_off(double dissipated, const Step &step) const {
+  double moved = 0, forces = 0;
+  for (std::size_t i = 0; i < step.state.size(); ++i)
+    if (field_of<dim>(i) == 0) {
+      moved = larger(moved, std::abs(step.state[i]));
+      forces += std::abs(step.friction[i]);
+    }
+  const double least = model_.asked.solver.tolerance * moved * forces;
+  return dissipated < 0 && -dissipated <= least ? 0 : dissipated;
 }
 
 // Global equilibrium: loads, reactions and contact forces add up to zero in every direction.
@@ -528,14 +567,19 @@ template <int dim>
 void Balance<dim>::save(output::SavedNumbers &numbers) const {
   numbers.put("balance charges", charges_);
   numbers.put("balance electrodes", electrode_charges_);
-  numbers.put("balance stored energy", {stored_});
+  numbers.put("balance stored energy",
+              {stored_.elastic, stored_.electric, stored_.thermal, stored_.coupling});
 }
 
 template <int dim>
 void Balance<dim>::restore(const output::SavedNumbers &numbers) {
   numbers.fill("balance charges", charges_);
   numbers.fill("balance electrodes", electrode_charges_);
-  stored_ = numbers.get("balance stored energy", 1)[0];
+  const auto stored = numbers.get("balance stored energy", 4);
+  stored_.elastic = stored[0];
+  stored_.electric = stored[1];
+  stored_.thermal = stored[2];
+  stored_.coupling = stored[3];
 }
 
 template class Balance<2>;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <span>
 #include <string>
@@ -64,6 +65,9 @@ class Balance {
   void add_electrodes(const Step &step, Columns &columns) const;
   void add_heat(const Step &step, Columns &columns);
   void add_energy(const Step &step, Columns &columns);
+  double lack_of_energy(const Step &step, double whole, const std::array<double, 3> &lost,
+                        const std::array<std::vector<double>, 3> &works) const;
+  double without_round_off(double dissipated, const Step &step) const;
   std::vector<std::pair<body::Node, double>> exchange_weights(const std::string &boundary) const;
   double smallest_heat() const;
   double exchanged(const std::string &boundary, const Step &step) const;
@@ -73,10 +77,11 @@ class Balance {
   body::FieldProducts products_;       // of that state
   Eigen::VectorXd electrode_charges_;  // of that state [C]
   std::vector<double> charges_;        // electric right-hand side of that state, reactions included
-  double stored_ = 0;                  // energy of that state [J]
+  body::Energies stored_;              // of that state [J]
   double smallest_heat_ = 0;           // [W]
   Columns judged_;
-  std::vector<bool> is_prescribed_;  // by unknown
+  std::vector<bool> is_prescribed_;               // by unknown
+  std::array<std::array<bool, 3>, 3> coupled_{};  // fields, over others as well
   std::vector<std::string> heat_boundaries_, charge_boundaries_;
   std::map<std::string, std::vector<std::pair<body::Node, double>>>
       exchange_;  // integral of k_c N_i

@@ -99,9 +99,9 @@ class CondensedRoute : public Route {
 
 template <int dim>
 CondensedRoute<dim>::CondensedRoute(const Model<dim> &model)
-    : model_(model), is_prescribed_(model.n_unknowns(), false), condensed_(model) {
-  for (const body::Prescribed &p : model.prescribed)
-    is_prescribed_[p.unknown] = true;
+    : model_(model),
+      is_prescribed_(body::mask_of(model.prescribed, model.n_unknowns())),
+      condensed_(model) {
   Stopwatch watch;
   parallel::on_first([&] { condense_onto_slips(); });
   condense_seconds_ = watch.lap();

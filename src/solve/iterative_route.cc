@@ -23,6 +23,11 @@ using body::unknown;
 using contact::Tangent;
 using contact::TangentMatrix;
 
+// Forward errors above it are worth refinement.
+constexpr double worth_refining = 1e-7;
+constexpr double of_a_correction = 1e-12;  // reduction of the residual that it is asked for
+constexpr double enough = 1e-15;           // a correction that changes no digit
+
 // The contact at one node in the step at hand.
 template <int dim>
 struct Point {
@@ -44,9 +49,10 @@ class IterativeRoute : public Route, private SlipResponse {
                       std::span<const double> before, std::span<double> state) override;
   Accuracy accuracy(std::span<const double>, std::span<const double>,
                     const StepOutcome &) override {
-    return {.backward_error = backward_error_};
+    return accuracy_;
   }
-  Accuracy accuracy_so_far() const override { return {.backward_error = backward_error_}; }
+  Accuracy accuracy_so_far() const override { return accuracy_; }
+  bool is_refined() const override { return system_.is_refined(); }
   RouteReport report() const override;
   void save(output::SavedNumbers &numbers) const override;
   void restore(const output::SavedNumbers &numbers) override;
@@ -82,7 +88,7 @@ class IterativeRoute : public Route, private SlipResponse {
   bool newton_step();
 
   bool find_fast();
-  void find_safely(double time);
+  void find_safely();
   void solve_body();
   std::vector<ContactPoint> slip_points() const;
   Eigen::VectorXd slips_of(std::span<const double> vector) const;
@@ -93,9 +99,12 @@ class IterativeRoute : public Route, private SlipResponse {
   double force_size() const override;
   double accuracy() const override;
 
+  void settle();
+  double forward_error();
+  void measure();
   void share_forces(std::size_t node, StepOutcome &outcome) const;
   StepOutcome outcome() const;
-  [[noreturn]] void give_up_contact(double time, const InterfaceSolution &solution) const;
+  [[noreturn]] void give_up_contact(const InterfaceSolution &solution) const;
   [[noreturn]] void give_up_body() const;
 
   const Model<dim> &model_;
@@ -116,7 +125,11 @@ class IterativeRoute : public Route, private SlipResponse {
   int safe_steps_ = 0;  // which needed the descent
   std::size_t krylov_iterations_ = 0;
   int krylov_largest_ = 0;
-  double linear_seconds_ = 0, backward_error_ = 0;
+  double linear_seconds_ = 0;
+  double correction_ = 0;  // size of the last, once refined
+  bool corrections_fell_ = true;
+  Accuracy accuracy_{.backward_error = 0};  // largest of the steps in which it was measured
+  bool measured_ = false;
 };
 
 template <int dim>
@@ -124,13 +137,10 @@ IterativeRoute<dim>::IterativeRoute(const Model<dim> &model)
     : model_(model),
       system_(model.op, model.step, model.body.points(), model.prescribed),
       diagonal_(model.op.diagonal(model.step)),
-      is_prescribed_(model.n_unknowns(), false),
+      is_prescribed_(body::mask_of(model.prescribed, model.n_unknowns())),
       points_(model.interface.size()),
       residual_(model.n_unknowns()),
-      increment_(model.n_unknowns()) {
-  for (const body::Prescribed &p : model.prescribed)
-    is_prescribed_[p.unknown] = true;
-}
+      increment_(model.n_unknowns()) {}
 
 template <int dim>
 contact::Admissible<dim> IterativeRoute<dim>::admissible(std::size_t node,
@@ -174,6 +184,8 @@ void IterativeRoute<dim>::begin_step(double time, std::span<const double> right_
   }
   two_before_.assign(before.begin(), before.end());
   iterations_ = 0;
+  correction_ = std::numeric_limits<double>::infinity();
+  corrections_fell_ = true;
   body_lack_ = std::numeric_limits<double>::infinity();
   std::fill(increment_.begin(), increment_.end(), 0.);
   impose();
@@ -194,7 +206,10 @@ void IterativeRoute<dim>::impose() {
 
 template <int dim>
 void IterativeRoute<dim>::update_residual() {
-  model_.op.multiply(model_.step, state_, residual_);
+  if (is_refined())
+    model_.cells.multiply(model_.step, state_, residual_);
+  else
+    model_.op.multiply(model_.step, state_, residual_);
   for (std::size_t i = 0; i < residual_.size(); ++i)
     residual_[i] = right_side_[i] - residual_[i];
 }
@@ -305,7 +320,7 @@ template <int dim>
 std::array<double, 3> IterativeRoute<dim>::norms(std::span<const double> rows) const {
   std::array<double, 3> norms{};
   for (std::size_t i = 0; i < rows.size(); ++i)
-    norms[std::max(0, static_cast<int>(i % Fields<dim>::count) - dim + 1)] += rows[i] * rows[i];
+    norms[body::field_of<dim>(i)] += rows[i] * rows[i];
   for (double &norm : norms)
     norm = std::sqrt(norm);
   return norms;
@@ -364,6 +379,9 @@ bool IterativeRoute<dim>::body_is_solved() {
           larger(body_lack_, found[f] / (model_.asked.solver.linear_tolerance * sizes[f] + 1e-300));
   if (!std::isfinite(found[0] + found[1] + found[2]))
     body_lack_ = std::numeric_limits<double>::infinity();
+  // Of a refined solution corrections decide: its residual is what round-off of the state makes.
+  if (is_refined() && corrections_fell_ && correction_ > enough)
+    return false;
   if (body_lack_ <= 1)
     return true;
   if (body_lack_ < before / 3)
@@ -406,12 +424,19 @@ std::vector<krylov::NodeTangent<dim>> IterativeRoute<dim>::tangents() const {
 template <int dim>
 bool IterativeRoute<dim>::add_solution(std::span<const double> residual, double reduction) {
   Stopwatch watch;
+  if (is_refined())
+    reduction = of_a_correction;
   const krylov::Solved solved = system_.solve(residual, reduction, increment_);
   krylov_iterations_ += solved.iterations;
   krylov_largest_ = std::max(krylov_largest_, solved.iterations);
   linear_seconds_ += watch.lap();
   for (std::size_t i = 0; i < state_.size(); ++i)
     state_[i] += increment_[i];
+  if (is_refined()) {
+    const double before = correction_;
+    correction_ = system_.relative_size(increment_, state_);
+    corrections_fell_ = !solved.converged || correction_ < before / 2;
+  }
   return solved.converged;
 }
 
@@ -579,7 +604,7 @@ Eigen::VectorXd IterativeRoute<dim>::direction(const std::vector<bool> &is_smoot
 
 // The safe stage: descent in the programme of the contact, from any start.
 template <int dim>
-void IterativeRoute<dim>::find_safely(double time) {
+void IterativeRoute<dim>::find_safely() {
   const std::vector<ContactPoint> points = slip_points();
   std::vector<double> curvatures;
   Eigen::VectorXd start(points.empty() ? 0 : points.back().offset + points.back().size);
@@ -594,19 +619,61 @@ void IterativeRoute<dim>::find_safely(double time) {
   const InterfaceSolution solution = minimise(SlipProgramme{points, curvatures}, *this,
                                               std::move(start), {contact_tolerance(), left});
   if (!solution.converged)
-    give_up_contact(time, solution);
+    give_up_contact(solution);
+}
+
+template <int dim>
+void IterativeRoute<dim>::settle() {
+  system_.set_contact(tangents());
+  system_.refresh();
+  if (!find_fast())
+    find_safely();
+}
+
+// What the linear iteration answers to the residual cell by cell, over the solution.
+template <int dim>
+double IterativeRoute<dim>::forward_error() {
+  constexpr double reduction = 0.1;
+  std::vector<double> correction(state_.size());
+  const std::vector<double> assembled = residual_;
+  model_.cells.multiply(model_.step, state_, residual_);
+  for (std::size_t i = 0; i < residual_.size(); ++i)
+    residual_[i] = right_side_[i] - residual_[i];
+  system_.set_contact(tangents());
+  Stopwatch watch;
+  const krylov::Solved solved = system_.solve(newton_residual(), reduction, correction);
+  linear_seconds_ += watch.lap();
+  residual_ = assembled;
+  return solved.converged ? system_.relative_size(correction, state_)
+                          : std::numeric_limits<double>::infinity();
+}
+
+// The first step that moves anything tells whether refinement helps, and goes on with it if so.
+template <int dim>
+void IterativeRoute<dim>::measure() {
+  measured_ = true;
+  double error = is_refined() ? correction_ : forward_error();
+  if (!is_refined() && error > worth_refining) {
+    system_.refine(model_.cells);
+    iterations_ = 0;
+    update_residual();
+    settle();
+    error = correction_;
+  }
+  accuracy_.forward_error =
+      std::isnan(accuracy_.forward_error) ? error : larger(accuracy_.forward_error, error);
 }
 
 template <int dim>
 StepOutcome IterativeRoute<dim>::advance(double time, std::span<const double> right_side,
                                          std::span<const double> before, std::span<double> state) {
   begin_step(time, right_side, before, state);
-  system_.set_contact(tangents());
-  system_.refresh();
-  if (!find_fast())
-    find_safely(time);
-  backward_error_ =
-      larger(backward_error_, system_.backward_error(newton_residual(), right_side, state));
+  settle();
+  const bool moves = std::any_of(state.begin(), state.end(), [](double x) { return x != 0; });
+  if (is_refined() || (!measured_ && moves))
+    measure();
+  accuracy_.backward_error = larger(accuracy_.backward_error,
+                                    system_.backward_error(newton_residual(), right_side, state));
   StepOutcome done = outcome();
   for (std::size_t i = 0; i < points_.size(); ++i)
     points_[i].slips = !points_[i].is_held() && done.status[i] == ContactStatus::slip;
@@ -645,7 +712,7 @@ StepOutcome IterativeRoute<dim>::outcome() const {
 }
 
 template <int dim>
-void IterativeRoute<dim>::give_up_contact(double time, const InterfaceSolution &solution) const {
+void IterativeRoute<dim>::give_up_contact(const InterfaceSolution &solution) const {
   std::string places;
   for (std::size_t i = 0; i < std::min<std::size_t>(solution.unsettled.size(), 3); ++i) {
     const Vector3 &p = model_.interface[solution.unsettled[i]].point;
@@ -655,7 +722,7 @@ void IterativeRoute<dim>::give_up_contact(double time, const InterfaceSolution &
       "the contact iteration did not converge at t = {:g} s: residual {:.3g} of the largest force "
       "after {} Newton iterations, wanted {:.3g}; {} points are unsettled, among them{}; raise "
       "solver.max_iterations or solver.linear_tolerance, or take solver.body = \"direct\"",
-      time, solution.residual, iterations_, contact_tolerance(), solution.unsettled.size(),
+      time_, solution.residual, iterations_, contact_tolerance(), solution.unsettled.size(),
       places));
 }
 
@@ -689,7 +756,9 @@ RouteReport IterativeRoute<dim>::report() const {
   report.krylov_largest = krylov_largest_;
   report.preconditioners = system_.set_ups();
   report.safe_steps = safe_steps_;
-  report.backward_error = backward_error_;
+  report.backward_error = accuracy_.backward_error;
+  report.forward_error = accuracy_.forward_error;
+  report.is_refined = is_refined();
   return report;
 }
 
@@ -701,8 +770,9 @@ void IterativeRoute<dim>::save(output::SavedNumbers &numbers) const {
   system_.save(numbers);
   numbers.put("active set", slips);
   numbers.put("state before", two_before_);
-  numbers.put("route", {double(krylov_iterations_), double(krylov_largest_), backward_error_,
-                        linear_seconds_, double(safe_steps_)});
+  numbers.put("route", {double(krylov_iterations_), double(krylov_largest_),
+                        accuracy_.backward_error, accuracy_.forward_error, double(measured_),
+                        double(is_refined()), linear_seconds_, double(safe_steps_)});
 }
 
 template <int dim>
@@ -713,12 +783,15 @@ void IterativeRoute<dim>::restore(const output::SavedNumbers &numbers) {
     points_[i].slips = slips[i] != 0;
   two_before_.resize(model_.n_unknowns());
   numbers.fill("state before", two_before_);
-  const auto route = numbers.get("route", 5);
+  const auto route = numbers.get("route", 8);
   krylov_iterations_ = static_cast<std::size_t>(route[0]);
   krylov_largest_ = static_cast<int>(route[1]);
-  backward_error_ = route[2];
-  linear_seconds_ = route[3];
-  safe_steps_ = static_cast<int>(route[4]);
+  accuracy_ = {route[2], route[3]};
+  measured_ = route[4] != 0;
+  if (route[5] != 0)
+    system_.refine(model_.cells);
+  linear_seconds_ = route[6];
+  safe_steps_ = static_cast<int>(route[7]);
 }
 
 }  // namespace

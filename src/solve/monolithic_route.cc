@@ -26,9 +26,7 @@ template <int dim>
 std::vector<contact::MultiplierPoint<dim>> multiplier_points(const Model<dim> &model) {
   if (!model.asked.contact)
     return {};
-  contact::IsPrescribed is_prescribed(model.n_unknowns(), false);
-  for (const body::Prescribed &p : model.prescribed)
-    is_prescribed[p.unknown] = true;
+  const contact::IsPrescribed is_prescribed = body::mask_of(model.prescribed, model.n_unknowns());
   if (model.asked.solver.multiplier == "nodal")
     return contact::nodal_multipliers(model.interface, is_prescribed);
   if (parallel::n_ranks() > 1)

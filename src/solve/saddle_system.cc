@@ -10,6 +10,7 @@
 
 namespace tourmaline::solve {
 
+using body::field_of;
 using body::Fields;
 using body::Node;
 using body::unknown;
@@ -18,11 +19,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 namespace {
-
-template <int dim>
-constexpr int field_of(std::size_t unknown) {
-  return std::max(0, static_cast<int>(unknown % Fields<dim>::count) - dim + 1);
-}
 
 // dy/du of a point, columns share by share.
 template <int dim>
@@ -40,10 +36,10 @@ template <int dim>
 SaddleSystem<dim>::SaddleSystem(const body::Operator<dim> &op, double step,
                                 const std::vector<body::Prescribed> &prescribed,
                                 std::vector<Point> points, int threads)
-    : operator_(op), step_(step), points_(std::move(points)) {
+    : operator_(op), step_(step), points_(std::move(points)), field_scale_(op.scales(step)) {
   number(prescribed);
+  set_scales();
   const std::vector<double> diagonal = operator_.diagonal(step_);
-  set_scales(diagonal);
   for (const Point &point : points_) {
     double stiffness = 0;
     for (const auto &share : point.mean)
@@ -76,17 +72,12 @@ void SaddleSystem<dim>::number(const std::vector<body::Prescribed> &prescribed) 
 }
 
 template <int dim>
-void SaddleSystem<dim>::set_scales(const std::vector<double> &diagonal) {
-  std::array<double, 3> largest{};
-  for (std::size_t i = 0; i < diagonal.size(); ++i)
-    largest[field_of<dim>(i)] = std::max(largest[field_of<dim>(i)], std::abs(diagonal[i]));
-  for (int c = 0; c < Fields<dim>::count; ++c)
-    field_scale_[c] = 1 / std::sqrt(largest[field_of<dim>(c)]);
+void SaddleSystem<dim>::set_scales() {
   for (const std::size_t i : unknown_of_)
     scale_.push_back(field_scale_[i % Fields<dim>::count]);
   // The coupling w dy/du between a multiplier and a displacement then has entries of the size 1.
   for (const Point &point : points_)
-    scale_.insert(scale_.end(), point.n_multipliers(), std::sqrt(largest[0]) / point.weight);
+    scale_.insert(scale_.end(), point.n_multipliers(), 1 / (field_scale_[0] * point.weight));
 }
 
 template <int dim>

@@ -79,7 +79,7 @@ class SaddleSystem {
 
  private:
   void number(const std::vector<body::Prescribed> &prescribed);
-  void set_scales(const std::vector<double> &diagonal);
+  void set_scales();
   void add_contact_pattern(condensation::SymmetricMatrix &matrix) const;
   std::vector<int> elimination_order() const;
   std::vector<int> local_variables(std::size_t point) const;
@@ -95,7 +95,7 @@ class SaddleSystem {
   std::vector<int> variable_of_;         // by unknown of the body; -1: prescribed
   std::vector<std::size_t> unknown_of_;  // by variable; multipliers follow
   std::vector<double> scale_;            // by variable
-  std::array<double, body::Fields<dim>::count> field_scale_{};
+  std::array<double, body::Fields<dim>::count> field_scale_;
   std::vector<double> stiffness_;  // by point
   std::size_t n_body_entries_ = 0;
   double substitution_seconds_ = 0;

@@ -79,6 +79,53 @@ TEST(IllConditioned, FrictionalEndOfAThinPlateFailsWithTheReason) {
               ::testing::HasSubstr("very thin"));
 }
 
+/// A bar of three equal parts, pulled by 1000 N; the middle one is softer by 1e11. Its temperature,
+/// nothing is coupled to, stores 1e5 times the energy of the deformation.
+casefile::Case hot_bar(const std::vector<std::string> &overrides) {
+  const auto part = [](const char *where, const char *young) {
+    return std::string("[[region]]\nwhere = \"") + where +
+           "\"\nmaterial = { symmetry = \"isotropic\", young = " + young +
+           ", poisson = 0, eps11 = 10, k11 = 1, density = 1000, specific_heat = 1000, "
+           "reference_temperature = 293 }\n";
+  };
+  return casefile::read_text(R"(
+mesh.box = { min = [0, 0, 0], max = [3, 1, 1], cells = [6, 2, 2], cell = "hexahedron" }
+time = { end = 1, steps = 2 }
+output = { fields = false, report = false }
+boundary = [
+  { on = "left", displacement = [0, 0, 0], potential = 0, temperature = 1e4 },
+  { on = "right", traction = ["1e3*t", 0, 0] },
+]
+)" + part("x < 1", "1e11") + part("x > 1 && x < 2", "1") +
+                                 part("x > 2", "1e11"),
+                             "bar.toml", overrides);
+}
+
+TEST(IllConditioned, SoftThirdOfAHotBarIsRefinedIteratively) {
+  const RunCase run(hot_bar({"solver.body=\"iterative\""}));
+  EXPECT_NEAR(run.nodes().numbers("u_x").back(), 1e3 * (1 + 2e-11), 1e3 * 1e-12);
+  for (const char *lateral : {"u_y", "u_z"})
+    EXPECT_LT(largest(run.nodes(), lateral), 1e3 * 1e-11);
+  const nlohmann::json summary = run.summary();
+  EXPECT_TRUE(summary["refined"]);
+  EXPECT_LT(summary["forward_error"], 1e-10);
+  EXPECT_TRUE(summary["warnings"].empty());
+}
+
+TEST(IllConditioned, HeatHidesNoLackOfMechanicalEnergy) {
+  const nlohmann::json summary = RunCase(hot_bar({"solver.method=\"monolithic\""})).summary();
+  EXPECT_THAT(summary["warnings"].dump(), ::testing::HasSubstr("the balance of energy lacks"));
+}
+
+TEST(WellConditioned, BodyOfThePaperIsSolvedIterativelyWithoutRefinement) {
+  const nlohmann::json summary = RunCase("cases/ouafik-2020/conductive.toml",
+                                         {"mesh.box.cells=[8,8]", "solver.body=\"iterative\""})
+                                     .summary();
+  EXPECT_FALSE(summary["refined"]);
+  EXPECT_LT(summary["forward_error"], 1e-9);
+  EXPECT_TRUE(summary["warnings"].empty());
+}
+
 TEST(WellConditioned, BodyOfThePaperIsNotRefinedAndSaysNothing) {
   const nlohmann::json summary =
       RunCase("cases/ouafik-2020/conductive.toml", {"mesh.box.cells=[8,8]"}).summary();
