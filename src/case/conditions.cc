@@ -99,7 +99,10 @@ void check_contact(const ContactCase &contact, const std::string &boundary, int 
   for (int axis = 0; axis < dimension; ++axis)
     if (const Formula *formula = prescribed.find(boundary, component(axis)))
       fail(contact, boundary, *formula,
-           "contact on a clamped boundary; its displacement is prescribed");
+           fmt::format(
+               "contact on a clamped boundary; its displacement along {} is prescribed. To move "
+               "contact nodes, prescribe that on a boundary that shares them",
+               "xyz"[axis]));
   if (const Formula *formula = prescribed.find(boundary, thermal);
       formula && contact.heat.law == "exchange")
     fail(contact, boundary, *formula,

@@ -59,7 +59,9 @@ TEST(Conditions, TwoEntriesMayFixDifferentComponents) {
 
 TEST(Conditions, ContactOnAClampedBoundaryIsAnError) {
   const std::string error = error_of({"boundary[3]={on='left', displacement=['free',0]}"});
-  EXPECT_THAT(error, HasSubstr("[contact] on = \"left\": contact on a clamped boundary"));
+  EXPECT_THAT(error,
+              HasSubstr("[contact] on = \"left\": contact on a clamped boundary; its displacement "
+                        "along y is prescribed"));
   EXPECT_THAT(error, HasSubstr("[boundary[3]] displacement[1] = 0"));
 }
 
