@@ -17,7 +17,7 @@ namespace {
 // Nor is it bending where the share of the strains' energy is this small: bimorphs that are 5 % too
 // stiff have 0.02, bodies that heat or voltage stretch without hindrance 3e-6 and less, and their
 // stresses are all error.
-constexpr double largest_share = 0.1, least_slender = 2, least_of_strain = 1e-3;
+constexpr double largest_share = 0.05, least_slender = 2, least_of_strain = 1e-3;
 
 // Cells in the thickness below which bending is some 10 % too stiff.
 double least_cells(bool simplices) {

@@ -190,6 +190,12 @@ TEST(Locking, LinearCellsThatAreTooStiffForABimorphAreToldOf) {
   EXPECT_THAT(warnings(read(bimorph(2, plane_mesh("triangle", 128, 8, "")))), HasSubstr("bends"));
 }
 
+TEST(Locking, LinearCellsThatAreTooStiffForACantileverAreToldOf) {
+  for (const char *cell : {"triangle", "quadrilateral"})
+    EXPECT_THAT(warnings(read(cantilever(plane_mesh(cell, 50, 4, "")))), HasSubstr("bends")) << cell;
+  EXPECT_EQ(warnings(read(cantilever(plane_mesh("quadrilateral", 128, 8, "")))), "[]");
+}
+
 TEST(Locking, NothingIsSaidOfCellsThatCanBendAndOfBodiesThatDoNot) {
   EXPECT_EQ(warnings(read(bimorph(2, plane_mesh("triangle", 50, 2, "degree = 2")))), "[]");
   EXPECT_EQ(warnings(read(bimorph(2, plane_mesh("quadrilateral", 50, 2, modes)))), "[]");
