@@ -11,9 +11,10 @@
 
 #include "tourmaline/error.h"
 
-extern "C" void dgemm_(const char *, const char *, const int *, const int *, const int *,
-                       const double *, const double *, const int *, const double *, const int *,
-                       const double *, double *, const int *);
+// As Eigen declares it.
+extern "C" int dgemm_(const char *, const char *, const int *, const int *, const int *,
+                      const double *, const double *, const int *, const double *, const int *,
+                      const double *, double *, const int *);
 
 namespace tourmaline::run {
 
