@@ -513,7 +513,8 @@ void check_size_decided(const casefile::MeshCase &asked, const MeshFile &mesh) {
 std::shared_ptr<const MeshFile> read_file(casefile::MeshCase asked, const Reading &how) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(*asked.file, ignored))
-    throw CaseError("there is no such file");
+    throw CaseError(std::filesystem::exists(*asked.file, ignored) ? "is no regular file"
+                                                                  : "there is no such file");
   if (!std::ifstream(*asked.file))
     throw CaseError("cannot be read");
   asked.file = std::filesystem::absolute(*asked.file).string();

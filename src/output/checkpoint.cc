@@ -18,7 +18,7 @@ namespace tourmaline::output {
 namespace {
 
 constexpr std::string_view magic = "Tourmaline checkpoint\n";
-constexpr std::uint64_t format_version = 1;
+constexpr std::uint64_t format_version = 2;
 
 // Of nothing zlib says 0, whatever stood before.
 std::uint64_t checksum(std::uint64_t before, std::string_view bytes) {
@@ -159,6 +159,7 @@ void write_checkpoint(const std::filesystem::path &path, const Checkpoint &check
     file.number(entry.time);
     file.text(entry.file);
   }
+  file.number(checkpoint.position.field_bytes);
   file.number(std::uint64_t{checkpoint.numbers.all().size()});
   for (const auto &[name, values] : checkpoint.numbers.all()) {
     file.text(name);
@@ -182,6 +183,7 @@ Checkpoint read_checkpoint(const std::filesystem::path &path) {
     const double time = std::bit_cast<double>(file.number());
     checkpoint.position.series.push_back({time, file.text()});
   }
+  checkpoint.position.field_bytes = file.number();
   for (std::uint64_t left = file.number(); left > 0; --left) {
     const std::string name = file.text();
     checkpoint.numbers.put(name, file.numbers());

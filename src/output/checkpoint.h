@@ -40,6 +40,7 @@ class SavedNumbers {
 struct FolderPosition {
   std::uint64_t contact_bytes = 0, history_bytes = 0;  ///< of the tables; 0: not begun
   std::vector<PvdEntry> series;                        ///< the field files
+  std::uint64_t field_bytes = 0;                       ///< of those of all pieces together
 };
 
 /// A run between two steps: with it a new process continues to the same bytes.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <limits>
 #include <regex>
 #include <stdexcept>
 #include <string_view>
@@ -98,6 +99,20 @@ void require(const fs::path &file, std::uint64_t bytes = 0) {
                     file.string(), bytes));
 }
 
+/// Of the field files up to that step, of all pieces.
+std::uint64_t field_bytes(const fs::path &directory, std::uint64_t last_step) {
+  std::uint64_t bytes = 0;
+  std::error_code error;
+  for (fs::directory_iterator entry(directory, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const auto step = step_of_field_file(entry->path().filename().string());
+    std::error_code gone;
+    if (const std::uint64_t size = entry->file_size(gone); step && *step <= last_step && !gone)
+      bytes += size;
+  }
+  return bytes;
+}
+
 /// A table grows as its `.part`; an ordered end has moved it into place.
 void require_table(const fs::path &file, std::uint64_t bytes) {
   const fs::path growing = file.string() + std::string(part);
@@ -118,8 +133,29 @@ std::unique_ptr<AtomicFile> begin_table(const fs::path &path, const std::string 
 void require_position(const fs::path &directory, const FolderPosition &position) {
   for (const PvdEntry &entry : position.series)
     require(directory / entry.file);
+  if (!position.series.empty()) {
+    const auto last = step_of_field_file(position.series.back().file);
+    if (last && field_bytes(directory, *last) != position.field_bytes)
+      throw MachineError(fmt::format(
+          "the field files in {} do not have the {} bytes that the checkpoint counts on; start "
+          "again without --resume",
+          directory.string(), position.field_bytes));
+  }
   require_table(directory / "contact.csv", position.contact_bytes);
   require_table(directory / "history.csv", position.history_bytes);
+}
+
+std::map<std::string, std::uint64_t> file_sizes(const fs::path &directory) {
+  std::map<std::string, std::uint64_t> sizes;
+  for (const char *name : {"boundaries.json", "contact.csv", "history.csv", "nodes.csv"}) {
+    std::error_code missing;
+    if (const std::uint64_t size = fs::file_size(directory / name, missing); !missing)
+      sizes[name] = size;
+  }
+  if (const std::uint64_t bytes = field_bytes(directory, std::numeric_limits<std::uint64_t>::max());
+      bytes > 0)
+    sizes["result_*"] = bytes;
+  return sizes;
 }
 
 ResultFolder::ResultFolder(fs::path directory, int dimension, Piece piece,
@@ -225,7 +261,9 @@ void ResultFolder::put_summary(const Summary &summary) {
   if (replaces_checkpoint)
     sync_results();
   remove_if_there(directory_ / "report.html");  // of the steps so far, made by `tourmaline report`
-  write_file(file, summary_text(dimension_, summary));
+  Summary whole = summary;
+  whole.files = file_sizes(directory_);
+  write_file(file, summary_text(dimension_, whole));
   if (!replaces_checkpoint)
     return;
   sync_path(file);
@@ -251,7 +289,8 @@ void ResultFolder::put_checkpoint(Checkpoint checkpoint) {
   for (AtomicFile *table : {contact_.get(), history_.get()})
     if (table)
       table->sync();
-  checkpoint.position = {contact_ ? contact_->size() : 0, history_ ? history_->size() : 0, series_};
+  checkpoint.position = {contact_ ? contact_->size() : 0, history_ ? history_->size() : 0, series_,
+                         field_bytes(directory_, checkpoint.step)};
   write_checkpoint(directory_ / checkpoint_name, checkpoint);
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -24,6 +26,10 @@ struct Piece {
 
 /// Throws MachineError where files are missing, or too short, on which a checkpoint there counts.
 void require_position(const std::filesystem::path &directory, const FolderPosition &position);
+
+/// What stands in summary.json of the files of a complete run: the bytes of each table and of
+/// boundaries.json by their names, and those of all field files together as "result_*".
+std::map<std::string, std::uint64_t> file_sizes(const std::filesystem::path &directory);
 
 /// The folder that a run leaves behind, and has for itself meanwhile. Every file in it is whole at
 /// every moment: one that is being written is called NAME.part. Whatever fails to be written is a
@@ -70,8 +76,9 @@ class ResultFolder {
   /// nodes.csv; rows in the order of the points.
   void put_nodes(const std::vector<Vector3> &points, const PointFields &fields);
 
-  /// summary.json, when all steps and their files are there: only the page may be missing from now
-  /// on. So the checkpoint goes, and a page that somebody has made of the steps so far.
+  /// summary.json with the sizes of all other files, when all steps and their files are there: only
+  /// the page may be missing from now on. So the checkpoint goes, and a page that somebody has made
+  /// of the steps so far.
   void put_summary(const Summary &summary);
 
   /// checkpoint.bin, to which it adds how far the files have come; they are on the disk itself

@@ -72,6 +72,7 @@ std::string summary_text(int dimension, const Summary &summary) {
   json["case"] = summary.title;
   json["versions"] = versions(summary);
   json["inputs"] = summary.inputs;
+  json["files"] = summary.files;
   json["sizes"] = summary.sizes;
   json["iterations"] = summary.iterations;
   json["factorisations"] = summary.factorisations;

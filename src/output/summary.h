@@ -42,8 +42,9 @@ struct Summary {
   std::string title;                              // the case's
   std::string version;                            // Tourmaline's
   std::map<std::string, std::string> components;  // versions of the libraries, by their names
-  std::map<std::string, std::string> inputs;  // digests of the files that the case reads, by name
-  std::map<std::string, std::int64_t> sizes;  // nodes, cells, unknowns, contact_nodes, steps, ...
+  std::map<std::string, std::string> inputs;   // digests of the files that the case reads, by name
+  std::map<std::string, std::uint64_t> files;  // bytes of the other files, see file_sizes
+  std::map<std::string, std::int64_t> sizes;   // nodes, cells, unknowns, contact_nodes, steps, ...
   std::map<std::string, std::int64_t> iterations;  // newton_total, newton_max, ...
   std::int64_t factorisations = 0;                 // of the body's operator
   std::optional<std::int64_t> negative_pivots;     // where the factorisation counts them
@@ -57,7 +58,7 @@ struct Summary {
   std::vector<std::string> warnings;
 };
 
-/// summary.json: the keys case, versions, inputs, sizes, iterations, factorisations,
+/// summary.json: the keys case, versions, inputs, files, sizes, iterations, factorisations,
 /// negative_pivots, backward_error, forward_error, refined, extremes, materials, seconds, memory
 /// (bytes), warnings, in this
 /// order. Numbers read back as they were; what is not finite or not known is null. Places have

@@ -43,8 +43,7 @@ template <int dim>
 void Recorder<dim>::initial(std::span<const double> state) {
   Stopwatch watch;
   balance_.emplace(model_, state);
-  const std::vector<output::NamedBoundary> boundaries = model_.body.boundaries();
-  parallel::on_first([&] { folder_.put_boundaries(boundaries); });
+  put_boundaries();
   StepCheck(0, 0).state(dim, model_.body.points(), state);
   if (has_fields(0))
     put_fields(0, state, checked_fields(0, state));
@@ -52,7 +51,14 @@ void Recorder<dim>::initial(std::span<const double> state) {
 }
 
 template <int dim>
+void Recorder<dim>::put_boundaries() {
+  const std::vector<output::NamedBoundary> boundaries = model_.body.boundaries();
+  parallel::on_first([&] { folder_.put_boundaries(boundaries); });
+}
+
+template <int dim>
 void Recorder<dim>::restore(std::span<const double> state, const output::SavedNumbers &numbers) {
+  put_boundaries();
   balance_.emplace(model_, state);
   balance_->restore(numbers);
   judgement_.restore(numbers);

@@ -46,6 +46,7 @@ class Recorder {
   std::vector<output::ContactRow> contact_rows(int n, const solve::StepOutcome &outcome,
                                                std::span<const double> before,
                                                std::span<const double> state) const;
+  void put_boundaries();
   void prepare_fields();
   bool has_fields(int n) const;
   output::CellFields checked_fields(int n, std::span<const double> state);

@@ -62,11 +62,16 @@ std::string digest_of_file(const fs::path &file) {
   return digest.text();
 }
 
+// Of a run that is over; an empty one where it is damaged.
+nlohmann::json summary_in(const fs::path &directory) {
+  auto json = nlohmann::json::parse(text_in(directory / "summary.json"), nullptr, false);
+  return json.is_object() ? json : nlohmann::json::object();
+}
+
 // The digests that a run which is over has left; none in a damaged summary.
-std::map<std::string, std::string> contents_in(const fs::path &summary) {
-  const auto json = nlohmann::json::parse(text_in(summary), nullptr, false);
+std::map<std::string, std::string> contents_in(const nlohmann::json &json) {
   std::map<std::string, std::string> digests;
-  if (json.is_object() && json.contains("inputs") && json["inputs"].is_object())
+  if (json.contains("inputs") && json["inputs"].is_object())
     for (const auto &[file, digest] : json["inputs"].items())
       digests[file] = digest.is_string() ? digest.get<std::string>() : "";
   return digests;
@@ -113,6 +118,21 @@ void require_same_program(const output::Checkpoint &checkpoint, const fs::path &
         directory.string(), checkpoint.program, program_version()));
 }
 
+// Field files may have been taken away to make room, unless the page is still to be made of them.
+void require_whole(const nlohmann::json &summary, const fs::path &directory, bool with_fields) {
+  const auto sizes = output::file_sizes(directory);
+  const nlohmann::json files = summary.value("files", nlohmann::json::object());
+  for (const auto &[name, bytes] : files.items()) {
+    const auto found = sizes.find(name);
+    if ((with_fields || name != "result_*") && (found == sizes.end() || bytes != found->second))
+      throw MachineError(fmt::format(
+          "{} of the complete run in {} {}, and should have {} bytes; start again without --resume",
+          name, directory.string(),
+          found == sizes.end() ? "is missing" : fmt::format("has {} bytes", found->second),
+          bytes.dump()));
+  }
+}
+
 }  // namespace
 
 // How often checkpoints are saved changes no result.
@@ -146,11 +166,13 @@ Resumption resumption(const casefile::Case &asked, const fs::path &directory) {
   Resumption found;
   // The summary says that all steps are done, also where a run was killed before it could take its
   // checkpoint away.
-  if (const fs::path summary = directory / "summary.json"; fs::exists(summary)) {
+  if (fs::exists(directory / "summary.json")) {
+    const nlohmann::json summary = summary_in(directory);
     require_same(inputs(text_in(directory / "resolved.toml"), contents_in(summary)),
                  inputs_of(asked), directory);
     found.has_all_steps = true;
     found.has_report = !asked.output.report || fs::exists(directory / "report.html");
+    require_whole(summary, directory, !found.has_report);
   } else if (const fs::path file = directory / output::checkpoint_name; fs::exists(file)) {
     found.checkpoint = output::read_checkpoint(file);
     require_same_program(*found.checkpoint, directory);

@@ -25,6 +25,8 @@ namespace tourmaline::run {
 void put_page_in(const std::filesystem::path &directory) {
   try {
     report::write_page({directory}, directory / "report.html");
+  } catch (const CaseError &error) {  // what it reads is the run's, not the user's
+    throw MachineError(fmt::format("{}; start again without --resume", error.what()));
   } catch (const MachineError &error) {
     throw MachineError(fmt::format("{}; all other results are in {}, and --resume makes the page",
                                    error.what(), directory.string()));

@@ -168,6 +168,8 @@ class Study {
     if (end.status != 0)
       return;
     ++finished_;
+    if (found_in(folder_of(i), cases_[i]).state != Found::State::done)
+      return fail(i, machine_failed, "its folder no longer holds the whole run of this case");
     try {
       take_results(i);
     } catch (const CaseError &error) {

@@ -246,6 +246,19 @@ TEST_F(Sweep, MembersThatFailDoNotStopTheOthers) {
   EXPECT_THAT(said_, HasSubstr("6 cases: 4 done before, 2 failed\n"));
 }
 
+TEST_F(Sweep, AMemberWhoseTableWasCutIsRunAgain) {
+  const std::string study =
+      "sweep small.toml --vary contact.friction.bound=5,15 --output max:slip -q -o study";
+  ASSERT_EQ(run(study), 0);
+  const std::string table = content_of(here() / "study/sweep.csv");
+  const std::filesystem::path history = here() / "study/bound=15/history.csv";
+  const std::string whole = content_of(history);
+  std::ofstream(history) << whole.substr(0, whole.find('\n', whole.find('\n') + 1) + 1);
+  EXPECT_EQ(run(study), 0);
+  EXPECT_EQ(content_of(history), whole);
+  EXPECT_EQ(content_of(here() / "study/sweep.csv"), table);
+}
+
 struct BadStudy {
   const char *claim, *arguments, *piece;
 };

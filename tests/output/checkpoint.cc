@@ -22,7 +22,7 @@ Checkpoint example() {
   checkpoint.inputs = "title = \"a\"\n";
   checkpoint.ranks = 2;
   checkpoint.step = 7;
-  checkpoint.position = {12, 34, {{0, "result_0000.vtu"}, {0.1, "result_0001.vtu"}}};
+  checkpoint.position = {12, 34, {{0, "result_0000.vtu"}, {0.1, "result_0001.vtu"}}, 56};
   checkpoint.numbers.put("state", {1. / 3, -0., std::numeric_limits<double>::denorm_min()});
   checkpoint.numbers.put("nothing", {});
   return checkpoint;
@@ -38,6 +38,7 @@ TEST(Checkpoint, EveryNumberReadsBackToTheLastBit) {
   EXPECT_EQ(read.step, 7u);
   EXPECT_EQ(read.position.contact_bytes, 12u);
   EXPECT_EQ(read.position.history_bytes, 34u);
+  EXPECT_EQ(read.position.field_bytes, 56u);
   ASSERT_EQ(read.position.series.size(), 2u);
   EXPECT_EQ(read.position.series[1].time, 0.1);
   EXPECT_EQ(read.position.series[1].file, "result_0001.vtu");

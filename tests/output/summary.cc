@@ -13,6 +13,7 @@ Summary whole_summary() {
   summary.version = "0.1.0";
   summary.components = {{"dealii", "9.4.1"}};
   summary.inputs = {{"body.msh", "00000000000000ff"}};
+  summary.files = {{"history.csv", 77}};
   summary.sizes = {{"nodes", 4}, {"cells", 2}};
   summary.iterations = {{"newton_total", 20}, {"newton_max", 2}};
   summary.factorisations = 1;
@@ -37,6 +38,9 @@ TEST(SummaryText, ItHasTheKeysOfTheContractInTheirOrder) {
   },
   "inputs": {
     "body.msh": "00000000000000ff"
+  },
+  "files": {
+    "history.csv": 77
   },
   "sizes": {
     "cells": 2,

@@ -106,11 +106,16 @@ TEST_F(Resuming, AnotherVersionOfTheProgramDoesNotGoOn) {
 class Complete : public Resuming {
  protected:
   Complete() {
-    output::Summary summary;
-    summary.inputs = contents_of(asked_);
-    put("summary.json", output::summary_text(2, summary));
+    summarise({});
     put("resolved.toml", casefile::resolved(asked_));
     put("report.html", "");
+  }
+
+  void summarise(const std::map<std::string, std::uint64_t> &files) {
+    output::Summary summary;
+    summary.inputs = contents_of(asked_);
+    summary.files = files;
+    put("summary.json", output::summary_text(2, summary));
   }
 };
 
@@ -140,6 +145,28 @@ TEST_F(Complete, WithoutItsPageTheStepsAreDone) {
   EXPECT_TRUE(resumption(asked_, folder_).is_complete());
 }
 
+TEST_F(Complete, ATableThatWasCutOrIsMissingMakesItNone) {
+  summarise({{"history.csv", 4}, {"nodes.csv", 2}});
+  put("history.csv", "1\n2\n");
+  EXPECT_THAT(asking(), ThrowsMessage<MachineError>(HasSubstr("nodes.csv of the complete run")));
+  put("nodes.csv", "1\n");
+  EXPECT_TRUE(resumption(asked_, folder_).is_complete());
+  put("history.csv", "1\n");
+  EXPECT_THAT(asking(),
+              ThrowsMessage<MachineError>(
+                  AllOf(HasSubstr("history.csv"), HasSubstr("has 2 bytes, and should have 4"))));
+}
+
+TEST_F(Complete, FieldFilesAreNeededOnlyForAPageThatIsMissing) {
+  summarise({{"result_*", 4}});
+  EXPECT_TRUE(resumption(asked_, folder_).is_complete());
+  std::filesystem::remove(folder_ / "report.html");
+  EXPECT_THAT(asking(), ThrowsMessage<MachineError>(HasSubstr("result_* of the complete run")));
+  put("result_0000.vtu", "12");
+  put("result_0001.vtu", "34");
+  EXPECT_TRUE(resumption(asked_, folder_).has_all_steps);
+}
+
 TEST_F(Complete, ACheckpointThatIsStillThereSaysNothing) {
   save();
   EXPECT_TRUE(resumption(asked_, folder_).is_complete());
@@ -150,10 +177,12 @@ TEST_F(Resuming, AMissingFileOnWhichTheCheckpointCountsIsNamed) {
   output::Checkpoint checkpoint;
   checkpoint.program = program_version();
   checkpoint.inputs = inputs_of(asked_);
-  checkpoint.position = {0, 10, {{0., "result_0000.vtu"}}};
+  checkpoint.position = {0, 10, {{0., "result_0000.vtu"}}, 3};
   output::write_checkpoint(folder_ / output::checkpoint_name, checkpoint);
   EXPECT_THAT(asking(), ThrowsMessage<MachineError>(HasSubstr("result_0000.vtu, on which")));
   put("result_0000.vtu", "");
+  EXPECT_THAT(asking(), ThrowsMessage<MachineError>(HasSubstr("do not have the 3 bytes")));
+  put("result_0000.vtu", "123");
   put("history.csv.part", "123456789");
   EXPECT_THAT(asking(), ThrowsMessage<MachineError>(HasSubstr("history.csv.part is shorter")));
   put("history.csv.part", "1234567890");
