@@ -92,6 +92,7 @@ export class Explorer {
     canvas.setAttribute('aria-label', `field of ${body.result.title}; arrow keys, plus, minus and 0 move the view`);
     const controls = new OrbitControls(this.camera.three, canvas);
     controls.target.copy(this.camera.target);
+    controls.update();  // its constructor has turned the camera towards the origin
     controls.addEventListener('change', () => this.refresh());
     controls.zoomToCursor = true;
     controls.enableZoom = false;
