@@ -9,9 +9,9 @@
 #include <iterator>
 #include <string>
 
-#include "../src/report/page_template.h"
 #include "report/figures.h"
 #include "report/page.h"
+#include "report/page_template.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::report {
