@@ -192,7 +192,8 @@ TEST(Locking, LinearCellsThatAreTooStiffForABimorphAreToldOf) {
 
 TEST(Locking, LinearCellsThatAreTooStiffForACantileverAreToldOf) {
   for (const char *cell : {"triangle", "quadrilateral"})
-    EXPECT_THAT(warnings(read(cantilever(plane_mesh(cell, 50, 4, "")))), HasSubstr("bends")) << cell;
+    EXPECT_THAT(warnings(read(cantilever(plane_mesh(cell, 50, 4, "")))), HasSubstr("bends"))
+        << cell;
   EXPECT_EQ(warnings(read(cantilever(plane_mesh("quadrilateral", 128, 8, "")))), "[]");
 }
 
