@@ -170,6 +170,10 @@ void generate(Format format, const casefile::MeshCase &asked) {
     check_not_meshed();
   if (asked.size)
     gmsh::option::setNumber("Mesh.MeshSizeMax", *asked.size);
+  // Whatever the geometry asks for: on several threads libgmsh 4.8 crashes now and then.
+  for (const char *threads : {"General.NumThreads", "Mesh.MaxNumThreads1D", "Mesh.MaxNumThreads2D",
+                              "Mesh.MaxNumThreads3D"})
+    gmsh::option::setNumber(threads, 1);
   gmsh::model::mesh::generate(gmsh::model::getDimension());
 }
 
