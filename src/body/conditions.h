@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "body/operator.h"
-#include "tourmaline/case/case.h"
+#include "tourmaline/case/boundary_case.h"
+#include "tourmaline/case/load_case.h"
 
 namespace tourmaline::body {
 

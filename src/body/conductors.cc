@@ -8,6 +8,7 @@
 
 #include "case/toml_text.h"
 #include "parallel/ranks.h"
+#include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::body {

@@ -3,6 +3,10 @@
 #include "body/conditions.h"
 #include "material/composition.h"
 
+namespace tourmaline::casefile {
+struct Case;
+}
+
 namespace tourmaline::body {
 
 /// Throws CaseError where something gives two potentials to one conductor: conducting cells that

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "parallel/ranks.h"
+#include "tourmaline/case/case.h"
 
 namespace tourmaline::body {
 

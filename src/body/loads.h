@@ -4,7 +4,13 @@
 #include <vector>
 
 #include "body/operator.h"
-#include "tourmaline/case/case.h"
+#include "tourmaline/case/boundary_case.h"
+#include "tourmaline/case/contact_case.h"
+#include "tourmaline/case/load_case.h"
+
+namespace tourmaline::casefile {
+struct Case;
+}
 
 namespace tourmaline::body {
 

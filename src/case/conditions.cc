@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "case/toml_text.h"
+#include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::casefile {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "tourmaline/case/case.h"
-
 namespace tourmaline::casefile {
+
+struct Case;
 
 /// Throws CaseError when a boundary has two conditions on one field: a displacement component and a
 /// traction there, a potential and a charge, a temperature and a heat flow, any of them twice, or

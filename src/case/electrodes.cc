@@ -7,6 +7,7 @@
 
 #include "case/nearest.h"
 #include "case/toml_text.h"
+#include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::casefile {

@@ -1,8 +1,10 @@
 #pragma once
 
-#include "tourmaline/case/case.h"
+#include <string>
 
 namespace tourmaline::casefile {
+
+struct Case;
 
 /// Throws CaseError where electrodes contradict themselves or each other: a name or a boundary
 /// twice, conditions that exclude each other, a way `to` an electrode that is not there, an unknown

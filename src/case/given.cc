@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "case/symmetry.h"
+#include "tourmaline/case/material_case.h"
 
 namespace tourmaline::casefile {
 

@@ -3,9 +3,9 @@
 #include <map>
 #include <string>
 
-#include "tourmaline/case/case.h"
-
 namespace tourmaline::casefile {
+
+struct MaterialCase;
 
 /// The tensors that a material may give as a whole, by their keys, and whether it does.
 std::map<std::string, bool> given_tensors(const MaterialCase &material);

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "case/sides.h"
+#include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::casefile {

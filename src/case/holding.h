@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "tourmaline/case/case.h"
-
 namespace tourmaline::casefile {
+
+struct Case;
 
 /// A point of the body [m] whose displacement along `direction`, a unit vector, is prescribed.
 struct Support {

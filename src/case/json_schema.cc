@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "json_schema_key.h"
+#include "tourmaline/case/case.h"
 
 namespace tourmaline::casefile {
 

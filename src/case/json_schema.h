@@ -7,6 +7,8 @@
 
 namespace tourmaline::casefile {
 
+struct Case;
+
 /// Raised when a case file that this schema accepted is no longer accepted or means something else;
 /// new keys and new values do not raise it.
 constexpr int schema_version = 2;

@@ -3,6 +3,7 @@
 #include <regex>
 
 #include "case/schema.h"
+#include "tourmaline/case/case.h"
 
 namespace tourmaline::casefile {
 

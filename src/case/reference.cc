@@ -8,6 +8,7 @@
 
 #include "case/schema.h"
 #include "case/toml_text.h"
+#include "tourmaline/case/case.h"
 
 namespace tourmaline::casefile {
 

@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "tourmaline/case/case.h"
-
 namespace tourmaline::casefile {
+
+struct Case;
 
 /// The complete case as TOML, with all defaults filled in. Reading it gives the same case again,
 /// every number to the last bit.

@@ -3,6 +3,7 @@
 #include "case/interval.h"
 #include "schema_parts.h"
 #include "sense.h"
+#include "tourmaline/case/case.h"
 
 namespace tourmaline::casefile {
 

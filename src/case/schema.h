@@ -6,6 +6,9 @@
 /// resolved.toml, the reference page and the JSON Schema are visitors of that one declaration.
 namespace tourmaline::casefile {
 
+struct Case;
+struct MaterialCase;
+
 /// Declares all tables of the case file. Sets `asked.dimension` as soon as the mesh has been
 /// visited.
 void declare(Visitor &visitor, Case &asked);

@@ -5,6 +5,8 @@
 #include "case/sides.h"
 #include "schema_parts.h"
 #include "sense.h"
+#include "tourmaline/case/boundary_case.h"
+#include "tourmaline/case/mesh_case.h"
 
 namespace tourmaline::casefile {
 

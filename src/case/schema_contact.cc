@@ -1,5 +1,7 @@
 #include "schema_parts.h"
 #include "sense.h"
+#include "tourmaline/case/contact_case.h"
+#include "tourmaline/case/mesh_case.h"
 
 namespace tourmaline::casefile {
 

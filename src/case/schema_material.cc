@@ -7,6 +7,7 @@
 #include "case/symmetry.h"
 #include "schema_parts.h"
 #include "sense.h"
+#include "tourmaline/case/material_case.h"
 
 namespace tourmaline::casefile {
 

@@ -7,6 +7,7 @@
 #include "case/sides.h"
 #include "schema_parts.h"
 #include "sense.h"
+#include "tourmaline/case/mesh_case.h"
 
 namespace tourmaline::casefile {
 

@@ -9,6 +9,10 @@
 /// The declarations of the case file's tables, which `declare(Visitor &, Case &)` puts together.
 namespace tourmaline::casefile {
 
+struct BoundaryCase;
+struct ContactCase;
+struct ElectrodeCase;
+
 void declare(Visitor &v, MeshCase &mesh);
 
 /// [material] and [region.material].

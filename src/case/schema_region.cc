@@ -4,6 +4,8 @@
 
 #include "schema_parts.h"
 
+#include "tourmaline/case/case.h"
+
 namespace tourmaline::casefile {
 
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tourmaline/case/case.h"
+#include "tourmaline/case/mesh_case.h"
 
 namespace tourmaline::casefile {
 

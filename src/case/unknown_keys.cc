@@ -8,6 +8,7 @@
 #include "case/nearest.h"
 #include "case/schema.h"
 #include "case/toml_text.h"
+#include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 #include "value.h"
 

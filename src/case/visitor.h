@@ -6,11 +6,13 @@
 #include <variant>
 #include <vector>
 
-#include "tourmaline/case/case.h"
+#include "tourmaline/case/formula.h"
 #include "tourmaline/case/range.h"
 
 /// What may be said of a key of the case file, and the visitors that it is said to.
 namespace tourmaline::casefile {
+
+struct MeshCase;
 
 /// The numbers of entries that a list may have.
 struct Length {

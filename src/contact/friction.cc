@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "tourmaline/case/contact_case.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::contact {

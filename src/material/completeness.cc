@@ -7,6 +7,7 @@
 
 #include "case/given.h"
 #include "case/symmetry.h"
+#include "tourmaline/case/material_case.h"
 
 namespace tourmaline::material {
 

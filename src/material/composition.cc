@@ -7,6 +7,7 @@
 
 #include "material/completeness.h"
 #include "material/orientation.h"
+#include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::material {

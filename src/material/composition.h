@@ -4,6 +4,11 @@
 #include <vector>
 
 #include "material/plane.h"
+#include "tourmaline/case/material_case.h"
+
+namespace tourmaline::casefile {
+struct Case;
+}
 
 namespace tourmaline::material {
 

@@ -13,6 +13,7 @@
 #include "material/coupling.h"
 #include "material/crystal_class.h"
 #include "material/library.h"
+#include "tourmaline/case/material_case.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::material {

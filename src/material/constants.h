@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "tourmaline/case/case.h"
+namespace tourmaline::casefile {
+struct MaterialCase;
+}
 
 namespace tourmaline::material {
 

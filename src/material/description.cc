@@ -12,6 +12,7 @@
 #include "material/completeness.h"
 #include "material/constants.h"
 #include "material/library.h"
+#include "tourmaline/case/material_case.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::material {

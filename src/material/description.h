@@ -2,7 +2,9 @@
 
 #include <string>
 
-#include "tourmaline/case/case.h"
+namespace tourmaline::casefile {
+struct MaterialCase;
+}
 
 namespace tourmaline::material {
 

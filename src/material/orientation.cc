@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "tourmaline/case/material_case.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::material {

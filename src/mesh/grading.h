@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "tourmaline/case/case.h"
+#include "tourmaline/case/mesh_case.h"
 
 namespace tourmaline::mesh {
 

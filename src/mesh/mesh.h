@@ -7,7 +7,11 @@
 #include <set>
 #include <string>
 
-#include "tourmaline/case/case.h"
+#include "tourmaline/case/mesh_case.h"
+
+namespace tourmaline::casefile {
+struct Case;
+}
 
 namespace tourmaline::mesh {
 

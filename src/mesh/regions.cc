@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "mesh/mesh.h"
+#include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::mesh {

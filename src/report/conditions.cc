@@ -1,5 +1,7 @@
 #include "report/conditions.h"
 
+#include "tourmaline/case/case.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -3,7 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "tourmaline/case/case.h"
+namespace tourmaline::casefile {
+struct Case;
+}
 
 namespace tourmaline::report {
 

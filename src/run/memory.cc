@@ -8,6 +8,7 @@
 #include "case/electrodes.h"
 #include "parallel/ranks.h"
 #include "run/available_memory.h"
+#include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::run {

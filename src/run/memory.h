@@ -1,6 +1,8 @@
 #pragma once
 
-#include "tourmaline/case/case.h"
+namespace tourmaline::casefile {
+struct Case;
+}
 
 namespace tourmaline::run {
 

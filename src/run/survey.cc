@@ -12,6 +12,7 @@
 #include "mesh/mesh.h"
 #include "run/locking.h"
 #include "run/plausibility.h"
+#include "tourmaline/case/case.h"
 
 namespace tourmaline::run {
 

@@ -4,7 +4,10 @@
 #include <vector>
 
 #include "output/summary.h"
-#include "tourmaline/case/case.h"
+
+namespace tourmaline::casefile {
+struct Case;
+}
 
 namespace tourmaline::run {
 

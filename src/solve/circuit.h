@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "tourmaline/case/case.h"
+#include "tourmaline/case/boundary_case.h"
 
 namespace tourmaline::solve {
 

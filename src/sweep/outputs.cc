@@ -15,6 +15,7 @@
 #include "case/toml_text.h"
 #include "report/table.h"
 #include "report/text_file.h"
+#include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::sweep {

@@ -5,7 +5,10 @@
 #include <vector>
 
 #include "sweep/reduction.h"
-#include "tourmaline/case/case.h"
+
+namespace tourmaline::casefile {
+struct Case;
+}
 
 namespace tourmaline::sweep {
 

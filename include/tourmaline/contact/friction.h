@@ -3,10 +3,13 @@
 #include <functional>
 #include <variant>
 
-#include "tourmaline/case/case.h"
 #include "tourmaline/contact/friction_law.h"
 #include "tourmaline/contact/tresca.h"
 #include "tourmaline/vector.h"
+
+namespace tourmaline::casefile {
+struct FrictionCase;
+}
 
 namespace tourmaline::contact {
 

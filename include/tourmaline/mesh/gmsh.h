@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "tourmaline/case/case.h"
+#include "tourmaline/case/mesh_case.h"
 
 namespace tourmaline::mesh {
 

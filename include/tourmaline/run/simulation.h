@@ -2,8 +2,11 @@
 
 #include <filesystem>
 
-#include "tourmaline/case/case.h"
 #include "tourmaline/contact/friction.h"
+
+namespace tourmaline::casefile {
+struct Case;
+}
 
 namespace tourmaline::run {
 

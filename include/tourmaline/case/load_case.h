@@ -1,0 +1,19 @@
+#pragma once
+
+#include "tourmaline/case/formula.h"
+
+namespace tourmaline::casefile {
+
+struct LoadCase {
+  FormulaVector force;  ///< f_0 [N/m^3]; empty: none
+  Formula charge = 0;   ///< phi_0 [C/m^3]
+  Formula heat = 0;     ///< q_0 [W/m^3]
+};
+
+struct InitialCase {
+  FormulaVector displacement;  ///< u_0 [m]; empty: zero
+  Formula potential = 0;       ///< phi_0 [V]
+  Formula temperature = 0;     ///< theta_0 [K]
+};
+
+}  // namespace tourmaline::casefile
