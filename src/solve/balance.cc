@@ -388,7 +388,7 @@ void Balance<dim>::add_energy(const Step &step, Columns &columns) {
                                  {"load_power", load / k},
                                  {"electric_power", electric / k},
                                  {"thermal_power", thermal / k},
-                                 {"friction_dissipation", without_round_off(friction, step) / k},
+                                 {"friction_dissipation", friction / k},
                                  {"conduction_loss", conduction / k},
                                  {"time_step_loss", lost / k}});
   const std::array<double, 3> &round_off = step.round_off.energy;
@@ -430,19 +430,6 @@ double Balance<dim>::lack_of_energy(const Step &step, double whole,
                                       std::max({imbalance.size, round_off, leaked * whole})));
   }
   return worst;
-}
-
-// A point that sticks moves by what the iteration leaves, in any direction.
-template <int dim>
-double Balance<dim>::without_round_off(double dissipated, const Step &step) const {
-  double moved = 0, forces = 0;
-  for (std::size_t i = 0; i < step.state.size(); ++i)
-    if (field_of<dim>(i) == 0) {
-      moved = larger(moved, std::abs(step.state[i]));
-      forces += std::abs(step.friction[i]);
-    }
-  const double least = model_.asked.solver.tolerance * moved * forces;
-  return dissipated < 0 && -dissipated <= least ? 0 : dissipated;
 }
 
 // Global equilibrium: loads, reactions and contact forces add up to zero in every direction.

@@ -67,7 +67,6 @@ class Balance {
   void add_energy(const Step &step, Columns &columns);
   double lack_of_energy(const Step &step, double whole, const std::array<double, 3> &lost,
                         const std::array<std::vector<double>, 3> &works) const;
-  double without_round_off(double dissipated, const Step &step) const;
   std::vector<std::pair<body::Node, double>> exchange_weights(const std::string &boundary) const;
   double smallest_heat() const;
   double exchanged(const std::string &boundary, const Step &step) const;
