@@ -82,8 +82,9 @@ class Operator {
   std::vector<double> diagonal(double step) const;
 
   /// Of each component of a node, 1 / sqrt(largest diagonal entry of its field): in unknowns that
-  /// are measured by it the fields' blocks are of one size.
-  std::array<double, n> scales(double step) const;
+  /// are measured by it the fields' blocks are of one size. The second by `diagonal(step)`.
+  std::array<double, n> scales(double step) const { return scales(diagonal(step)); }
+  static std::array<double, n> scales(std::span<const double> diagonal);
 
   /// |storage - step / theta_ref G| |x|, entry by entry, the size of the terms of a product; on
   /// several ranks at most that of their shares.
