@@ -28,11 +28,10 @@ struct FieldProducts {
 ///                [  E    -B      P  ]     B = (beta grad psi, grad psi)
 ///                [ -M^T   P^T   -H0 ]     E, M, P the couplings of (1), (2), (6)
 ///
-///     conduction G = (K grad eta, grad eta) + (k_c eta, eta) on Gamma_C, rows and columns of theta
-///     only
+///     conduction G = (K grad eta, grad eta) + (k_c eta, eta) on Gamma_C
 ///
-/// so that the step of (31)-(33) has the operator storage - (k / theta_ref) G, and its heat rows
-/// see the state before through the heat rows of `storage`.
+/// G in rows and columns of theta only, so that the step of (31)-(33) has the operator storage - (k
+/// / theta_ref) G, and its heat rows see the state before through the heat rows of `storage`.
 ///
 /// With `Modes::incompatible` the cells' modes (`CellModes`) are condensed out of `storage`, all
 /// fields at once: what is left is symmetric, as definite as before, and its heat rows are those of

@@ -21,10 +21,10 @@ namespace tourmaline::solve {
 ///
 /// and with backward differences over a step, d = x_n - x_(n-1), it obeys exactly
 ///
-///     W_n - W_(n-1) + W(d) = load + electric + thermal work - friction dissipation - conduction
-///     loss,
+///     W_n - W_(n-1) + W(d) = work - dissipation
 ///
-/// where W(d) >= 0 is what the Euler step loses (docs/theory.md). Every balance is reported with
+/// with the work of loads, charges and heats and what friction and conduction dissipate, where
+/// W(d) >= 0 is what the Euler step loses (docs/theory.md). Every balance is reported with
 /// its imbalance relative to the sum of the sizes of its terms.
 template <int dim>
 class Balance {
