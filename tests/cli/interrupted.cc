@@ -63,6 +63,28 @@ TEST_F(Interrupted, TheIterativeRouteGoesOn) {
   expect_to_go_on("block.toml --set solver.body=iterative");
 }
 
+// A bar in stiff thirds, the middle one softer by 1e8, pulled to and fro: where it stands on its
+// foundation its breadth changes.
+const std::string pulled = R"toml(
+mesh.box = { min = [0, 0, 0], max = [3, 1, 1], cells = [6, 2, 2], cell = "hexahedron" }
+time = { end = 3, steps = 20 }
+boundary = [
+  { on = "bottom", displacement = ["free", "free", 0], potential = 0, temperature = 0 },
+  { on = "front", displacement = ["free", 0, "free"] },
+  { on = "right", traction = ["1e3*sin(4*t)", 0, 0] } ]
+contact = { on = "left", friction = { law = "tresca", bound = 100 } }
+solver = { body = "iterative", linear_tolerance = 1e-7 }
+region = [
+  { where = "x < 1 || x > 2", material = { symmetry = "isotropic", young = 1e11, poisson = 0.3, eps11 = 10, k11 = 1, density = 1000, specific_heat = 1000, reference_temperature = 293 } },
+  { where = "x > 1 && x < 2", material = { symmetry = "isotropic", young = 1e3, poisson = 0, eps11 = 10, k11 = 1, density = 1000, specific_heat = 1000, reference_temperature = 293 } } ]
+)toml";
+
+TEST_F(Interrupted, TheIterativeRouteGoesOnWhereItIsRefined) {
+  std::ofstream(here() / "pulled.toml") << pulled;
+  expect_to_go_on("pulled.toml");
+  EXPECT_EQ(without_times(here() / "other/results/summary.json")["refined"], true);
+}
+
 TEST_F(Interrupted, ElectrodesInACircuitGoOn) {
   expect_to_go_on(std::string(TOURMALINE_SOURCE_DIR) +
                       "/cases/devices/friction-sensor-loaded.toml --set time.steps=400"
