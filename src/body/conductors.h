@@ -1,6 +1,6 @@
 #pragma once
 
-#include "body/conditions.h"
+#include "body/prescribed.h"
 #include "material/composition.h"
 
 namespace tourmaline::casefile {

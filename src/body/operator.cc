@@ -216,11 +216,10 @@ std::vector<double> Operator<dim>::diagonal(double step) const {
 }
 
 template <int dim>
-std::array<double, Operator<dim>::n> Operator<dim>::scales(double step) const {
-  const std::vector<double> entries = diagonal(step);
+std::array<double, Operator<dim>::n> Operator<dim>::scales(std::span<const double> diagonal) {
   std::array<double, 3> largest{};
-  for (std::size_t i = 0; i < entries.size(); ++i)
-    largest[field_of<dim>(i)] = std::max(largest[field_of<dim>(i)], std::abs(entries[i]));
+  for (std::size_t i = 0; i < diagonal.size(); ++i)
+    largest[field_of<dim>(i)] = std::max(largest[field_of<dim>(i)], std::abs(diagonal[i]));
   std::array<double, n> scales;
   for (int c = 0; c < n; ++c)
     scales[c] = 1 / std::sqrt(largest[field_of<dim>(c)]);

@@ -28,11 +28,10 @@ struct FieldProducts {
 ///                [  E    -B      P  ]     B = (beta grad psi, grad psi)
 ///                [ -M^T   P^T   -H0 ]     E, M, P the couplings of (1), (2), (6)
 ///
-///     conduction G = (K grad eta, grad eta) + (k_c eta, eta) on Gamma_C, rows and columns of theta
-///     only
+///     conduction G = (K grad eta, grad eta) + (k_c eta, eta) on Gamma_C
 ///
-/// so that the step of (31)-(33) has the operator storage - (k / theta_ref) G, and its heat rows
-/// see the state before through the heat rows of `storage`.
+/// G in rows and columns of theta only, so that the step of (31)-(33) has the operator storage - (k
+/// / theta_ref) G, and its heat rows see the state before through the heat rows of `storage`.
 ///
 /// With `Modes::incompatible` the cells' modes (`CellModes`) are condensed out of `storage`, all
 /// fields at once: what is left is symmetric, as definite as before, and its heat rows are those of
@@ -82,8 +81,9 @@ class Operator {
   std::vector<double> diagonal(double step) const;
 
   /// Of each component of a node, 1 / sqrt(largest diagonal entry of its field): in unknowns that
-  /// are measured by it the fields' blocks are of one size.
-  std::array<double, n> scales(double step) const;
+  /// are measured by it the fields' blocks are of one size. The second by `diagonal(step)`.
+  std::array<double, n> scales(double step) const { return scales(diagonal(step)); }
+  static std::array<double, n> scales(std::span<const double> diagonal);
 
   /// |storage - step / theta_ref G| |x|, entry by entry, the size of the terms of a product; on
   /// several ranks at most that of their shares.

@@ -7,7 +7,7 @@
 #include <functional>
 #include <utility>
 
-#include "case/conditions.h"
+#include "case/conflicts.h"
 #include "case/electrodes.h"
 #include "case/holding.h"
 #include "case/schema.h"
@@ -248,7 +248,7 @@ Case read_text(const std::string &text, const std::string &name,
   Reader(root, "", context).read_all([&](Visitor &visitor) { declare(visitor, asked); });
   if (asked.output.every == 0)
     asked.output.every = steps_between_files(asked.time.steps);
-  check_conditions(asked);
+  check_conflicts(asked);
   check_electrodes(asked);
   check_holding(asked);
   return asked;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "body/cell_products.h"
-#include "body/conditions.h"
+#include "body/prescribed.h"
 #include "body/operator.h"
 #include "condensation/factorisation.h"
 

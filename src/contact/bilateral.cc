@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "body/fields.h"
+
 namespace tourmaline::contact {
 
 namespace {
@@ -96,11 +98,25 @@ Admissible<dim> bilateral(const Eigen::Matrix<double, dim, 1> &normal,
   return admissible;
 }
 
+template <int dim>
+Admissible<dim> bilateral(const InterfaceNode<dim> &at, const std::vector<bool> &is_prescribed,
+                          std::span<const double> state) {
+  std::array<std::optional<double>, dim> prescribed;
+  for (int c = 0; c < dim; ++c)
+    if (const std::size_t i = body::unknown<dim>(at.node, c); is_prescribed[i])
+      prescribed[c] = state[i];
+  return bilateral<dim>(at.normal, prescribed);
+}
+
 template struct Admissible<2>;
 template struct Admissible<3>;
 template Admissible<2> bilateral<2>(const Eigen::Matrix<double, 2, 1> &,
                                     const std::array<std::optional<double>, 2> &);
 template Admissible<3> bilateral<3>(const Eigen::Matrix<double, 3, 1> &,
                                     const std::array<std::optional<double>, 3> &);
+template Admissible<2> bilateral<2>(const InterfaceNode<2> &, const std::vector<bool> &,
+                                    std::span<const double>);
+template Admissible<3> bilateral<3>(const InterfaceNode<3> &, const std::vector<bool> &,
+                                    std::span<const double>);
 
 }  // namespace tourmaline::contact

@@ -3,7 +3,10 @@
 #include <Eigen/Dense>
 #include <array>
 #include <optional>
+#include <span>
+#include <vector>
 
+#include "contact/interface.h"
 #include "tourmaline/contact/tangent.h"
 
 namespace tourmaline::contact {
@@ -45,5 +48,10 @@ struct Admissible {
 template <int dim>
 Admissible<dim> bilateral(const Eigen::Matrix<double, dim, 1> &normal,
                           const std::array<std::optional<double>, dim> &prescribed);
+
+/// The same at a contact node of a body with the unknowns `state`.
+template <int dim>
+Admissible<dim> bilateral(const InterfaceNode<dim> &at, const std::vector<bool> &is_prescribed,
+                          std::span<const double> state);
 
 }  // namespace tourmaline::contact

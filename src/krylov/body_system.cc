@@ -1,16 +1,14 @@
 #include "krylov/body_system.h"
 
-#include <fmt/format.h>
-#include <petscksp.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "body/backward_error.h"
+#include "krylov/node_rows.h"
+#include "krylov/petsc.h"
 #include "parallel/ranks.h"
 #include "stopwatch.h"
-#include "tourmaline/error.h"
 
 namespace tourmaline::krylov {
 
@@ -20,56 +18,9 @@ using body::unknown;
 
 namespace {
 
-void check(PetscErrorCode code) {
-  if (code == PETSC_ERR_MEM)
-    throw MachineError("not enough memory for the iterative solver; use a coarser mesh");
-  if (code != 0)
-    throw SolveError(fmt::format("PETSc failed with error {}", static_cast<int>(code)));
-}
-
 void finish_assembly(Mat matrix) {
   check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
   check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
-}
-
-// Chosen by measurement: docs/architecture.md.
-constexpr const char *options[][2] = {
-    {"-ksp_type", "fgmres"},
-    {"-ksp_gmres_restart", "100"},
-    {"-ksp_max_it", "500"},
-    {"-pc_type", "fieldsplit"},
-    {"-pc_fieldsplit_type", "multiplicative"},
-    {"-fieldsplit_u_ksp_type", "preonly"},
-    {"-fieldsplit_u_pc_type", "gamg"},
-    {"-fieldsplit_u_pc_gamg_threshold", "0"},
-    {"-fieldsplit_u_pc_gamg_agg_nsmooths", "0"},
-    // Coarse spaces of an earlier matrix would also make a step depend on all steps before it.
-    {"-fieldsplit_u_pc_gamg_reuse_interpolation", "0"},
-    {"-fieldsplit_u_mg_levels_ksp_type", "chebyshev"},
-    {"-fieldsplit_u_mg_levels_ksp_max_it", "4"},
-    {"-fieldsplit_u_mg_levels_pc_type", "jacobi"},
-    {"-fieldsplit_phi_ksp_type", "preonly"},
-    {"-fieldsplit_phi_pc_type", "hypre"},
-    {"-fieldsplit_phi_pc_hypre_type", "boomeramg"},
-    {"-fieldsplit_theta_ksp_type", "preonly"},
-    {"-fieldsplit_theta_pc_type", "hypre"},
-    {"-fieldsplit_theta_pc_hypre_type", "boomeramg"},
-};
-
-void start() {
-  PetscBool running = PETSC_FALSE;
-  PetscInitialized(&running);
-  if (running)
-    return;
-  PetscOptionsSetValue(nullptr, "-no_signal_handler", nullptr);
-  check(PetscInitializeNoArguments());
-  PetscPushErrorHandler(PetscReturnErrorHandler, nullptr);
-  for (const auto &[name, value] : options) {
-    PetscBool given = PETSC_FALSE;  // by PETSC_OPTIONS, to try others
-    check(PetscOptionsHasName(nullptr, nullptr, name, &given));
-    if (!given)
-      check(PetscOptionsSetValue(nullptr, name, value));
-  }
 }
 
 }  // namespace
@@ -91,10 +42,8 @@ struct BodySystem<dim>::Parts {
   Parts(const Parts &) = delete;
   Parts &operator=(const Parts &) = delete;
 
-  void number_rows();
   void preallocate();
   void make_solver(const std::vector<Vector3> &points);
-  IS field(int first, int count) const;
   void attach_rigid_motions(IS displacements, const std::vector<Vector3> &points) const;
   Block projector(Node node) const;
   void assemble();
@@ -102,17 +51,12 @@ struct BodySystem<dim>::Parts {
   void project_own(PetscScalar *own) const;
   static PetscErrorCode multiply_free(Mat free, Vec x, Vec y);
   std::vector<double> in_si(Vec scaled) const;
-  void put_rows(std::span<const double> rows, Vec scaled) const;
+  void put_rows(std::span<const double> all, Vec scaled) const;
   void project(std::span<double> vector) const;
   void multiply_cells(Vec x, Vec y) const;
   Block block_of(Node node) const;
   void put_contact();
   void precondition();
-  PetscInt own_begin() const { return begin[parallel::rank()]; }
-  PetscInt own_count() const { return begin[parallel::rank() + 1] - own_begin(); }
-  bool owns(Node node) const {
-    return row_of[node] >= own_begin() && row_of[node] < own_begin() + own_count();
-  }
 
   const body::Operator<dim> &op;
   double step;
@@ -120,9 +64,7 @@ struct BodySystem<dim>::Parts {
   std::vector<NodeTangent<dim>> contact, preconditioned;
   std::vector<int> contact_index;     // by node; -1: not at the contact
   std::vector<Block> contact_blocks;  // diagonal blocks of this rank's contact nodes, without C
-  std::vector<PetscInt> row_of;       // by node; a rank's own nodes stand together
-  std::vector<Node> node_of;          // by row
-  std::vector<PetscInt> begin;        // of each rank's rows, and the end
+  NodeRows rows;
   std::vector<std::pair<PetscInt, Block>> held;  // own rows, from the first one on, where Q != 1
   std::array<double, n> scale;
   const body::CellProducts<dim> *cells = nullptr;  // once refined
@@ -139,6 +81,7 @@ BodySystem<dim>::Parts::Parts(const body::Operator<dim> &the_operator, double th
     : op(the_operator),
       step(the_step),
       contact_index(the_operator.graph().n_nodes(), -1),
+      rows(the_operator.graph()),
       scale(the_operator.scales(the_step)) {}
 
 template <int dim>
@@ -151,29 +94,6 @@ BodySystem<dim>::Parts::~Parts() {
   MatDestroy(&matrix);
 }
 
-// A node belongs to the first rank whose cells touch it.
-template <int dim>
-void BodySystem<dim>::Parts::number_rows() {
-  const body::NodeGraph &graph = op.graph();
-  const int ranks = parallel::n_ranks();
-  std::vector<double> closeness(graph.n_nodes(), -ranks);  // the largest wins
-  for (Node i = 0; i < graph.n_nodes(); ++i)
-    if (graph.row[i] != graph.row[i + std::size_t{1}])
-      closeness[i] = -parallel::rank();
-  parallel::largest(closeness);
-  node_of.resize(graph.n_nodes());
-  std::iota(node_of.begin(), node_of.end(), Node{0});
-  std::stable_sort(node_of.begin(), node_of.end(),
-                   [&](Node a, Node b) { return closeness[a] > closeness[b]; });
-  row_of.resize(graph.n_nodes());
-  begin.assign(ranks + 1, 0);
-  for (std::size_t row = 0; row < node_of.size(); ++row) {
-    row_of[node_of[row]] = static_cast<PetscInt>(row);
-    ++begin[static_cast<std::size_t>(-closeness[node_of[row]]) + 1];
-  }
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-}
-
 // Where ranks meet, a row has at most the entries that they have in it together.
 template <int dim>
 void BodySystem<dim>::Parts::preallocate() {
@@ -183,36 +103,21 @@ void BodySystem<dim>::Parts::preallocate() {
     length[i] = static_cast<double>(graph.row[i + std::size_t{1}] - graph.row[i]);
   parallel::sum(length);
   std::vector<PetscInt> inside, outside;
-  for (PetscInt row = 0; row < own_count(); ++row) {
-    const auto blocks = static_cast<PetscInt>(length[node_of[own_begin() + row]]);
-    inside.push_back(std::min(blocks, own_count()));
-    outside.push_back(std::min(blocks, static_cast<PetscInt>(graph.n_nodes()) - own_count()));
+  const auto all = static_cast<PetscInt>(graph.n_nodes()), own = rows.n_own();
+  for (PetscInt row = 0; row < own; ++row) {
+    const auto blocks = static_cast<PetscInt>(length[rows.own_node(row)]);
+    inside.push_back(std::min(blocks, own));
+    outside.push_back(std::min(blocks, all - own));
   }
-  const auto all = static_cast<PetscInt>(graph.n_nodes());
   check(MatCreate(PETSC_COMM_WORLD, &matrix));
-  check(MatSetSizes(matrix, n * own_count(), n * own_count(), n * all, n * all));
+  check(MatSetSizes(matrix, n * own, n * own, n * all, n * all));
   check(MatSetType(matrix, MATAIJ));
   check(MatSetBlockSize(matrix, n));
   check(MatXAIJSetPreallocation(matrix, n, inside.data(), outside.data(), nullptr, nullptr));
   check(MatCreateVecs(matrix, &solution, &right_side));
   check(VecDuplicate(solution, &projected));
-  check(MatCreateShell(PETSC_COMM_WORLD, n * own_count(), n * own_count(), n * all, n * all, this,
-                       &free));
+  check(MatCreateShell(PETSC_COMM_WORLD, n * own, n * own, n * all, n * all, this, &free));
   check(MatShellSetOperation(free, MATOP_MULT, reinterpret_cast<void (*)()>(multiply_free)));
-}
-
-// Rows of `count` unknowns from `first` on, of this rank's nodes.
-template <int dim>
-IS BodySystem<dim>::Parts::field(int first, int count) const {
-  std::vector<PetscInt> rows;
-  for (PetscInt row = own_begin(); row < own_begin() + own_count(); ++row)
-    for (int c = 0; c < count; ++c)
-      rows.push_back(n * row + first + c);
-  IS field = nullptr;
-  check(ISCreateGeneral(PETSC_COMM_WORLD, static_cast<PetscInt>(rows.size()), rows.data(),
-                        PETSC_COPY_VALUES, &field));
-  check(ISSetBlockSize(field, count));
-  return field;
 }
 
 template <int dim>
@@ -221,12 +126,12 @@ void BodySystem<dim>::Parts::attach_rigid_motions(IS displacements,
   Vec places = nullptr;
   check(VecCreate(PETSC_COMM_WORLD, &places));
   check(VecSetBlockSize(places, dim));
-  check(VecSetSizes(places, dim * own_count(), PETSC_DECIDE));
+  check(VecSetSizes(places, dim * rows.n_own(), PETSC_DECIDE));
   check(VecSetUp(places));
   PetscScalar *values = nullptr;
   check(VecGetArray(places, &values));
-  for (PetscInt row = 0; row < own_count(); ++row)
-    std::copy_n(points[node_of[own_begin() + row]].begin(), dim, values + dim * row);
+  for (PetscInt row = 0; row < rows.n_own(); ++row)
+    std::copy_n(points[rows.own_node(row)].begin(), dim, values + dim * row);
   check(VecRestoreArray(places, &values));
   MatNullSpace motions = nullptr;
   check(MatNullSpaceCreateRigidBody(places, &motions));
@@ -248,11 +153,11 @@ void BodySystem<dim>::Parts::make_solver(const std::vector<Vector3> &points) {
   } fields[] = {
       {"u", 0, dim}, {"phi", Fields<dim>::potential, 1}, {"theta", Fields<dim>::temperature, 1}};
   for (const auto &f : fields) {
-    IS rows = field(f.first, f.count);
+    IS own = rows.own(n, f.first, f.count);
     if (f.count == dim)
-      attach_rigid_motions(rows, points);
-    check(PCFieldSplitSetIS(preconditioner, f.name, rows));
-    check(ISDestroy(&rows));
+      attach_rigid_motions(own, points);
+    check(PCFieldSplitSetIS(preconditioner, f.name, own));
+    check(ISDestroy(&own));
   }
 }
 
@@ -280,24 +185,24 @@ void BodySystem<dim>::Parts::assemble() {
     for (std::size_t e = graph.row[i]; e < graph.row[i + 1]; ++e) {
       const Block k = scales.asDiagonal() * op.step_block(e, step) * scales.asDiagonal();
       Block block = sign * qi * k * projector(graph.column[e]);
-      if (graph.column[e] == i && owns(i))
+      if (graph.column[e] == i && rows.owns(i))
         block += Block::Identity() - qi;
-      const PetscInt row = row_of[i], column = row_of[graph.column[e]];
+      const PetscInt row = rows.of(i), column = rows.of(graph.column[e]);
       check(MatSetValuesBlocked(matrix, 1, &row, 1, &column, block.data(), ADD_VALUES));
     }
   }
   finish_assembly(matrix);
   contact_blocks.clear();
   for (const NodeTangent<dim> &at : contact)
-    if (owns(at.node))
+    if (rows.owns(at.node))
       contact_blocks.push_back(block_of(at.node));
 }
 
 template <int dim>
 void BodySystem<dim>::Parts::note_held_nodes() {
   held.clear();
-  for (PetscInt row = 0; row < own_count(); ++row)
-    if (const Block q = projector(node_of[own_begin() + row]); q != Block::Identity())
+  for (PetscInt row = 0; row < rows.n_own(); ++row)
+    if (const Block q = projector(rows.own_node(row)); q != Block::Identity())
       held.emplace_back(row, q);
 }
 
@@ -336,23 +241,24 @@ template <int dim>
 std::vector<double> BodySystem<dim>::Parts::in_si(Vec scaled) const {
   const PetscScalar *own = nullptr;
   check(VecGetArrayRead(scaled, &own));
-  const std::vector<double> all = parallel::joined(std::vector<double>(own, own + own_count() * n));
+  const std::vector<double> all =
+      parallel::joined(std::vector<double>(own, own + rows.n_own() * n));
   check(VecRestoreArrayRead(scaled, &own));
   std::vector<double> state(all.size());
-  for (std::size_t row = 0; row < node_of.size(); ++row)
+  for (std::size_t row = 0; row < rows.n_all(); ++row)
     for (int c = 0; c < n; ++c)
-      state[unknown<dim>(node_of[row], c)] = scale[c] * all[row * n + c];
+      state[unknown<dim>(rows.node(row), c)] = scale[c] * all[row * n + c];
   return state;
 }
 
 // This rank's share of rows of the whole body, the electric and heat rows with their sign.
 template <int dim>
-void BodySystem<dim>::Parts::put_rows(std::span<const double> rows, Vec scaled) const {
+void BodySystem<dim>::Parts::put_rows(std::span<const double> all, Vec scaled) const {
   PetscScalar *own = nullptr;
   check(VecGetArray(scaled, &own));
-  for (PetscInt i = 0; i < own_count() * n; ++i) {
+  for (PetscInt i = 0; i < rows.n_own() * n; ++i) {
     const int c = i % n;
-    own[i] = (c < dim ? 1 : -1) * scale[c] * rows[unknown<dim>(node_of[own_begin() + i / n], c)];
+    own[i] = (c < dim ? 1 : -1) * scale[c] * all[unknown<dim>(rows.own_node(i / n), c)];
   }
   check(VecRestoreArray(scaled, &own));
 }
@@ -362,22 +268,22 @@ template <int dim>
 void BodySystem<dim>::Parts::multiply_cells(Vec x, Vec y) const {
   using Vector = Eigen::Matrix<double, dim, 1>;
   const std::vector<double> state = in_si(x);
-  std::vector<double> rows(state.size());
-  cells->multiply(step, state, rows);
+  std::vector<double> product(state.size());
+  cells->multiply(step, state, product);
   for (const NodeTangent<dim> &at : contact) {
     const std::size_t first = unknown<dim>(at.node, 0);
-    Vector::Map(&rows[first]) += at.stiffness * Vector::Map(&state[first]);
+    Vector::Map(&product[first]) += at.stiffness * Vector::Map(&state[first]);
   }
-  project(rows);
-  put_rows(rows, y);
+  project(product);
+  put_rows(product, y);
 }
 
 template <int dim>
 typename BodySystem<dim>::Parts::Block BodySystem<dim>::Parts::block_of(Node node) const {
-  std::array<PetscInt, n> rows;
-  std::iota(rows.begin(), rows.end(), n * row_of[node]);
+  std::array<PetscInt, n> own;
+  std::iota(own.begin(), own.end(), n * rows.of(node));
   Block block;
-  check(MatGetValues(matrix, n, rows.data(), n, rows.data(), block.data()));
+  check(MatGetValues(matrix, n, own.data(), n, own.data(), block.data()));
   return block;
 }
 
@@ -386,11 +292,11 @@ template <int dim>
 void BodySystem<dim>::Parts::put_contact() {
   auto without = contact_blocks.begin();
   for (const NodeTangent<dim> &at : contact) {
-    if (!owns(at.node))
+    if (!rows.owns(at.node))
       continue;
     Block block = *without++;
     block.template topLeftCorner<dim, dim>() += scale[0] * scale[0] * at.stiffness;
-    const PetscInt row = row_of[at.node];
+    const PetscInt row = rows.of(at.node);
     check(MatSetValuesBlocked(matrix, 1, &row, 1, &row, block.data(), INSERT_VALUES));
   }
   finish_assembly(matrix);
@@ -412,10 +318,9 @@ BodySystem<dim>::BodySystem(const body::Operator<dim> &op, double step,
                             const std::vector<Vector3> &points,
                             const std::vector<body::Prescribed> &prescribed)
     : parts_(std::make_unique<Parts>(op, step)) {
-  start();
+  start_petsc();
   Stopwatch watch;
   parts_->is_prescribed = body::mask_of(prescribed, op.graph().n_nodes() * Parts::n);
-  parts_->number_rows();
   parts_->preallocate();
   parts_->make_solver(points);
   parts_->set_up_seconds = watch.lap();

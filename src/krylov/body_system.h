@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "body/cell_products.h"
-#include "body/conditions.h"
 #include "body/operator.h"
+#include "body/prescribed.h"
 #include "output/checkpoint.h"
 
 namespace tourmaline::krylov {

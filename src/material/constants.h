@@ -19,8 +19,8 @@ using Vector = Eigen::Vector3d;
 using Tensor = Eigen::Matrix3d;
 
 /// The tensors of (1)-(3) in stress-charge form, constants at constant strain, in three dimensions:
-///     sigma = F eps(u) - E^T E(phi) - M theta,   D = E eps(u) + beta E(phi) + P theta,   q = -K
-///     grad theta.
+///     sigma = F eps(u) - E^T E(phi) - M theta,   q = -K grad theta,
+///     D = E eps(u) + beta E(phi) + P theta.
 struct Constants {
   Stiffness stiffness = Stiffness::Zero();              ///< F [Pa]
   Piezoelectric piezoelectric = Piezoelectric::Zero();  ///< E, e_{i,jk} [C/m^2]

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "output/records.h"
-#include "report/conditions.h"
+#include "report/legend.h"
 #include "report/contact_line.h"
 #include "report/skin.h"
 #include "report/table.h"

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "output/checkpoint.h"
+#include "solve/balance_step.h"
 #include "solve/model.h"
 #include "solve/route.h"
 
@@ -20,10 +21,10 @@ namespace tourmaline::solve {
 ///
 /// and with backward differences over a step, d = x_n - x_(n-1), it obeys exactly
 ///
-///     W_n - W_(n-1) + W(d) = load + electric + thermal work - friction dissipation - conduction
-///     loss,
+///     W_n - W_(n-1) + W(d) = work - dissipation
 ///
-/// where W(d) >= 0 is what the Euler step loses (docs/theory.md). Every balance is reported with
+/// with the work of loads, charges and heats and what friction and conduction dissipate, where
+/// W(d) >= 0 is what the Euler step loses (docs/theory.md). Every balance is reported with
 /// its imbalance relative to the sum of the sizes of its terms.
 template <int dim>
 class Balance {
@@ -49,14 +50,8 @@ class Balance {
   void restore(const output::SavedNumbers &numbers);
 
  private:
-  /// One step's numbers, shared by the four balances.
-  struct Step;
+  using Step = BalanceStep<dim>;
 
-  std::vector<double> by_unknown(const Eigen::VectorXd &forces) const;
-  Step step_of(double time, std::span<const double> loads, const StepOutcome &outcome,
-               std::span<const double> state, bool cell_by_cell);
-  body::FieldProducts products(std::span<const double> state, bool cell_by_cell) const;
-  void measure_round_off(Step &step) const;
   Columns columns_of(const Step &step);
   void put_imbalance(const std::string &name, double value, double size, double round_off,
                      Columns &columns);
@@ -67,21 +62,17 @@ class Balance {
   void add_energy(const Step &step, Columns &columns);
   double lack_of_energy(const Step &step, double whole, const std::array<double, 3> &lost,
                         const std::array<std::vector<double>, 3> &works) const;
-  double without_round_off(double dissipated, const Step &step) const;
   std::vector<std::pair<body::Node, double>> exchange_weights(const std::string &boundary) const;
   double smallest_heat() const;
   double exchanged(const std::string &boundary, const Step &step) const;
 
   const Model<dim> &model_;
-  std::vector<double> state_;          // of the step before
-  body::FieldProducts products_;       // of that state
+  std::vector<bool> is_prescribed_;    // by unknown
+  BalancedState<dim> before_;          // of the step before
   Eigen::VectorXd electrode_charges_;  // of that state [C]
-  std::vector<double> charges_;        // electric right-hand side of that state, reactions included
-  body::Energies stored_;              // of that state [J]
-  double smallest_heat_ = 0;           // [W]
+  double smallest_heat_;               // [W]
+  CoupledFields coupled_;
   Columns judged_;
-  std::vector<bool> is_prescribed_;               // by unknown
-  std::array<std::array<bool, 3>, 3> coupled_{};  // fields, over others as well
   std::vector<std::string> heat_boundaries_, charge_boundaries_;
   std::map<std::string, std::vector<std::pair<body::Node, double>>>
       exchange_;  // integral of k_c N_i

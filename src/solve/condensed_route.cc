@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "contact/bilateral.h"
 #include "larger.h"
 #include "parallel/ranks.h"
 #include "solve/connected_body.h"
+#include "solve/first_places.h"
 #include "solve/interface_newton.h"
 #include "solve/judgement.h"
 #include "stopwatch.h"
@@ -56,11 +56,7 @@ class CondensedRoute : public Route {
                       std::span<const double> before, std::span<double> state) override;
   Accuracy accuracy(std::span<const double> right_side, std::span<const double> state,
                     const StepOutcome &outcome) override;
-  Accuracy accuracy_so_far() const override { return accuracy_; }
   bool is_refined() const override { return condensed_.body().is_refined(); }
-  RouteReport report() const override;
-  void save(output::SavedNumbers &numbers) const override;
-  void restore(const output::SavedNumbers &numbers) override;
 
  private:
   void condense_onto_slips();
@@ -70,7 +66,6 @@ class CondensedRoute : public Route {
                const StepOutcome &outcome);
   StepOutcome solve(double time, std::span<const double> right_side, std::span<const double> before,
                     std::span<double> state);
-  contact::Admissible<dim> admissible(std::size_t node, std::span<const double> state) const;
   VectorXd contact_displacements(std::span<const double> state) const;
   std::vector<contact::Admissible<dim>> admissible(std::span<const double> state) const;
   void set_laws(double time, const std::vector<contact::Admissible<dim>> &nodes,
@@ -83,6 +78,11 @@ class CondensedRoute : public Route {
                                   const VectorXd &before);
   [[noreturn]] void give_up(double time, const InterfaceSolution &solution) const;
 
+  void describe(RouteReport &report) const override;
+  void refine_again() override { refine(); }
+  void save_memory(output::SavedNumbers &numbers) const override;
+  void restore_memory(const output::SavedNumbers &numbers) override;
+
   const Model<dim> &model_;
   std::vector<bool> is_prescribed_;
   ConnectedBody<dim> condensed_;
@@ -91,10 +91,6 @@ class CondensedRoute : public Route {
   std::vector<ContactPoint> points_;
   VectorXd last_increment_;
   double error_of_slips_ = 0;  // the contact's own share of the forward error
-  Accuracy accuracy_;          // largest of the steps in which it was measured
-  double condense_seconds_ = 0;
-  double substitution_seconds_ = 0, contact_seconds_ = 0;
-  bool measured_ = false;
 };
 
 template <int dim>
@@ -104,7 +100,7 @@ CondensedRoute<dim>::CondensedRoute(const Model<dim> &model)
       condensed_(model) {
   Stopwatch watch;
   parallel::on_first([&] { condense_onto_slips(); });
-  condense_seconds_ = watch.lap();
+  so_far_.condense_seconds = watch.lap();
   error_of_slips_ = error_of_slips();
   if (!(error_of_slips_ <= worth_refining))
     refine();
@@ -129,7 +125,7 @@ void CondensedRoute<dim>::refine() {
   Stopwatch watch;
   condensed_.refine();
   parallel::on_first([&] { condense_onto_slips(); });
-  condense_seconds_ += watch.lap();
+  so_far_.condense_seconds += watch.lap();
   error_of_slips_ = error_of_slips();
 }
 
@@ -140,7 +136,8 @@ void CondensedRoute<dim>::condense_onto_slips() {
   Index n_slips = 0;
   points_.clear();
   for (std::size_t i = 0; i < model_.interface.size(); ++i) {
-    const auto directions = admissible(i, zero).directions;
+    const auto directions =
+        contact::bilateral<dim>(model_.interface[i], is_prescribed_, zero).directions;
     points_.push_back({n_slips, directions.cols(), model_.interface[i].weight, {}});
     for (Index k = 0; k < directions.cols(); ++k)
       for (int c = 0; c < dim; ++c)
@@ -152,18 +149,6 @@ void CondensedRoute<dim>::condense_onto_slips() {
   slip_stiffness_ = directions_.transpose() * (condensed_.stiffness() * directions_);
   slip_stiffness_ = (slip_stiffness_ + slip_stiffness_.transpose()).eval() / 2;
   last_increment_ = VectorXd::Zero(n_slips);
-}
-
-template <int dim>
-contact::Admissible<dim> CondensedRoute<dim>::admissible(std::size_t node,
-                                                         std::span<const double> state) const {
-  std::array<std::optional<double>, dim> prescribed;
-  for (int c = 0; c < dim; ++c) {
-    const std::size_t i = body::unknown<dim>(model_.interface[node].node, c);
-    if (is_prescribed_[i])
-      prescribed[c] = state[i];
-  }
-  return contact::bilateral<dim>(model_.interface[node].normal, prescribed);
 }
 
 template <int dim>
@@ -179,8 +164,8 @@ template <int dim>
 std::vector<contact::Admissible<dim>> CondensedRoute<dim>::admissible(
     std::span<const double> state) const {
   std::vector<contact::Admissible<dim>> nodes;
-  for (std::size_t i = 0; i < model_.interface.size(); ++i)
-    nodes.push_back(admissible(i, state));
+  for (const contact::InterfaceNode<dim> &at : model_.interface)
+    nodes.push_back(contact::bilateral(at, is_prescribed_, state));
   return nodes;
 }
 
@@ -224,19 +209,16 @@ void CondensedRoute<dim>::give_up(double time, const InterfaceSolution &solution
         "the contact problem at t = {:g} s is too badly conditioned to be solved: round-off leaves "
         "no digit of the slips certain; {}",
         time, ill_conditioned_advice));
-  std::string places;
-  for (std::size_t i = 0; i < std::min<std::size_t>(solution.unsettled.size(), 3); ++i) {
-    const Vector3 &p = model_.interface[solution.unsettled[i]].point;
-    places += fmt::format(" ({:g}, {:g}, {:g})", p[0], p[1], p[2]);
-  }
-  throw SolveError(
-      fmt::format("the contact iteration did not converge at t = {:g} s: residual {:.3g} of the "
-                  "largest force after "
-                  "{} iterations, wanted {:.3g}; {} points are unsettled, among them{}; raise "
-                  "solver.max_iterations or "
-                  "solver.tolerance, or take smaller time steps",
-                  time, solution.residual, solution.iterations, model_.asked.solver.tolerance,
-                  solution.unsettled.size(), places));
+  const std::vector<std::size_t> &unsettled = solution.unsettled;
+  throw SolveError(fmt::format(
+      "the contact iteration did not converge at t = {:g} s: residual {:.3g} of the "
+      "largest force after "
+      "{} iterations, wanted {:.3g}; {} points are unsettled, among them{}; raise "
+      "solver.max_iterations or "
+      "solver.tolerance, or take smaller time steps",
+      time, solution.residual, solution.iterations, model_.asked.solver.tolerance, unsettled.size(),
+      first_places(unsettled.size(),
+                   [&](std::size_t i) { return model_.interface[unsettled[i]].point; })));
 }
 
 // On the first rank, which holds the condensed stiffness: c and what is known with it.
@@ -290,7 +272,7 @@ StepOutcome CondensedRoute<dim>::solve(double time, std::span<const double> righ
                                        std::span<const double> before, std::span<double> state) {
   Stopwatch watch;
   const VectorXd s = condensed_.reduce(time, right_side, state);
-  substitution_seconds_ += watch.lap();
+  so_far_.substitution_seconds += watch.lap();
   StepOutcome outcome;
   VectorXd c = s;
   if (!model_.interface.empty()) {
@@ -299,10 +281,10 @@ StepOutcome CondensedRoute<dim>::solve(double time, std::span<const double> righ
     parallel::on_first([&] { advance_contact(time, s, before, state, c, outcome); });
     share(outcome);
   }
-  contact_seconds_ += watch.lap();
+  so_far_.contact_seconds += watch.lap();
   parallel::from_first(std::span(c.data(), static_cast<std::size_t>(c.size())));
   condensed_.expand(c, state);
-  substitution_seconds_ += watch.lap();
+  so_far_.substitution_seconds += watch.lap();
   return outcome;
 }
 
@@ -313,14 +295,14 @@ StepOutcome CondensedRoute<dim>::advance(double time, std::span<const double> ri
   const VectorXd start = last_increment_;
   StepOutcome outcome = solve(time, right_side, before, state);
   const bool moves = std::any_of(state.begin(), state.end(), [](double x) { return x != 0; });
-  if (is_refined() || (!measured_ && moves)) {
+  if (is_refined() || (!is_forward_error_known() && moves)) {
     measure(right_side, state, outcome);
-    if (is_refined() || !(accuracy_.forward_error > worth_refining))
+    if (is_refined() || !(so_far_.forward_error > worth_refining))
       return outcome;
     refine();
     last_increment_ = start;
     outcome = solve(time, right_side, before, state);
-    accuracy_ = {};
+    forget_errors();
     measure(right_side, state, outcome);
   }
   return outcome;
@@ -330,10 +312,8 @@ template <int dim>
 void CondensedRoute<dim>::measure(std::span<const double> right_side, std::span<const double> state,
                                   const StepOutcome &outcome) {
   const Accuracy now = accuracy(right_side, state, outcome);
-  const auto largest = [](double a, double b) { return std::isnan(a) ? b : larger(a, b); };
-  accuracy_ = {largest(accuracy_.backward_error, now.backward_error),
-               largest(accuracy_.forward_error, now.forward_error)};
-  measured_ = true;
+  see_backward_error(now.backward_error);
+  see_forward_error(now.forward_error);
 }
 
 template <int dim>
@@ -347,43 +327,22 @@ Accuracy CondensedRoute<dim>::accuracy(std::span<const double> right_side,
 }
 
 template <int dim>
-RouteReport CondensedRoute<dim>::report() const {
-  const condensation::FactorisationStatistics &statistics = condensed_.body().statistics();
-  RouteReport report;
+void CondensedRoute<dim>::describe(RouteReport &report) const {
+  add_factorisation(condensed_.body().statistics(), report);
   report.factorisations = 1;
-  report.analyse_seconds = statistics.analyse_seconds;
-  report.factorise_seconds = statistics.factorise_seconds;
-  report.condense_seconds = condense_seconds_;
-  report.substitution_seconds = substitution_seconds_;
-  report.contact_seconds = contact_seconds_;
-  report.factor_flops = statistics.flops;
   report.unknowns = condensed_.body().n_unknowns();
   report.electric_and_thermal_unknowns = condensed_.body().n_electric_and_thermal();
-  report.factor_entries = statistics.factor_entries;
-  report.negative_pivots = statistics.negative_pivots;
-  report.backward_error = accuracy_.backward_error;
-  report.forward_error = accuracy_.forward_error;
-  report.is_refined = is_refined();
-  return report;
+  report.negative_pivots = condensed_.body().statistics().negative_pivots;
 }
 
 template <int dim>
-void CondensedRoute<dim>::save(output::SavedNumbers &numbers) const {
+void CondensedRoute<dim>::save_memory(output::SavedNumbers &numbers) const {
   condensed_.save(numbers);
   numbers.put("last increment", last_increment_);
-  numbers.put("route", {accuracy_.backward_error, accuracy_.forward_error, double(measured_),
-                        double(is_refined()), substitution_seconds_, contact_seconds_});
 }
 
 template <int dim>
-void CondensedRoute<dim>::restore(const output::SavedNumbers &numbers) {
-  const auto route = numbers.get("route", 6);
-  accuracy_ = {route[0], route[1]};
-  measured_ = route[2] != 0;
-  if (route[3] != 0 && !is_refined())
-    refine();
-  substitution_seconds_ = route[4];
-  contact_seconds_ = route[5];
+void CondensedRoute<dim>::restore_memory(const output::SavedNumbers &numbers) {
   condensed_.restore(numbers);
   if (parallel::is_first())
     numbers.fill("last increment", last_increment_);

@@ -14,15 +14,18 @@ namespace tourmaline::solve {
 /// The condensed body with its electrodes in their circuit. The body is factorised with every
 /// electrode's potential prescribed, at 0 where its voltage is not given. Such voltages V, m of
 /// them, then enter by superposition: with the response psi_e of the body to the unit voltage of
-/// electrode e at c = 0,
+/// electrode e at c = 0, and x_p the prescribed values,
 ///
-///     S c - G V = s + q,         G_e = -(K psi_e) at the contact displacements,
-///     Q = C V + G^T c + Q0,      C_ef = -psi_e.K psi_f, positive definite, Q0_e = psi_e.(b - K
-///     x_p),
+///     S c - G V = s + q,         G_e  = -(K psi_e) at the contact displacements,
+///     Q = C V + G^T c + Q0,      C_ef = -psi_e.K psi_f, positive definite,
+///                                Q0_e = psi_e.(b - K x_p),
 ///
-/// and with the circuit, Q + Y V = j, V is eliminated exactly: (S + G (C + Y)^-1 G^T) c = s + G (C
-/// + Y)^-1 (j - Q0) + q. What is added to S is not negative, so the contact problem stays strictly
-/// convex; an electrode that is not held stiffens the body (docs/theory.md).
+/// and with the circuit, Q + Y V = j, V is eliminated exactly: with Z = (C + Y)^-1
+///
+///     (S + G Z G^T) c = s + G Z (j - Q0) + q.
+///
+/// What is added to S is not negative, so the contact problem stays strictly convex; an electrode
+/// that is not held stiffens the body (docs/theory.md).
 template <int dim>
 class ConnectedBody {
  public:

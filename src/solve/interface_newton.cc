@@ -1,10 +1,10 @@
 #include "solve/interface_newton.h"
 
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "larger.h"
+#include "solve/truncation.h"
 
 namespace tourmaline::solve {
 
@@ -21,10 +21,6 @@ constexpr int sweeps_per_iteration = 3;
 double largest_of(const VectorXd &v) {
   return v.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
 }
-
-// Where a point's slip may have to stop on its way: at the kink of its law, and where a known slip
-// makes a bend of it, at that.
-enum class Turns { kinks, kinks_and_bends };
 
 class Iteration {
  public:
@@ -61,8 +57,9 @@ class Iteration {
   };
   Dissipated dissipated(const VectorXd &next) const;
   std::optional<VectorXd> newton_direction(const std::vector<std::size_t> &smooth) const;
-  double length_to_turn(const ContactPoint &p, const VectorXd &direction, Turns turns) const;
-  VectorXd truncated(const VectorXd &direction, double length, Turns turns) const;
+  VectorXd truncated(const VectorXd &direction, double length, Turns turns) const {
+    return truncated_step(programme_.points, d_, direction, length, turns);
+  }
   bool descends(const VectorXd &next) const;
   bool shorten(const VectorXd &direction, VectorXd &next) const;
 
@@ -153,29 +150,6 @@ Iteration::Dissipated Iteration::dissipated(const VectorXd &next) const {
   return sum;
 }
 
-// The length of `direction` at which a point's slip has no component left along its present one:
-// there, on a line exactly and on a disc nearly, it meets the kink or bend of the law. Infinite
-// where there is none.
-double Iteration::length_to_turn(const ContactPoint &p, const VectorXd &direction,
-                                 Turns turns) const {
-  const Tangent d = d_.segment(p.offset, p.size);
-  const double backwards = -d.dot(direction.segment(p.offset, p.size));
-  const bool turns_here =
-      backwards > 0 && (p.friction.has_kink(p.size) ||
-                        (turns == Turns::kinks_and_bends && p.friction.has_bend(p.size)));
-  return turns_here ? d.squaredNorm() / backwards : std::numeric_limits<double>::infinity();
-}
-
-// d + length * direction, but a point that comes to its turn stops there, at exactly zero: beyond
-// it the Newton model does not hold.
-VectorXd Iteration::truncated(const VectorXd &direction, double length, Turns turns) const {
-  VectorXd next = d_ + length * direction;
-  for (const ContactPoint &p : programme_.points)
-    if (p.size > 0 && length >= length_to_turn(p, direction, turns))
-      next.segment(p.offset, p.size).setZero();
-  return next;
-}
-
 // Nothing where the Hessian, positive definite by theory, is not so in its digits.
 std::optional<VectorXd> Iteration::newton_direction(const std::vector<std::size_t> &smooth) const {
   std::vector<Index> entries;
@@ -230,7 +204,7 @@ bool Iteration::newton_step() {
 bool Iteration::shorten(const VectorXd &direction, VectorXd &next) const {
   double first = 1;
   for (const ContactPoint &p : programme_.points)
-    first = std::min(first, length_to_turn(p, direction, Turns::kinks_and_bends));
+    first = std::min(first, length_to_turn(p, d_, direction, Turns::kinks_and_bends));
   double length = 1;
   next = truncated(direction, length, Turns::kinks_and_bends);
   while (length > 1e-12 && !descends(next)) {

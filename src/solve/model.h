@@ -1,9 +1,9 @@
 #pragma once
 
 #include "body/cell_products.h"
-#include "body/conditions.h"
 #include "body/loads.h"
 #include "body/operator.h"
+#include "body/prescribed.h"
 #include "contact/interface.h"
 #include "material/composition.h"
 #include "tourmaline/case/case.h"

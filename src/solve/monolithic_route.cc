@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "body/backward_error.h"
 #include "contact/bilateral.h"
-#include "larger.h"
 #include "parallel/ranks.h"
+#include "solve/first_places.h"
 #include "solve/saddle_newton.h"
 #include "tourmaline/error.h"
 
@@ -45,10 +44,6 @@ class MonolithicRoute : public Route {
                       std::span<const double> before, std::span<double> state) override;
   Accuracy accuracy(std::span<const double> right_side, std::span<const double> state,
                     const StepOutcome &outcome) override;
-  Accuracy accuracy_so_far() const override { return {backward_error_, forward_error_}; }
-  RouteReport report() const override;
-  void save(output::SavedNumbers &numbers) const override;
-  void restore(const output::SavedNumbers &numbers) override;
 
  private:
   using Point = contact::MultiplierPoint<dim>;
@@ -65,14 +60,14 @@ class MonolithicRoute : public Route {
   std::size_t interface_index(body::Node node) const;
   [[noreturn]] void give_up(double time, const SaddleNewton<dim> &newton) const;
 
+  void describe(RouteReport &report) const override;
+  void save_memory(output::SavedNumbers &numbers) const override;
+  void restore_memory(const output::SavedNumbers &numbers) override;
+
   const Model<dim> &model_;
   SaddleSystem<dim> system_;
   double area_ = 0;  // of the contact boundary [m^(dim-1)]
   SaddlePoint x_;
-  double backward_error_ = 0, forward_error_ = std::numeric_limits<double>::quiet_NaN();
-  // of the steps before this process, if it goes on with a run
-  int factorisations_ = 0;
-  double factorise_seconds_ = 0, substitution_seconds_ = 0;
 };
 
 template <int dim>
@@ -127,7 +122,7 @@ StepOutcome MonolithicRoute<dim>::advance(double time, std::span<const double> r
     give_up(time, newton);
   x_ = newton.x();
   const Verdict verdict = newton.verdict();
-  backward_error_ = larger(backward_error_, verdict.body());
+  see_backward_error(verdict.body());
   StepOutcome outcome;
   outcome.newton_iterations = newton.iterations();
   outcome.residual = verdict.worst();
@@ -136,9 +131,9 @@ StepOutcome MonolithicRoute<dim>::advance(double time, std::span<const double> r
     settle(data, outcome.status);
   share_forces(data, outcome);
   std::copy(x_.body.begin(), x_.body.end(), state.begin());
-  if (std::isnan(forward_error_) &&
+  if (!is_forward_error_known() &&
       std::any_of(state.begin(), state.end(), [](double x) { return x != 0; }))
-    forward_error_ = accuracy(right_side, state, outcome).forward_error;
+    see_forward_error(accuracy(right_side, state, outcome).forward_error);
   return outcome;
 }
 
@@ -148,7 +143,7 @@ template <int dim>
 Accuracy MonolithicRoute<dim>::accuracy(std::span<const double> right_side,
                                         std::span<const double> state, const StepOutcome &outcome) {
   if (system_.factorisation().count() == 0)
-    return {backward_error_, forward_error_};
+    return accuracy_so_far();
   SaddlePoint residual{std::vector<double>(state.size()), VectorXd::Zero(x_.multipliers.size())};
   model_.cells.multiply(model_.step, state, residual.body);
   for (std::size_t i = 0; i < state.size(); ++i)
@@ -157,8 +152,8 @@ Accuracy MonolithicRoute<dim>::accuracy(std::span<const double> right_side,
     for (int c = 0; c < dim; ++c)
       residual.body[body::unknown<dim>(model_.interface[n].node, c)] -=
           outcome.contact_forces[dim * static_cast<Index>(n) + c];
-  return {backward_error_, body::relative_size<dim>(system_.increment(residual).body, state,
-                                                    system_.field_scales())};
+  return {so_far_.backward_error, body::relative_size<dim>(system_.increment(residual).body, state,
+                                                           system_.field_scales())};
 }
 
 // A node slips when the multiplier's point does: itself, or any of the facets around it.
@@ -275,17 +270,15 @@ template <int dim>
 void MonolithicRoute<dim>::give_up(double time, const SaddleNewton<dim> &newton) const {
   const Verdict verdict = newton.verdict();
   const double tolerance = model_.asked.solver.tolerance;
-  int unsettled = 0;
+  std::vector<Vector3> unsettled;
+  for (std::size_t p = 0; p < system_.points().size(); ++p)
+    if (!(newton.law_residual(p) <= tolerance * verdict.force_size))
+      unsettled.push_back(system_.points()[p].place);
   std::string places;
-  for (std::size_t p = 0; p < system_.points().size(); ++p) {
-    if (newton.law_residual(p) <= tolerance * verdict.force_size)
-      continue;
-    const Vector3 &place = system_.points()[p].place;
-    if (++unsettled <= 3)
-      places += fmt::format(" ({:g}, {:g}, {:g})", place[0], place[1], place[2]);
-  }
-  if (unsettled > 0)
-    places = fmt::format("; {} contact points are unsettled, among them{}", unsettled, places);
+  if (!unsettled.empty())
+    places =
+        fmt::format("; {} contact points are unsettled, among them{}", unsettled.size(),
+                    first_places(unsettled.size(), [&](std::size_t i) { return unsettled[i]; }));
   throw SolveError(fmt::format(
       "Newton's method did not converge at t = {:g} s: after {} iterations {} is left with a "
       "residual of {:.3g} of its own size, wanted {:.3g}{}; raise solver.max_iterations or "
@@ -295,40 +288,23 @@ void MonolithicRoute<dim>::give_up(double time, const SaddleNewton<dim> &newton)
 }
 
 template <int dim>
-RouteReport MonolithicRoute<dim>::report() const {
-  const condensation::FactorisationStatistics &statistics = system_.factorisation().statistics();
-  RouteReport report;
-  report.factorisations = factorisations_ + system_.factorisation().count();
-  report.analyse_seconds = statistics.analyse_seconds;
-  report.factorise_seconds = factorise_seconds_ + statistics.factorise_seconds;
-  report.substitution_seconds = substitution_seconds_ + system_.substitution_seconds();
+void MonolithicRoute<dim>::describe(RouteReport &report) const {
+  add_factorisation(system_.factorisation().statistics(), report);
+  report.factorisations += system_.factorisation().count();
+  report.substitution_seconds += system_.substitution_seconds();
   report.unknowns = system_.n_variables();
   report.electric_and_thermal_unknowns = system_.n_electric_and_thermal();
-  report.factor_entries = statistics.factor_entries;
-  report.factor_flops = statistics.flops;
-  report.backward_error = backward_error_;
-  report.forward_error = forward_error_;
-  return report;
 }
 
 // The rest of x is the state.
 template <int dim>
-void MonolithicRoute<dim>::save(output::SavedNumbers &numbers) const {
-  const RouteReport so_far = report();
+void MonolithicRoute<dim>::save_memory(output::SavedNumbers &numbers) const {
   numbers.put("multipliers", x_.multipliers);
-  numbers.put("route", {backward_error_, forward_error_, double(so_far.factorisations),
-                        so_far.factorise_seconds, so_far.substitution_seconds});
 }
 
 template <int dim>
-void MonolithicRoute<dim>::restore(const output::SavedNumbers &numbers) {
+void MonolithicRoute<dim>::restore_memory(const output::SavedNumbers &numbers) {
   numbers.fill("multipliers", x_.multipliers);
-  const auto route = numbers.get("route", 5);
-  backward_error_ = route[0];
-  forward_error_ = route[1];
-  factorisations_ = static_cast<int>(route[2]);
-  factorise_seconds_ = route[3];
-  substitution_seconds_ = route[4];
 }
 
 }  // namespace

@@ -8,6 +8,10 @@
 #include "output/checkpoint.h"
 #include "output/records.h"
 
+namespace tourmaline::condensation {
+struct FactorisationStatistics;
+}
+
 namespace tourmaline::solve {
 
 /// What a step did at the contact, besides the new state.
@@ -34,7 +38,8 @@ struct RouteReport {
   int krylov_largest = 0;             ///< of one linear system
   int preconditioners = 0;            ///< made in the run
   int safe_steps = -1;  ///< in which a safe stage followed the fast one; -1: not of this route
-  double backward_error = 0;  ///< largest over the steps in which it was measured
+  /// largest over the steps in which it was measured; NaN: in none
+  double backward_error = std::numeric_limits<double>::quiet_NaN();
   double forward_error = std::numeric_limits<double>::quiet_NaN();  ///< likewise
   bool is_refined = false;                                          ///< by iterative refinement
 };
@@ -60,16 +65,35 @@ class Route {
   virtual Accuracy accuracy(std::span<const double> right_side, std::span<const double> state,
                             const StepOutcome &outcome) = 0;
   /// The largest of the steps in which it was measured.
-  virtual Accuracy accuracy_so_far() const = 0;
+  Accuracy accuracy_so_far() const { return {so_far_.backward_error, so_far_.forward_error}; }
   /// Whether products that belong to this route's states are those of `Model::cells`.
   virtual bool is_refined() const { return false; }
 
-  virtual RouteReport report() const = 0;
+  RouteReport report() const;
 
-  /// What the route knows from the steps before: with it a new route goes on to the same bits.
-  /// Saved on the first rank alone, restored on all.
-  virtual void save(output::SavedNumbers &numbers) const = 0;
-  virtual void restore(const output::SavedNumbers &numbers) = 0;
+  /// What the route knows from the steps before: with it a new route goes on to the same bits, and
+  /// counts on. Saved on the first rank alone, restored on all.
+  void save(output::SavedNumbers &numbers) const;
+  void restore(const output::SavedNumbers &numbers);
+
+ protected:
+  void see_backward_error(double error);
+  void see_forward_error(double error);
+  bool is_forward_error_known() const;
+  void forget_errors();
+  static void add_factorisation(const condensation::FactorisationStatistics &statistics,
+                                RouteReport &report);
+
+  /// What adds up over the steps, those before this process included.
+  RouteReport so_far_;
+
+ private:
+  /// Adds what is of this process to a report of what was so far.
+  virtual void describe(RouteReport &report) const = 0;
+  /// Refines a new route as the one was that is to go on; before its memory is restored.
+  virtual void refine_again() {}
+  virtual void save_memory(output::SavedNumbers &numbers) const = 0;
+  virtual void restore_memory(const output::SavedNumbers &numbers) = 0;
 };
 
 }  // namespace tourmaline::solve

@@ -36,10 +36,11 @@ template <int dim>
 SaddleSystem<dim>::SaddleSystem(const body::Operator<dim> &op, double step,
                                 const std::vector<body::Prescribed> &prescribed,
                                 std::vector<Point> points, int threads)
-    : operator_(op), step_(step), points_(std::move(points)), field_scale_(op.scales(step)) {
+    : operator_(op), step_(step), points_(std::move(points)) {
+  const std::vector<double> diagonal = op.diagonal(step);
+  field_scale_ = body::Operator<dim>::scales(diagonal);
   number(prescribed);
   set_scales();
-  const std::vector<double> diagonal = operator_.diagonal(step_);
   for (const Point &point : points_) {
     double stiffness = 0;
     for (const auto &share : point.mean)

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "body/conditions.h"
 #include "body/operator.h"
+#include "body/prescribed.h"
 #include "condensation/saddle_factorisation.h"
 #include "contact/multipliers.h"
 

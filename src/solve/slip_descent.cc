@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "larger.h"
+#include "solve/truncation.h"
 
 namespace tourmaline::solve {
 
@@ -46,8 +46,6 @@ class Descent {
   VectorXd proximal_point() const;
   std::vector<bool> smooth_points() const;
   double dissipation(const VectorXd &d) const;
-  double length_to_turn(std::size_t i, const VectorXd &direction) const;
-  VectorXd truncated(const VectorXd &direction) const;
   VectorXd along(const VectorXd &direction, double length) const;
   double length_of_descent(const VectorXd &direction, const VectorXd &resisted) const;
   VectorXd newton_direction(const std::vector<bool> &is_smooth);
@@ -126,26 +124,6 @@ double Descent::dissipation(const VectorXd &d) const {
   return sum;
 }
 
-// The length at which a point's slip has no component left along its present one: there, on a line
-// exactly and on a disc nearly, it meets the kink of its law, or the bend in its place.
-double Descent::length_to_turn(std::size_t i, const VectorXd &direction) const {
-  const ContactPoint &p = points_[i];
-  const Tangent d = part(d_, i);
-  const double backwards = -d.dot(part(direction, i));
-  const bool turns =
-      p.size > 0 && backwards > 0 && (p.friction.has_kink(p.size) || p.friction.has_bend(p.size));
-  return turns ? d.squaredNorm() / backwards : std::numeric_limits<double>::infinity();
-}
-
-// d + direction, but a point that comes to its kink stops there, at exactly zero.
-VectorXd Descent::truncated(const VectorXd &direction) const {
-  VectorXd next = d_ + direction;
-  for (std::size_t i = 0; i < points_.size(); ++i)
-    if (length_to_turn(i, direction) <= 1 && points_[i].friction.has_kink(points_[i].size))
-      next.segment(points_[i].offset, points_[i].size).setZero();
-  return next;
-}
-
 // On the straight line: where it leads through zero, the point is there exactly.
 VectorXd Descent::along(const VectorXd &direction, double length) const {
   VectorXd next = d_ + length * direction;
@@ -170,8 +148,8 @@ double Descent::length_of_descent(const VectorXd &direction, const VectorXd &res
   }
   const double middle = (low + high) / 2;
   double best = middle, below = 0, above = 1;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const double turn = length_to_turn(i, direction);
+  for (const ContactPoint &p : points_) {
+    const double turn = length_to_turn(p, d_, direction, Turns::kinks_and_bends);
     if (turn <= middle)
       below = std::max(below, turn);
     else
@@ -231,7 +209,7 @@ bool Descent::newton_step(double tolerance) {
   const VectorXd direction = newton_direction(smooth);
   if (direction.size() == 0)
     return restore();
-  if (!accept(truncated(direction), tolerance)) {
+  if (!accept(truncated_step(points_, d_, direction, 1, Turns::kinks), tolerance)) {
     const VectorXd resisted = force_ - response_.force(d_ + direction);
     if (!accept(along(direction, length_of_descent(direction, resisted)), tolerance))
       return restore();

@@ -5,9 +5,9 @@
 #include <numeric>
 #include <random>
 
-#include "body/conditions.h"
 #include "body/derived.h"
 #include "body/loads.h"
+#include "body/prescribed.h"
 #include "material/orientation.h"
 #include "mesh/mesh.h"
 
@@ -248,7 +248,7 @@ TEST(DerivedFields, HeatFlowsAgainstTheGradientOfTemperature) {
   EXPECT_NEAR(fields.heat_flux[0][1], 0, 1e-9);
 }
 
-TEST(Conditions, WhereTwoBoundariesMeetTheFirstEntryOfTheCaseHolds) {
+TEST(Prescribed, WhereTwoBoundariesMeetTheFirstEntryOfTheCaseHolds) {
   const auto body = box<2>(CellShape::triangle, 1);
   casefile::BoundaryCase right, top;
   right.on = {"right"};

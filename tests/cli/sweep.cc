@@ -259,6 +259,24 @@ TEST_F(Sweep, AMemberWhoseTableWasCutIsRunAgain) {
   EXPECT_EQ(content_of(here() / "study/sweep.csv"), table);
 }
 
+TEST_F(Sweep, AMemberWhoseResultsAnotherRunReplacedIsRunAgain) {
+  const std::string study =
+      "sweep small.toml --vary contact.friction.bound=5,15 --output max:slip,load_y -o study";
+  ASSERT_EQ(run(study), 0);
+  const auto first = ends("study");
+  const std::string table = content_of(here() / "study/sweep.csv"),
+                    nodes = content_of(here() / "study/bound=15/nodes.csv");
+  ASSERT_EQ(run("run small.toml --set contact.friction.bound=15 "
+                "--set boundary[1].traction=[0,\"-70*t\"] -q -o study/bound=15"),
+            0);
+  ASSERT_NE(content_of(here() / "study/bound=15/nodes.csv"), nodes);
+  ASSERT_EQ(run(study), 0);
+  EXPECT_THAT(said_, HasSubstr("2 cases: 1 done before"));
+  EXPECT_EQ(content_of(here() / "study/bound=15/nodes.csv"), nodes);
+  EXPECT_EQ(content_of(here() / "study/sweep.csv"), table);
+  EXPECT_EQ(ends("study").at("bound=5"), first.at("bound=5"));
+}
+
 struct BadStudy {
   const char *claim, *arguments, *piece;
 };

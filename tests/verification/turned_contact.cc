@@ -31,7 +31,7 @@ material = {{ library = "BaTiO3-Liu2014", pyroelectric = [0, 0, 1e-4] }}
 time = {{ end = 1, steps = 4 }}
 boundary = [ {{ on = "{}", displacement = ["{:.17g}*{} - {:.17g}*{}", "{:.17g}*{} + {:.17g}*{}", "{}"] }},
              {{ on = "{}", potential = "0.01*t*{}", temperature = 0 }} ]
-contact = {{ on = "bottom", friction = {{ law = "tresca", bound = 700 }}, heat = {{ law = "exchange", coefficient = 5, foundation_temperature = -10 }} }}
+contact = {{ on = "bottom", friction = {{ law = "tresca", bound = 3000 }}, heat = {{ law = "exchange", coefficient = 5, foundation_temperature = -10 }} }}
 output = {{ fields = false }}
 )",
                      mesh, moved, c, u, s, v, s, u, c, v, w, moved, y);
@@ -50,6 +50,9 @@ void expect_turned(const Table &original, const Table &image, const std::string 
     for (std::size_t k = 0; k < partner.size(); ++k)
       EXPECT_NEAR(b[partner[k]], a[from.row[k]], 1e-9 * largest(a)) << name;
   }
+  if (const auto status = original.columns.find("status"); status != original.columns.end())
+    for (std::size_t k = 0; k < partner.size(); ++k)
+      EXPECT_EQ(image.columns.at("status")[partner[k]], status->second[from.row[k]]);
   for (const std::string &name : vectors) {
     const std::vector<double> ax = original.numbers(name + "x"), ay = original.numbers(name + "y"),
                               bx = image.numbers(name + "x"), by = image.numbers(name + "y");
@@ -71,12 +74,10 @@ void expect_turned(const std::string &mesh, const std::string &moved, double ang
   for (const std::string step : {"1", "4"})
     expect_turned(contact, turned, step, angle, {"normal_traction", "slip_rate"},
                   {"tangential_traction_", "slip_"});
-  EXPECT_EQ(
-      std::count(contact.columns.at("status").begin(), contact.columns.at("status").end(), "slip"),
-      std::count(turned.columns.at("status").begin(), turned.columns.at("status").end(), "slip"));
-  EXPECT_GT(
-      std::count(contact.columns.at("status").begin(), contact.columns.at("status").end(), "slip"),
-      3);
+  for (const char *status : {"stick", "slip"})
+    EXPECT_GT(std::count(contact.columns.at("status").begin(), contact.columns.at("status").end(),
+                         status),
+              30);
 }
 
 TEST(TurnedAboutTheContactNormal, ABlockAndItsLoadsByAQuarterTurnTheAnswerTurnsWithThem) {

@@ -8,6 +8,6 @@ struct Case;
 /// traction there, a potential and a charge, a temperature and a heat flow, any of them twice, or
 /// any of them where the contact laws have their say. A traction component that is exactly zero is
 /// no condition beside a displacement.
-void check_conditions(const Case &asked);
+void check_conflicts(const Case &asked);
 
 }  // namespace tourmaline::casefile

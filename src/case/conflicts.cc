@@ -1,4 +1,4 @@
-#include "case/conditions.h"
+#include "case/conflicts.h"
 
 #include <fmt/format.h>
 
@@ -124,7 +124,7 @@ void check_contact_once(const ContactCase &contact, const Prescribed &prescribed
 
 }  // namespace
 
-void check_conditions(const Case &asked) {
+void check_conflicts(const Case &asked) {
   Prescribed prescribed(asked.mesh);
   for (const BoundaryCase &boundary : asked.boundaries)
     for (const std::string &name : boundary.on)

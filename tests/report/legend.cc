@@ -1,4 +1,4 @@
-#include "report/conditions.h"
+#include "report/legend.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ casefile::BoundaryCase entry(const std::string &on) {
   return boundary;
 }
 
-TEST(Conditions, WhatIsSaidInSeveralEntriesIsGathered) {
+TEST(Legend, WhatIsSaidInSeveralEntriesIsGathered) {
   casefile::Case asked;
   asked.boundaries = {entry("top"), entry("top")};
   asked.boundaries[0].temperature = Formula(3.);
@@ -25,13 +25,13 @@ TEST(Conditions, WhatIsSaidInSeveralEntriesIsGathered) {
   EXPECT_THAT(conditions.texts, ElementsAre("u = (0, free) m", "θ = 3 K"));
 }
 
-TEST(Conditions, NothingSaidIsFree) {
+TEST(Legend, NothingSaidIsFree) {
   const Conditions conditions = conditions_on({}, "top");
   EXPECT_EQ(conditions.kind, "free");
   EXPECT_TRUE(conditions.texts.empty());
 }
 
-TEST(Conditions, ContactNamesItsLawsAndStaysContactBesideAPotential) {
+TEST(Legend, ContactNamesItsLawsAndStaysContactBesideAPotential) {
   casefile::Case asked;
   asked.boundaries = {entry("left")};
   asked.boundaries[0].potential = Formula(0.);
@@ -44,7 +44,7 @@ TEST(Conditions, ContactNamesItsLawsAndStaysContactBesideAPotential) {
                                             "insulated, q·ν = 0", "φ = 0 V"));
 }
 
-TEST(Conditions, AnElectrodeIsNamedWithItsCircuit) {
+TEST(Legend, AnElectrodeIsNamedWithItsCircuit) {
   casefile::Case asked;
   casefile::ElectrodeCase electrode;
   electrode.name = "signal";
@@ -57,7 +57,7 @@ TEST(Conditions, AnElectrodeIsNamedWithItsCircuit) {
               ElementsAre("electrode signal, 1000000 Ω, to ground"));
 }
 
-TEST(Conditions, OfAPlaneBodyACircuitHoldsForAMetreOfDepth) {
+TEST(Legend, OfAPlaneBodyACircuitHoldsForAMetreOfDepth) {
   casefile::Case asked;
   casefile::ElectrodeCase electrode;
   electrode.name = "signal";

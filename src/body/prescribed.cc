@@ -1,4 +1,4 @@
-#include "body/conditions.h"
+#include "body/prescribed.h"
 
 #include <fmt/format.h>
 

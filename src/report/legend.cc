@@ -1,4 +1,4 @@
-#include "report/conditions.h"
+#include "report/legend.h"
 
 #include "tourmaline/case/case.h"
 

@@ -14,50 +14,50 @@ std::string error_of(const std::vector<std::string> &overrides) {
   return error_in(example, overrides);
 }
 
-TEST(Conditions, OneFieldMayHaveOneConditionOnABoundary) {
+TEST(Conflicts, OneFieldMayHaveOneConditionOnABoundary) {
   const std::string error = error_of({"boundary[3]={on='right', potential=5}"});
   EXPECT_THAT(error, HasSubstr("[boundary[3]] potential = 5"));
   EXPECT_THAT(error, HasSubstr("\"right\" has already a condition on the potential"));
   EXPECT_THAT(error, HasSubstr("case.toml:17:13 [boundary[0]] potential = 0"));
 }
 
-TEST(Conditions, TheSameConditionTwiceIsStillTwo) {
+TEST(Conflicts, TheSameConditionTwiceIsStillTwo) {
   EXPECT_THAT(error_of({"boundary[3]={on='top', temperature=0}"}), HasSubstr("has already"));
   EXPECT_THAT(error_of({"boundary[3]={on='right', displacement=[0,'free']}"}),
               HasSubstr("has already a condition on the x component"));
 }
 
-TEST(Conditions, PotentialAndChargeExcludeEachOther) {
+TEST(Conflicts, PotentialAndChargeExcludeEachOther) {
   EXPECT_THAT(error_of({"boundary[0].surface_charge=0"}),
               HasSubstr("has already a condition on the potential or surface charge"));
 }
 
-TEST(Conditions, TemperatureAndHeatFlowExcludeEachOther) {
+TEST(Conflicts, TemperatureAndHeatFlowExcludeEachOther) {
   EXPECT_THAT(error_of({"boundary[1].heat_flux=1"}),
               HasSubstr("\"bottom\" has already a condition on the temperature or heat flow"));
 }
 
-TEST(Conditions, TractionAgainstAFixedComponentIsAnError) {
+TEST(Conflicts, TractionAgainstAFixedComponentIsAnError) {
   EXPECT_THAT(error_of({"boundary[1].displacement=['free',0]"}),
               HasSubstr("\"top\" has already a condition on the y component"));
 }
 
-TEST(Conditions, AZeroTractionBesideAFixedComponentIsNone) {
+TEST(Conflicts, AZeroTractionBesideAFixedComponentIsNone) {
   EXPECT_EQ(error_of({"boundary[2].displacement=[0,'free']"}), "no error");
 }
 
-TEST(Conditions, TwoTractionsOnOneBoundaryAreAnError) {
+TEST(Conflicts, TwoTractionsOnOneBoundaryAreAnError) {
   EXPECT_THAT(error_of({"boundary[3]={on='top', traction=[1,0]}"}),
               HasSubstr("has already a condition on the traction"));
 }
 
-TEST(Conditions, TwoEntriesMayFixDifferentComponents) {
+TEST(Conflicts, TwoEntriesMayFixDifferentComponents) {
   EXPECT_EQ(error_of({"boundary[0].displacement=[0,'free']",
                       "boundary[3]={on='right', displacement=['free',0]}"}),
             "no error");
 }
 
-TEST(Conditions, ContactOnAClampedBoundaryIsAnError) {
+TEST(Conflicts, ContactOnAClampedBoundaryIsAnError) {
   const std::string error = error_of({"boundary[3]={on='left', displacement=['free',0]}"});
   EXPECT_THAT(error,
               HasSubstr("[contact] on = \"left\": contact on a clamped boundary; its displacement "
@@ -65,22 +65,22 @@ TEST(Conditions, ContactOnAClampedBoundaryIsAnError) {
   EXPECT_THAT(error, HasSubstr("[boundary[3]] displacement[1] = 0"));
 }
 
-TEST(Conditions, TheTractionOnAContactBoundaryBelongsToTheLaw) {
+TEST(Conflicts, TheTractionOnAContactBoundaryBelongsToTheLaw) {
   EXPECT_THAT(error_of({"boundary[3]={on='left', traction=[0,0]}"}),
               HasSubstr("the traction on a contact boundary"));
 }
 
-TEST(Conditions, AnExchangingContactBoundaryHasNoFurtherThermalCondition) {
+TEST(Conflicts, AnExchangingContactBoundaryHasNoFurtherThermalCondition) {
   EXPECT_THAT(error_of({"boundary[3]={on='left', temperature=0}"}), HasSubstr("heat.law"));
   EXPECT_THAT(error_of({"boundary[3]={on='left', heat_flux=0}"}), HasSubstr("heat.law"));
 }
 
-TEST(Conditions, AnInsulatedContactBoundaryMayHaveATemperature) {
+TEST(Conflicts, AnInsulatedContactBoundaryMayHaveATemperature) {
   EXPECT_EQ(error_of({"boundary[3]={on='left', temperature=0}", "contact.heat={law='insulated'}"}),
             "no error");
 }
 
-TEST(Conditions, AContactBoundaryMayHaveAPotential) {
+TEST(Conflicts, AContactBoundaryMayHaveAPotential) {
   EXPECT_EQ(error_of({"boundary[3]={on='left', potential=0}"}), "no error");
 }
 

@@ -1,0 +1,60 @@
+#include "krylov/petsc.h"
+
+#include <fmt/format.h>
+
+#include "tourmaline/error.h"
+
+namespace tourmaline::krylov {
+
+namespace {
+
+// Chosen by measurement: docs/architecture.md.
+constexpr const char *options[][2] = {
+    {"-ksp_type", "fgmres"},
+    {"-ksp_gmres_restart", "100"},
+    {"-ksp_max_it", "500"},
+    {"-pc_type", "fieldsplit"},
+    {"-pc_fieldsplit_type", "multiplicative"},
+    {"-fieldsplit_u_ksp_type", "preonly"},
+    {"-fieldsplit_u_pc_type", "gamg"},
+    {"-fieldsplit_u_pc_gamg_threshold", "0"},
+    {"-fieldsplit_u_pc_gamg_agg_nsmooths", "0"},
+    // Coarse spaces of an earlier matrix would also make a step depend on all steps before it.
+    {"-fieldsplit_u_pc_gamg_reuse_interpolation", "0"},
+    {"-fieldsplit_u_mg_levels_ksp_type", "chebyshev"},
+    {"-fieldsplit_u_mg_levels_ksp_max_it", "4"},
+    {"-fieldsplit_u_mg_levels_pc_type", "jacobi"},
+    {"-fieldsplit_phi_ksp_type", "preonly"},
+    {"-fieldsplit_phi_pc_type", "hypre"},
+    {"-fieldsplit_phi_pc_hypre_type", "boomeramg"},
+    {"-fieldsplit_theta_ksp_type", "preonly"},
+    {"-fieldsplit_theta_pc_type", "hypre"},
+    {"-fieldsplit_theta_pc_hypre_type", "boomeramg"},
+};
+
+}  // namespace
+
+void check(PetscErrorCode code) {
+  if (code == PETSC_ERR_MEM)
+    throw MachineError("not enough memory for the iterative solver; use a coarser mesh");
+  if (code != 0)
+    throw SolveError(fmt::format("PETSc failed with error {}", static_cast<int>(code)));
+}
+
+void start_petsc() {
+  PetscBool running = PETSC_FALSE;
+  PetscInitialized(&running);
+  if (running)
+    return;
+  PetscOptionsSetValue(nullptr, "-no_signal_handler", nullptr);
+  check(PetscInitializeNoArguments());
+  PetscPushErrorHandler(PetscReturnErrorHandler, nullptr);
+  for (const auto &[name, value] : options) {
+    PetscBool given = PETSC_FALSE;  // by PETSC_OPTIONS, to try others
+    check(PetscOptionsHasName(nullptr, nullptr, name, &given));
+    if (!given)
+      check(PetscOptionsSetValue(nullptr, name, value));
+  }
+}
+
+}  // namespace tourmaline::krylov

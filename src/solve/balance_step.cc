@@ -1,0 +1,238 @@
+#include "solve/balance_step.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "larger.h"
+
+namespace tourmaline::solve {
+
+using body::Energies;
+using body::field_of;
+using body::Fields;
+
+namespace {
+
+template <int dim, class Value, class Product>
+Energies energy_of(std::size_t n, const Value &value, const Product &product) {
+  Energies energy;
+  for (std::size_t i = 0; i < n; ++i) {
+    const int field = field_of<dim>(i);
+    if (field == 0) {
+      energy.elastic += value(i) * product(0, i) / 2;
+    } else if (field == 1) {
+      energy.electric -= value(i) * product(1, i) / 2;
+      energy.coupling -= value(i) * product(2, i);
+    } else {
+      energy.thermal -= value(i) * product(2, i) / 2;
+    }
+  }
+  return energy;
+}
+
+template <int dim>
+Energies stored_energy(const BalancedState<dim> &state) {
+  return energy_of<dim>(
+      state.unknowns.size(), [&](std::size_t i) { return state.unknowns[i]; },
+      [&](int field, std::size_t i) { return state.products.of[field][i]; });
+}
+
+// From the entries of the interface nodes.
+template <int dim>
+std::vector<double> by_unknown(const Model<dim> &model, const Eigen::VectorXd &forces) {
+  std::vector<double> all(model.n_unknowns(), 0.);
+  for (std::size_t i = 0; i < model.interface.size(); ++i)
+    for (int c = 0; c < dim; ++c)
+      all[body::unknown<dim>(model.interface[i].node, c)] =
+          forces[dim * static_cast<Eigen::Index>(i) + c];
+  return all;
+}
+
+template <int dim>
+void multiply(const Model<dim> &model, bool cell_by_cell, BalancedState<dim> &state) {
+  if (cell_by_cell)
+    model.cells.multiply_by_field(state.unknowns, state.products);
+  else
+    model.op.multiply_by_field(state.unknowns, state.products);
+  state.stored = stored_energy(state);
+}
+
+// Known charges are loads; what holds a prescribed potential is what the products say.
+template <int dim>
+void find_charges(const std::vector<bool> &is_prescribed, bool cell_by_cell,
+                  BalanceStep<dim> &step) {
+  step.now.charges.assign(step.now.unknowns.size(), 0.);
+  for (std::size_t i = Fields<dim>::potential; i < is_prescribed.size(); i += Fields<dim>::count) {
+    step.now.charges[i] = is_prescribed[i] ? step.now.products.sum(i) : step.loads[i];
+    if (cell_by_cell && is_prescribed[i])
+      step.before.charges[i] = step.before.products.sum(i);
+  }
+}
+
+// The heat rows are scaled by -k / theta_ref; what they lack at prescribed temperatures was
+// supplied.
+template <int dim>
+std::vector<double> heat_supplied(const Model<dim> &model, const std::vector<bool> &is_prescribed,
+                                  const BalanceStep<dim> &step) {
+  const double per_watt = -model.step / model.op.reference_temperature();
+  std::vector<double> supplied(model.body.n_nodes(), 0.);
+  for (body::Node node = 0; node < model.body.n_nodes(); ++node) {
+    const std::size_t i = body::unknown<dim>(node, Fields<dim>::temperature);
+    if (is_prescribed[i])
+      supplied[node] =
+          (step.now.products.sum(i) - step.before.products.sum(i) - step.loads[i]) / per_watt +
+          step.conducted[node];
+  }
+  return supplied;
+}
+
+// The round-off of the largest scaled unknown of all fields that a field is coupled to, by unknown.
+template <int dim>
+std::vector<double> uncertainties(const CoupledFields &coupled, const BalanceStep<dim> &step,
+                                  const std::array<double, Fields<dim>::count> &scale) {
+  constexpr double eps = std::numeric_limits<double>::epsilon();
+  const std::vector<double> &now = step.now.unknowns, &before = step.before.unknowns;
+  std::array<double, 3> own{}, whole{};  // the largest scaled unknown, by field
+  for (std::size_t i = 0; i < now.size(); ++i)
+    own[field_of<dim>(i)] =
+        larger(own[field_of<dim>(i)],
+               larger(std::abs(now[i]), std::abs(before[i])) / scale[i % Fields<dim>::count]);
+  for (int f = 0; f < 3; ++f)
+    for (int g = 0; g < 3; ++g)
+      if (coupled[f][g])
+        whole[f] = larger(whole[f], own[g]);
+  std::vector<double> uncertain(now.size());
+  for (std::size_t i = 0; i < now.size(); ++i)
+    uncertain[i] = eps * whole[field_of<dim>(i)] * scale[i % Fields<dim>::count];
+  return uncertain;
+}
+
+// What moves or holds prescribed values works against the round-off of forces, charges and heats
+// [J].
+template <int dim>
+std::array<double, 3> work_of_round_off(const Model<dim> &model, const BalanceStep<dim> &step,
+                                        const BalanceRoundOff &sums) {
+  std::array<double, 3> most{};  // of the prescribed values, by field
+  for (const body::Prescribed &p : model.prescribed) {
+    const int field = field_of<dim>(p.unknown);
+    const double moved = field == 0 ? step.change(p.unknown) : step.now.unknowns[p.unknown];
+    most[field] = larger(most[field], std::abs(moved));
+  }
+  const double watt = model.op.reference_temperature() / model.step;
+  return {most[0] * sums.force, most[1] * sums.charge, most[2] * sums.heat / watt};
+}
+
+}  // namespace
+
+std::array<double, 3> by_field(const Energies &energy) {
+  return {energy.elastic, energy.electric + energy.coupling, energy.thermal};
+}
+
+template <int dim>
+Energies BalanceStep<dim>::energy_of_change() const {
+  return energy_of<dim>(
+      now.unknowns.size(), [&](std::size_t i) { return change(i); },
+      [&](int field, std::size_t i) { return product_change(field, i); });
+}
+
+template <int dim>
+CoupledFields coupled_fields(const Model<dim> &model) {
+  CoupledFields coupled{};
+  for (int g = 0; g < 3; ++g) {
+    std::vector<double> of_one(model.n_unknowns());
+    for (std::size_t i = 0; i < of_one.size(); ++i)
+      of_one[i] = field_of<dim>(i) == g;
+    const std::vector<double> rows = model.op.sizes(model.step, of_one);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (rows[i] > 0)
+        coupled[field_of<dim>(i)][g] = true;
+  }
+  for (int over = 0; over < 3; ++over)
+    for (int f = 0; f < 3; ++f)
+      for (int g = 0; g < 3; ++g)
+        coupled[f][g] = coupled[f][g] || (coupled[f][over] && coupled[over][g]);
+  return coupled;
+}
+
+template <int dim>
+BalancedState<dim> initial_balance(const Model<dim> &model, std::span<const double> initial) {
+  BalancedState<dim> state;
+  state.unknowns.assign(initial.begin(), initial.end());
+  multiply(model, false, state);
+  state.charges.assign(initial.size(), 0.);
+  for (std::size_t i = Fields<dim>::potential; i < initial.size(); i += Fields<dim>::count)
+    state.charges[i] = state.products.sum(i);
+  return state;
+}
+
+template <int dim>
+BalanceStep<dim> balance_step(const Model<dim> &model, const std::vector<bool> &is_prescribed,
+                              BalancedState<dim> before, double time, std::span<const double> loads,
+                              const StepOutcome &outcome, std::span<const double> now,
+                              bool cell_by_cell) {
+  BalanceStep<dim> step;
+  step.time = time;
+  step.loads = loads;
+  step.before = std::move(before);
+  step.now.unknowns.assign(now.begin(), now.end());
+  multiply(model, cell_by_cell, step.now);
+  if (cell_by_cell)
+    multiply(model, true, step.before);
+  step.conducted = cell_by_cell ? model.cells.conducted(now) : model.op.conducted(now);
+  step.contact = by_unknown(model, outcome.contact_forces);
+  step.friction = by_unknown(model, outcome.friction_forces);
+  find_charges(is_prescribed, cell_by_cell, step);
+  step.heat_supplied = heat_supplied(model, is_prescribed, step);
+  return step;
+}
+
+// Of the diagonal some neighbours' share of the row in its own field. Couplings to other fields do
+// not count: no larger in a sound case, they would excuse any imbalance of constants out of all
+// proportion.
+template <int dim>
+BalanceRoundOff round_off_of(const Model<dim> &model, const CoupledFields &coupled,
+                             const BalanceStep<dim> &step) {
+  constexpr double eps = std::numeric_limits<double>::epsilon(), several = 1e2, neighbours = 10;
+  const std::vector<double> diagonal = model.op.diagonal(model.step);
+  const std::vector<double> uncertain =
+      uncertainties(coupled, step, body::Operator<dim>::scales(diagonal));
+  const double watt = model.op.reference_temperature() / model.step;
+  BalanceRoundOff sums;
+  for (std::size_t i = 0; i < diagonal.size(); ++i) {
+    const double row = neighbours * std::abs(diagonal[i]) * uncertain[i];
+    const int field = field_of<dim>(i);
+    if (field == 0)
+      sums.force += row;
+    else if (field == 1)
+      sums.charge += row;
+    else
+      sums.heat += watt * row;
+    sums.energy[field] += several * row * uncertain[i];
+  }
+  const std::array<double, 3> work = work_of_round_off(model, step, sums),
+                              now = by_field(step.now.stored),
+                              before = by_field(step.before.stored);
+  for (int f = 0; f < 3; ++f)
+    sums.energy[f] += work[f] + several * eps * (std::abs(now[f]) + std::abs(before[f]));
+  return sums;
+}
+
+template struct BalanceStep<2>;
+template struct BalanceStep<3>;
+template CoupledFields coupled_fields<2>(const Model<2> &);
+template CoupledFields coupled_fields<3>(const Model<3> &);
+template BalancedState<2> initial_balance<2>(const Model<2> &, std::span<const double>);
+template BalancedState<3> initial_balance<3>(const Model<3> &, std::span<const double>);
+template BalanceStep<2> balance_step<2>(const Model<2> &, const std::vector<bool> &,
+                                        BalancedState<2>, double, std::span<const double>,
+                                        const StepOutcome &, std::span<const double>, bool);
+template BalanceStep<3> balance_step<3>(const Model<3> &, const std::vector<bool> &,
+                                        BalancedState<3>, double, std::span<const double>,
+                                        const StepOutcome &, std::span<const double>, bool);
+template BalanceRoundOff round_off_of<2>(const Model<2> &, const CoupledFields &,
+                                         const BalanceStep<2> &);
+template BalanceRoundOff round_off_of<3>(const Model<3> &, const CoupledFields &,
+                                         const BalanceStep<3> &);
+
+}  // namespace tourmaline::solve

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "body/operator.h"
+#include "solve/model.h"
+#include "solve/route.h"
+
+namespace tourmaline::solve {
+
+/// A state of the body as its balances see it. Vectors have an entry for each unknown.
+template <int dim>
+struct BalancedState {
+  std::vector<double> unknowns;  ///< SI
+  body::FieldProducts products;  ///< of the storage operator
+  std::vector<double> charges;   ///< electric right-hand side, reactions included [C]
+  body::Energies stored;         ///< [J]
+};
+
+/// Of the sums in a balance, what round-off may have made of them.
+struct BalanceRoundOff {
+  double force = 0;                ///< [N]
+  double charge = 0;               ///< [C]
+  double heat = 0;                 ///< [W]
+  std::array<double, 3> energy{};  ///< by field [J]
+};
+
+/// The numbers of one step that its balances share.
+template <int dim>
+struct BalanceStep {
+  double time = 0;
+  std::span<const double> loads;  ///< by unknown, without history
+  BalancedState<dim> before, now;
+  std::vector<double> conducted;      ///< by node [W]
+  std::vector<double> heat_supplied;  ///< by node, at prescribed temperatures [W]
+  std::vector<double> contact;        ///< by unknown [N]
+  std::vector<double> friction;       ///< the part of it that opposes the slip [N]
+  BalanceRoundOff round_off;
+
+  double change(std::size_t i) const { return now.unknowns[i] - before.unknowns[i]; }
+  double product_change(int field, std::size_t i) const {
+    return now.products.of[field][i] - before.products.of[field][i];
+  }
+  /// W(d), what the Euler step loses (docs/theory.md, section 8).
+  body::Energies energy_of_change() const;
+};
+
+/// Of u, phi and theta. The coupling's part is that of phi, which theta is coupled to where there
+/// is any.
+std::array<double, 3> by_field(const body::Energies &energy);
+
+/// Which fields (u, phi, theta) have anything to do with one another, over others as well.
+using CoupledFields = std::array<std::array<bool, 3>, 3>;
+template <int dim>
+CoupledFields coupled_fields(const Model<dim> &model);
+
+/// The state that a run starts from.
+template <int dim>
+BalancedState<dim> initial_balance(const Model<dim> &model, std::span<const double> initial);
+
+/// The step from `before` to the state `now` at the end of it, `time`. Products with the operator
+/// are taken cell by cell where the assembled ones are not sure enough, those of `before` as well.
+template <int dim>
+BalanceStep<dim> balance_step(const Model<dim> &model, const std::vector<bool> &is_prescribed,
+                              BalancedState<dim> before, double time, std::span<const double> loads,
+                              const StepOutcome &outcome, std::span<const double> now,
+                              bool cell_by_cell);
+
+/// A solution is uncertain by the round-off of the largest scaled unknown of the fields that are
+/// coupled: that is what a field of which there is nothing consists of. Forces, charges and heats
+/// have |K| times that; energies cell by cell have its square, as K annihilates what changes none.
+/// That much a sum may lack.
+template <int dim>
+BalanceRoundOff round_off_of(const Model<dim> &model, const CoupledFields &coupled,
+                             const BalanceStep<dim> &step);
+
+}  // namespace tourmaline::solve

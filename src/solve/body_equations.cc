@@ -1,0 +1,189 @@
+#include "solve/body_equations.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "larger.h"
+#include "stopwatch.h"
+#include "tourmaline/error.h"
+
+namespace tourmaline::solve {
+
+namespace {
+
+constexpr double of_a_correction = 1e-12;  // reduction of the residual, once refined
+constexpr double enough = 1e-15;           // a correction that changes no digit
+
+// Of the rows of each field: u, phi, theta.
+template <int dim>
+std::array<double, 3> norms(std::span<const double> rows) {
+  std::array<double, 3> norms{};
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    norms[body::field_of<dim>(i)] += rows[i] * rows[i];
+  for (double &norm : norms)
+    norm = std::sqrt(norm);
+  return norms;
+}
+
+}  // namespace
+
+template <int dim>
+BodyEquations<dim>::BodyEquations(const Model<dim> &model, const std::vector<bool> &is_prescribed,
+                                  RouteReport &count)
+    : model_(model),
+      is_prescribed_(is_prescribed),
+      count_(count),
+      system_(model.op, model.step, model.body.points(), model.prescribed),
+      residual_(model.n_unknowns()),
+      increment_(model.n_unknowns()) {}
+
+template <int dim>
+void BodyEquations<dim>::begin_step(std::span<const double> right_side, std::span<double> state) {
+  right_side_ = right_side;
+  state_ = state;
+  correction_ = std::numeric_limits<double>::infinity();
+  corrections_fall_ = true;
+  forget_lack();
+  forget_increment();
+}
+
+template <int dim>
+void BodyEquations<dim>::forget_increment() {
+  std::fill(increment_.begin(), increment_.end(), 0.);
+}
+
+template <int dim>
+void BodyEquations<dim>::update_residual() {
+  if (is_refined()) {
+    residual_ = residual_by_cells();
+    return;
+  }
+  model_.op.multiply(model_.step, state_, residual_);
+  for (std::size_t i = 0; i < residual_.size(); ++i)
+    residual_[i] = right_side_[i] - residual_[i];
+}
+
+template <int dim>
+std::vector<double> BodyEquations<dim>::residual_by_cells() const {
+  std::vector<double> residual(state_.size());
+  model_.cells.multiply(model_.step, state_, residual);
+  for (std::size_t i = 0; i < residual.size(); ++i)
+    residual[i] = right_side_[i] - residual[i];
+  return residual;
+}
+
+// Sizes of the forces, charges and heats that balance in each field's rows: each the norm of what
+// one field contributes.
+template <int dim>
+std::array<double, 3> BodyEquations<dim>::field_sizes() const {
+  body::FieldProducts products;
+  model_.op.multiply_by_field(state_, products);
+  std::array<double, 3> sizes{};
+  for (const std::vector<double> &product : products.of) {
+    const std::array<double, 3> of_one = norms<dim>(product);
+    for (int f = 0; f < 3; ++f)
+      sizes[f] = larger(sizes[f], of_one[f]);
+  }
+  return sizes;
+}
+
+// What the residual of the best state that doubles can hold may be, in each field: a few units of
+// the last place of every term that is summed.
+template <int dim>
+std::array<double, 3> BodyEquations<dim>::round_off() const {
+  std::vector<double> terms = model_.op.sizes(model_.step, state_);
+  for (std::size_t i = 0; i < terms.size(); ++i)
+    terms[i] = is_prescribed_[i] ? 0 : 2e-15 * (terms[i] + std::abs(right_side_[i]));
+  return norms<dim>(terms);
+}
+
+// Round-off is looked at only where an iteration has gained little, as it costs a product. Of a
+// refined solution corrections decide: its residual is what round-off of the state makes.
+template <int dim>
+bool BodyEquations<dim>::is_solved(std::span<const double> free_residual) {
+  const double tolerance = model_.asked.solver.linear_tolerance;
+  const std::array<double, 3> found = norms<dim>(free_residual), sizes = field_sizes();
+  const double before = lack_;
+  lack_ = 0;
+  for (int f = 0; f < 3; ++f)
+    if (found[f] > 0)
+      lack_ = larger(lack_, found[f] / (tolerance * sizes[f] + 1e-300));
+  if (!std::isfinite(found[0] + found[1] + found[2]))
+    forget_lack();
+  if (is_refined() && corrections_fall_ && correction_ > enough)
+    return false;
+  if (lack_ <= 1)
+    return true;
+  if (lack_ < before / 3)
+    return false;
+  const std::array<double, 3> least = round_off();
+  for (int f = 0; f < 3; ++f)
+    if (!(found[f] <= std::max(tolerance * sizes[f], least[f])))
+      return false;
+  return true;
+}
+
+template <int dim>
+bool BodyEquations<dim>::correct(std::span<const double> free_residual, double reduction) {
+  Stopwatch watch;
+  if (is_refined())
+    reduction = of_a_correction;
+  const krylov::Solved solved = system_.solve(free_residual, reduction, increment_);
+  count_.krylov_iterations += solved.iterations;
+  count_.krylov_largest = std::max(count_.krylov_largest, solved.iterations);
+  count_.substitution_seconds += watch.lap();
+  for (std::size_t i = 0; i < state_.size(); ++i)
+    state_[i] += increment_[i];
+  if (is_refined()) {
+    const double before = correction_;
+    correction_ = system_.relative_size(increment_, state_);
+    corrections_fall_ = !solved.converged || correction_ < before / 2;
+  }
+  return solved.converged;
+}
+
+template <int dim>
+void BodyEquations<dim>::refine() {
+  system_.refine(model_.cells);
+}
+
+template <int dim>
+double BodyEquations<dim>::forward_error(std::span<const double> free_residual) {
+  constexpr double reduction = 0.1;
+  std::vector<double> correction(state_.size());
+  Stopwatch watch;
+  const krylov::Solved solved = system_.solve(free_residual, reduction, correction);
+  count_.substitution_seconds += watch.lap();
+  return solved.converged ? system_.relative_size(correction, state_)
+                          : std::numeric_limits<double>::infinity();
+}
+
+template <int dim>
+double BodyEquations<dim>::backward_error(std::span<const double> free_residual) const {
+  return system_.backward_error(free_residual, right_side_, state_);
+}
+
+template <int dim>
+void BodyEquations<dim>::give_up(double time, std::span<const double> free_residual) const {
+  constexpr std::array<const char *, 3> names{"displacement", "potential", "temperature"};
+  const double tolerance = model_.asked.solver.linear_tolerance;
+  const std::array<double, 3> found = norms<dim>(free_residual), sizes = field_sizes();
+  std::string what;
+  for (int f = 0; f < 3; ++f)
+    if (found[f] > tolerance * sizes[f])
+      what += fmt::format("{} {} {:.3g}", what.empty() ? "" : ",", names[f],
+                          found[f] / (sizes[f] + 1e-300));
+  throw SolveError(fmt::format(
+      "the iterative solution of the body's equations did not converge at t = {:g} s; of the "
+      "largest contribution to its field's rows there is left:{}, wanted {:.3g} "
+      "(solver.linear_tolerance). Slender bodies, thin cells and high contrasts of the materials "
+      "make this slow: take solver.body = \"direct\"",
+      time, what, tolerance));
+}
+
+template class BodyEquations<2>;
+template class BodyEquations<3>;
+
+}  // namespace tourmaline::solve

@@ -1,0 +1,75 @@
+#include "solve/route.h"
+
+#include <cmath>
+#include <limits>
+
+#include "condensation/factorisation.h"
+#include "larger.h"
+
+namespace tourmaline::solve {
+
+namespace {
+
+double largest_so_far(double before, double now) {
+  return std::isnan(before) ? now : larger(before, now);
+}
+
+}  // namespace
+
+void Route::see_backward_error(double error) {
+  so_far_.backward_error = largest_so_far(so_far_.backward_error, error);
+}
+
+void Route::see_forward_error(double error) {
+  so_far_.forward_error = largest_so_far(so_far_.forward_error, error);
+}
+
+bool Route::is_forward_error_known() const {
+  return !std::isnan(so_far_.forward_error);
+}
+
+void Route::forget_errors() {
+  so_far_.backward_error = so_far_.forward_error = std::numeric_limits<double>::quiet_NaN();
+}
+
+void Route::add_factorisation(const condensation::FactorisationStatistics &statistics,
+                              RouteReport &report) {
+  report.analyse_seconds = statistics.analyse_seconds;
+  report.factorise_seconds += statistics.factorise_seconds;
+  report.factor_entries = statistics.factor_entries;
+  report.factor_flops = statistics.flops;
+}
+
+RouteReport Route::report() const {
+  RouteReport report = so_far_;
+  report.is_refined = is_refined();
+  describe(report);
+  return report;
+}
+
+void Route::save(output::SavedNumbers &numbers) const {
+  const RouteReport now = report();
+  numbers.put("route", {now.backward_error, now.forward_error, double(now.is_refined),
+                        double(now.factorisations), now.factorise_seconds, now.substitution_seconds,
+                        now.contact_seconds, double(now.krylov_iterations),
+                        double(now.krylov_largest), double(now.safe_steps)});
+  save_memory(numbers);
+}
+
+void Route::restore(const output::SavedNumbers &numbers) {
+  const auto before = numbers.get("route", 10);
+  so_far_.backward_error = before[0];
+  so_far_.forward_error = before[1];
+  if (before[2] != 0 && !is_refined())
+    refine_again();
+  so_far_.factorisations = static_cast<int>(before[3]);
+  so_far_.factorise_seconds = before[4];
+  so_far_.substitution_seconds = before[5];
+  so_far_.contact_seconds = before[6];
+  so_far_.krylov_iterations = static_cast<std::size_t>(before[7]);
+  so_far_.krylov_largest = static_cast<int>(before[8]);
+  so_far_.safe_steps = static_cast<int>(before[9]);
+  restore_memory(numbers);
+}
+
+}  // namespace tourmaline::solve

@@ -1,0 +1,94 @@
+#include "run/chosen_route.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "solve/condensed_route.h"
+#include "tourmaline/case/reader.h"
+
+namespace tourmaline::run {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using State = std::vector<double>;
+
+// A beam 10 000 times as long as thick, loaded in the second step only: too much for the iterative
+// solution.
+constexpr const char *beam = R"toml(
+mesh.box = { min = [0, 0, 0], max = [1, 1e-4, 1e-4], cells = [20, 1, 1], cell = "hexahedron" }
+mesh.degree = 2
+material = { symmetry = "isotropic", young = 1e9, poisson = 0, eps11 = 10, k11 = 1, density = 1000, specific_heat = 1000, reference_temperature = 293 }
+time = { end = 1, steps = 3 }
+boundary = [
+  { on = "right", displacement = [0, 0, 0], potential = 0, temperature = 0 },
+  { on = "left", traction = [0, 0, "if(t < 0.5, 0, -1e-6*t)"] } ]
+)toml";
+
+class WayBack : public ::testing::Test {
+ protected:
+  static casefile::Case with(const std::string &body) {
+    return casefile::read_text(beam, "beam.toml", {"solver.body=" + body});
+  }
+
+  // The state after a step that `advance` takes; nothing moves what is prescribed.
+  template <class Advance>
+  static State step(const solve::Model<3> &model, int n, const State &before,
+                    const Advance &advance) {
+    State right_side(model.n_unknowns(), 0.), next = before;
+    model.loads.integrate(model.time(n), right_side);
+    model.op.add_history(before, right_side);
+    advance(n, right_side, before, next);
+    return next;
+  }
+
+  State step(ChosenRoute<3> &route, int n, const State &before) const {
+    return step(model_, n, before, [&](auto &&...numbers) { route.advance(numbers...); });
+  }
+
+  State factorised_step(int n, const State &before) {
+    return step(model_, n, before,
+                [&](int, auto &&...numbers) { factorised_->advance(model_.time(n), numbers...); });
+  }
+
+  const solve::Model<3> model_{with("automatic")};
+  const std::unique_ptr<solve::Route> factorised_ = solve::condensed_route(model_);
+  const State rest_ = State(model_.n_unknowns(), 0.);
+  output::Progress progress_{3, true};
+};
+
+TEST_F(WayBack, FromAnIterativeSolutionThatFailsIsTheFactorisation) {
+  ChosenRoute<3> route(model_, true, progress_);
+  const State first = step(route, 1, rest_);
+  EXPECT_EQ(first, rest_);
+  EXPECT_THAT(route.warnings(), ElementsAre(HasSubstr("were solved iteratively")));
+  const State second = step(route, 2, first), third = step(route, 3, second);
+  EXPECT_THAT(route.warnings(), ElementsAre(HasSubstr("failed in step 2; from there on")));
+  EXPECT_EQ(factorised_step(1, rest_), rest_);
+  EXPECT_EQ(second, factorised_step(2, rest_));
+  EXPECT_EQ(third, factorised_step(3, second));
+  EXPECT_NE(third, second);
+  EXPECT_EQ(route.route().report().factorisations, 1);
+}
+
+TEST_F(WayBack, IsRememberedByWhatGoesOn) {
+  ChosenRoute<3> route(model_, true, progress_);
+  const State second = step(route, 2, step(route, 1, rest_));
+  output::SavedNumbers saved;
+  route.save(saved);
+  ASSERT_FALSE(ChosenRoute<3>::was_iterative(saved));
+  ChosenRoute<3> other(model_, false, progress_);
+  other.restore(saved);
+  EXPECT_EQ(other.warnings(), route.warnings());
+  EXPECT_EQ(step(other, 3, second), step(route, 3, second));
+}
+
+TEST_F(WayBack, IsNotTakenWhereTheCaseAsksForTheIterativeSolution) {
+  const solve::Model<3> model(with("iterative"));
+  ChosenRoute<3> route(model, true, progress_);
+  EXPECT_THROW(step(model, 2, rest_, [&](auto &&...numbers) { route.advance(numbers...); }),
+               SolveError);
+}
+
+}  // namespace
+}  // namespace tourmaline::run
