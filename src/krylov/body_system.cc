@@ -32,7 +32,7 @@ void finish_assembly(Mat matrix) {
   check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
 }
 
-// Chosen by measurement: docs/architecture.md.
+// Chosen by measurement: docs/measurements.md.
 constexpr const char *options[][2] = {
     {"-ksp_type", "fgmres"},
     {"-ksp_gmres_restart", "100"},
