@@ -9,7 +9,7 @@ program, page = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
 
 with done(program, page.read_text()) as folder:
     assert (folder / "both.html").stat().st_size > 1e5
-    assert sorted(file.name for file in (folder / "block/figures").iterdir()) == ["displacement.y.pdf", "von_mises.pdf"]
+    assert sorted(file.name for file in (folder / "block/figures").iterdir()) == ["displacement_y.pdf", "von_mises.pdf"]
     assert sorted(texts(folder / "study/sweep.csv", "member")) == [
         "bound=15_steps=10", "bound=15_steps=5", "bound=5_steps=10", "bound=5_steps=5"]
     assert texts(folder / "study/sweep.csv", "status") == ["done"] * 4
