@@ -104,9 +104,9 @@ boundary = [
 /// A plane bar of three equal squares, the middle one stiffer or more permittive by a factor,
 /// pulled or under a voltage. There is nothing of the other fields.
 casefile::Case uneven_bar(const std::string &factors, const std::string &right) {
-  const auto part = [](const std::string &where, const std::string &factors) {
+  const auto part = [](const std::string &where, const std::string &constants) {
     return "[[region]]\nwhere = \"" + where + "\"\nmaterial = { symmetry = \"isotropic\", " +
-           factors +
+           constants +
            ", poisson = 0, k11 = 1, density = 1000, specific_heat = 1000, reference_temperature = "
            "293 }\n";
   };
@@ -122,7 +122,8 @@ casefile::Case uneven_bar(const std::string &factors, const std::string &right) 
 
 std::vector<std::string> warnings_of_accuracy(const RunCase &run) {
   std::vector<std::string> found;
-  for (const std::string text : run.summary()["warnings"])
+  const nlohmann::json summary = run.summary();
+  for (const auto &text : summary["warnings"].get<std::vector<std::string>>())
     if (text.find("certain") != std::string::npos)
       found.push_back(text);
   return found;
