@@ -22,8 +22,8 @@ def introduction(program, command):
 
 Written by `{command}` from runs of {program.version()}; do not
 edit. Every reference is labelled: *analytic*, a closed form or a computation that shares nothing with the program;
-*other code*; or *regression*, numbers of this program that nobody else has. Below each table stand the state of the program that was measured, and how far its
-numbers may move until `./dev verify` fails."""
+*other code*; or *regression*, numbers of this program that nobody else has. Below each table stand the state of
+the program that was measured, and how far its numbers may move until `./dev verify` fails."""
 
 
 def arguments():
