@@ -66,7 +66,7 @@ void Mumps::check() const {
   throw SolveError(fmt::format("MUMPS failed with error {} ({})", code, infog(2)));
 }
 
-// Measured on this operator: docs/architecture.md.
+// Measured on this operator: docs/measurements.md.
 void Mumps::set_controls(int threads) {
   for (const int stream : {1, 2, 3})
     icntl(stream) = -1;

@@ -64,6 +64,7 @@ void read_tables(Result &result, const fs::path &folder) {
     result.remarks.push_back("The run did not finish, or has not yet: there is no summary.json.");
 }
 
+// Tresca's; what the page draws of another law is evaluated here too.
 void evaluate_friction_bound(Result &result) {
   if (!result.asked || !result.asked->contact || !result.contact ||
       result.asked->contact->friction.law == "none")
