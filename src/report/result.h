@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "output/records.h"
-#include "report/legend.h"
 #include "report/contact_line.h"
+#include "report/legend.h"
 #include "report/skin.h"
 #include "report/table.h"
 #include "tourmaline/case/case.h"
