@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -70,6 +71,36 @@ TEST_P(Thickness, WithoutRefinementNoWrongNumberPassesInSilence) {
 
 INSTANTIATE_TEST_SUITE_P(OfABeamOfOneMetre, Thickness,
                          ::testing::Values(1. / 300, 1e-3, 3e-4, 1e-4, 1e-5));
+
+const std::string held_beam = "tests/cases/ill_conditioned/held_beam.toml";
+
+double largest_tip(const RunCase &run) {
+  const std::vector<double> all = run.nodes().numbers("u_y");
+  return *std::max_element(all.begin(), all.end());
+}
+
+// What is warm first says nothing of what bends later.
+TEST(LateLoad, BendsARefinedBeamAsItDoesFromTheStart) {
+  const RunCase first(held_beam, {"time.steps=1"});
+  const RunCase late(held_beam, {"time.steps=2", "boundary[0].temperature=\"t\"",
+                                 "boundary[1].traction=[0, \"if(t > 0.6, 1, 0)\"]"});
+  EXPECT_TRUE(late.summary()["refined"]);
+  EXPECT_THAT(late.summary()["warnings"], ::testing::IsEmpty());
+  EXPECT_NEAR(largest_tip(late) / largest_tip(first), 1, 1e-9);
+}
+
+class HeldLoad : public ::testing::TestWithParam<const char *> {};
+
+// From the second step on nothing moves but round-off.
+TEST_P(HeldLoad, LacksNoEnergyOnAThinBeam) {
+  const std::string thickness = std::string("mesh.box.max=[1, ") + GetParam() + "]";
+  const RunCase once(held_beam, {thickness, "time.steps=1"}), held(held_beam, {thickness});
+  EXPECT_THAT(held.summary()["warnings"], ::testing::IsEmpty());
+  EXPECT_NEAR(largest_tip(held) / largest_tip(once), 1, 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfManyThicknesses, HeldLoad,
+                         ::testing::Values("2e-3", "1.3e-3", "1e-3", "7e-4", "3e-4", "1e-4"));
 
 TEST(WellConditioned, BodyThatOnlyMovesLacksNothing) {
   for (const char *method : {"solver.method=\"condensed\"", "solver.method=\"monolithic\""})
