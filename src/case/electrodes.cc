@@ -82,7 +82,7 @@ void check_to(const ElectrodeCase &electrode, const std::vector<ElectrodeCase> &
   if (&*other == &electrode)
     fail(electrode, "to", to, "is the electrode itself" + others_words(electrode, all));
   if (other->charge)
-    fail(electrode, "to", to, "its charge is given and cannot flow");
+    fail(electrode, "to", to, "names an electrode whose charge is given and cannot flow");
 }
 
 }  // namespace
