@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "case/place_of_key.h"
 #include "case/toml_text.h"
 #include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
@@ -88,7 +89,8 @@ void add(Prescribed &prescribed, const BoundaryCase &boundary, const std::string
 
 [[noreturn]] void fail(const ContactCase &contact, const std::string &boundary,
                        const Formula &formula, const std::string &reason) {
-  throw CaseError(fmt::format("{} on = \"{}\": {}, by {}", contact.where, boundary, reason,
+  throw CaseError(fmt::format("{} = \"{}\": {}, by {}",
+                              place_of_key(contact.places, contact.where, "on"), boundary, reason,
                               Prescribed::stated(formula)));
 }
 
@@ -117,9 +119,8 @@ void check_contact_once(const ContactCase &contact, const Prescribed &prescribed
     for (const std::string &part : prescribed.parts(name))
       if (const auto [entry, is_new] = name_of_part.try_emplace(part, name); !is_new)
         throw CaseError(
-            fmt::format("{} on: \"{}\" and \"{}\" are in part the same boundary; name "
-                        "one of them",
-                        contact.where, entry->second, name));
+            fmt::format("{}: \"{}\" and \"{}\" are in part the same boundary; name one of them",
+                        place_of_key(contact.places, contact.where, "on"), entry->second, name));
 }
 
 }  // namespace
@@ -133,9 +134,10 @@ void check_conflicts(const Case &asked) {
     for (const std::string &name : electrode.on)
       if (const Formula *formula = prescribed.find(name, electric))
         throw CaseError(
-            fmt::format("{} on = \"{}\": this boundary has already a condition on the {}, {}; "
+            fmt::format("{} = \"{}\": this boundary has already a condition on the {}, {}; "
                         "one is possible",
-                        electrode.where, name, electric, Prescribed::stated(*formula)));
+                        place_of_key(electrode.places, electrode.where, "on"), name, electric,
+                        Prescribed::stated(*formula)));
   if (!asked.contact)
     return;
   check_contact_once(*asked.contact, prescribed);

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "case/nearest.h"
+#include "case/place_of_key.h"
 #include "case/toml_text.h"
 #include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
@@ -18,46 +20,69 @@ namespace {
   throw CaseError(fmt::format("{} {}: {}", electrode.where, toml_text(electrode.name), reason));
 }
 
+// At one of its keys.
+[[noreturn]] void fail(const ElectrodeCase &electrode, const std::string &key,
+                       const std::string &value, const std::string &reason) {
+  throw CaseError(fmt::format("{} = {}: {}", place_of_key(electrode.places, electrode.where, key),
+                              value, reason));
+}
+
+std::string toml_of(const std::optional<Formula> &formula) {
+  return formula->is_number() ? formula->text() : toml_text(formula->text());
+}
+
 void check_name(const ElectrodeCase &electrode) {
   const auto allowed = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '-';
   };
   if (electrode.name.empty() || !std::all_of(electrode.name.begin(), electrode.name.end(), allowed))
-    fail(electrode,
-         "the name must consist of letters, digits, _ and -, as columns are named by it");
+    fail(electrode, "name", toml_text(electrode.name),
+         "must consist of letters, digits, _ and -, as columns are named by it");
 }
 
 void check_alone(const ElectrodeCase &electrode) {
   if (electrode.charge && (electrode.voltage || electrode.is_loaded()))
-    fail(electrode, "its charge is given, so neither a voltage nor a resistor or capacitor can be");
+    fail(electrode, "charge", toml_of(electrode.charge),
+         "its charge is given, so neither a voltage nor a resistor or capacitor can be");
   if (electrode.to && !electrode.is_loaded())
-    fail(electrode, "`to` says where a resistor or capacitor leads, but there is none");
+    fail(electrode, "to", toml_text(*electrode.to),
+         "says where a resistor or capacitor leads, but there is none");
   if (electrode.to && electrode.voltage)
-    fail(electrode, "`to` and `voltage` both say where its resistor or capacitor leads; give one");
+    fail(electrode, "to", toml_text(*electrode.to),
+         "`to` and `voltage` both say where its resistor or capacitor leads; give one");
   for (const auto *formula : {&electrode.voltage, &electrode.charge})
     if (*formula && (*formula)->depends_on_place())
-      fail(electrode, fmt::format("{} = {} depends on the place; an electrode has one value, which "
-                                  "may depend on t only",
-                                  (*formula)->where(), toml_text((*formula)->text())));
+      throw CaseError(
+          fmt::format("{} = {}: depends on the place; an electrode has one value, "
+                      "which may depend on t only",
+                      (*formula)->where(), toml_of(*formula)));
+}
+
+// The names that `to` may have, and which of them is nearest.
+std::string others_words(const ElectrodeCase &electrode, const std::vector<ElectrodeCase> &all) {
+  std::vector<std::string> names;
+  for (const ElectrodeCase &other : all)
+    if (other.name != electrode.name)
+      names.push_back(other.name);
+  if (names.empty())
+    return "; there is no other electrode";
+  return fmt::format("; there are {}{}", fmt::join(names, ", "),
+                     did_you_mean(*electrode.to, names));
 }
 
 void check_to(const ElectrodeCase &electrode, const std::vector<ElectrodeCase> &all) {
   if (!electrode.to)
     return;
-  std::vector<std::string> names(all.size());
-  std::transform(all.begin(), all.end(), names.begin(),
-                 [](const ElectrodeCase &other) { return other.name; });
-  const auto found = std::find(names.begin(), names.end(), *electrode.to);
-  if (found == names.end())
-    fail(electrode, fmt::format("`to` names no electrode: {}{}", toml_text(*electrode.to),
-                                did_you_mean(*electrode.to, names)));
-  const ElectrodeCase &other = all[static_cast<std::size_t>(found - names.begin())];
-  if (&other == &electrode)
-    fail(electrode, "`to` is the electrode itself");
-  if (other.charge)
-    fail(electrode,
-         fmt::format("`to` is {}, whose charge is given and cannot flow", toml_text(other.name)));
+  const std::string to = toml_text(*electrode.to);
+  const auto other = std::find_if(
+      all.begin(), all.end(), [&](const ElectrodeCase &one) { return one.name == *electrode.to; });
+  if (other == all.end())
+    fail(electrode, "to", to, "names no electrode" + others_words(electrode, all));
+  if (&*other == &electrode)
+    fail(electrode, "to", to, "is the electrode itself" + others_words(electrode, all));
+  if (other->charge)
+    fail(electrode, "to", to, "names an electrode whose charge is given and cannot flow");
 }
 
 }  // namespace
@@ -68,12 +93,17 @@ void check_electrodes(const Case &asked) {
     check_name(electrode);
     check_alone(electrode);
     check_to(electrode, asked.electrodes);
-    if (const auto [first, is_new] = by_name.try_emplace(electrode.name, electrode.where); !is_new)
-      fail(electrode, "this name has already been given at " + first->second);
+    if (const auto [first, is_new] = by_name.try_emplace(
+            electrode.name, place_of_key(electrode.places, electrode.where, "name"));
+        !is_new)
+      fail(electrode, "name", toml_text(electrode.name),
+           "this name has already been given at " + first->second);
     for (const std::string &boundary : electrode.on)
-      if (const auto [first, is_new] = by_boundary.try_emplace(boundary, electrode.where); !is_new)
-        fail(electrode, fmt::format("on = \"{}\": there is an electrode already, by {}", boundary,
-                                    first->second));
+      if (const auto [first, is_new] = by_boundary.try_emplace(
+              boundary, place_of_key(electrode.places, electrode.where, "on"));
+          !is_new)
+        fail(electrode, "on", toml_text(boundary),
+             "there is an electrode already, by " + first->second);
   }
   if (asked.solver.method == "monolithic")
     require_given_voltages(asked, "solver.method = \"monolithic\"");

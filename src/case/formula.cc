@@ -38,6 +38,8 @@ double round_up(double a) {
   return std::ceil(a);
 }
 
+constexpr const char *variable_names[] = {"x", "y", "z", "t"};
+
 void define_names(mu::Parser &parser, std::array<double, 4> &variables) {
   parser.DefineConst("pi", std::acos(-1.0));
   parser.DefineFun("if", choose);
@@ -45,9 +47,8 @@ void define_names(mu::Parser &parser, std::array<double, 4> &variables) {
   parser.DefineFun("mod", remainder_of);
   parser.DefineFun("floor", round_down);
   parser.DefineFun("ceil", round_up);
-  constexpr const char *names[] = {"x", "y", "z", "t"};
   for (std::size_t i = 0; i < variables.size(); ++i)
-    parser.DefineVar(names[i], &variables[i]);
+    parser.DefineVar(variable_names[i], &variables[i]);
 }
 
 [[noreturn]] void fail(const std::string &where, const std::string &text,
@@ -181,13 +182,13 @@ Formula::Formula(const std::string &text, std::string where, const Range &range,
     if (parser.GetNumResults() != 1)
       fail(where_, text, "not a formula: a comma outside of a function; decimals take a point");
     for (const auto &[name, address] : parser.GetUsedVar())
-      (name == "t" ? uses_time_ : uses_place_) = true;
+      uses_[static_cast<std::size_t>(address - expression->variables.data())] = true;
     parser.SetExpr(with_branches(text));
     parser.Eval();
   } catch (const mu::Parser::exception_type &error) {
     fail(where_, text, reason_of(error));
   }
-  if (uses_time_ || uses_place_) {
+  if (depends_on_time() || depends_on_place()) {
     expression_ = std::move(expression);
     return;
   }
@@ -196,6 +197,23 @@ Formula::Formula(const std::string &text, std::string where, const Range &range,
     fail(where_, text, complaint_about(found));
   number_ = found.value;
 }
+
+namespace {
+
+// "x = 1, y = 2 m, t = 3 s", of what is used only: the value is the same whatever the others are.
+std::string place_words(const std::array<bool, 4> &uses, const std::array<double, 3> &point,
+                        double time) {
+  std::string words;
+  for (std::size_t i = 0; i < point.size(); ++i)
+    if (uses[i])
+      words += fmt::format("{}{} = {}", words.empty() ? "" : ", ", variable_names[i], point[i]);
+  words += words.empty() ? "" : " m";
+  if (uses[3])
+    words += fmt::format("{}t = {} s", words.empty() ? "" : ", ", time);
+  return words;
+}
+
+}  // namespace
 
 double Formula::value(const std::array<double, 3> &point, double time) const {
   if (!expression_)
@@ -209,9 +227,7 @@ double Formula::value(const std::array<double, 3> &point, double time) const {
                                  ? complaint_about(found)
                                  : fmt::format("is {:g}, but {}", found.value,
                                                complaint(range, found.value, expression_->unit));
-  fail(where_, expression_->text,
-       fmt::format("{}, at x = {}, y = {}, z = {} m, t = {} s", reason, point[0], point[1],
-                   point[2], time));
+  fail(where_, expression_->text, reason + ", at " + place_words(uses_, point, time));
 }
 
 std::string Formula::text() const {

@@ -33,14 +33,23 @@ class UnitOf : public Visitor {
   std::string wanted_, path_;
 };
 
+// "ohm (2D: ohm m)" is the one or the other.
+std::string unit_in(int dimension, const std::string &unit) {
+  static const std::regex both(R"((.+) \(2D: (.+)\))");
+  std::smatch found;
+  if (!std::regex_match(unit, found, both))
+    return unit;
+  return found[dimension == 2 ? 2 : 1];
+}
+
 }  // namespace
 
-std::string unit_of_key(const std::string &path) {
+std::string unit_of_key(const std::string &path, int dimension) {
   static const std::regex index(R"(\[[0-9]+\]|\.[0-9]+(?=\.|$))");
   UnitOf search(std::regex_replace(path, index, ""));
   Case any;
   declare(search, any);
-  return search.unit;
+  return unit_in(dimension, search.unit);
 }
 
 }  // namespace tourmaline::casefile

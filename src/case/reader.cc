@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <fstream>
 #include <functional>
+#include <map>
 #include <utility>
 
 #include "case/conflicts.h"
 #include "case/electrodes.h"
 #include "case/holding.h"
+#include "case/plane_formulas.h"
 #include "case/schema.h"
 #include "case/unknown_keys.h"
 #include "case/utf8.h"
@@ -147,6 +149,11 @@ class Reader : public Visitor {
 
   void place(std::string &where_) override { where_ = where(table_.source(), ""); }
 
+  void places(std::map<std::string, std::string> &where_) override {
+    for (const auto &[name, node] : table_)
+      where_[std::string(name.str())] = where(node.source(), std::string(name.str()));
+  }
+
  private:
   std::string path_to(const std::string &name) const {
     return path_.empty() ? name : path_ + "." + name;
@@ -248,6 +255,7 @@ Case read_text(const std::string &text, const std::string &name,
   Reader(root, "", context).read_all([&](Visitor &visitor) { declare(visitor, asked); });
   if (asked.output.every == 0)
     asked.output.every = steps_between_files(asked.time.steps);
+  check_plane(asked);
   check_conflicts(asked);
   check_electrodes(asked);
   check_holding(asked);

@@ -15,13 +15,17 @@ Key on_sides(const std::string &description, const MeshCase &mesh) {
   if (mesh.content)  // a complaint of their own awaits those that lie inside
     for (const std::string &name : mesh.content->inner_names())
       names.push_back(name);
+  const std::string none = "the mesh file names no boundary: put its " +
+                           std::string(dimension_of(mesh) == 2 ? "curves" : "surfaces") +
+                           " into physical groups";
   return {.name = "on",
           .description = description,
           .required = true,
           .choices = names,
           .choices_words =
               "left, right, bottom, top, in 3D also front, back, of a box; inner, "
-              "outer, in 3D also bottom, top, of an annulus; the names of a mesh file"};
+              "outer, in 3D also bottom, top, of an annulus; the names of a mesh file",
+          .no_choices = mesh.content ? none : ""};
 }
 
 std::string inside_complaint(const std::vector<std::string> &on, const MeshCase &mesh) {
@@ -85,6 +89,7 @@ void declare(Visitor &v, BoundaryCase &boundary, const MeshCase &mesh, int dimen
 
 void declare(Visitor &v, ElectrodeCase &electrode, const MeshCase &mesh) {
   v.place(electrode.where);
+  v.places(electrode.places);
   v.key({.name = "name",
          .description = "what its columns in history.csv are called; letters, digits, _ and -",
          .required = true},

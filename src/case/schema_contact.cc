@@ -23,7 +23,8 @@ void declare(Visitor &v, FrictionCase &friction) {
          .unit = "N/m^2",
          .required = true,
          .range = not_negative(sense::traction),
-         .used = with("law", friction.law, {"tresca"})},
+         .used = with("law", friction.law, {"tresca"}),
+         .also = {"S"}},
         &friction.bound);
 }
 
@@ -40,7 +41,8 @@ void declare(Visitor &v, HeatExchangeCase &heat) {
          .required = true,
          .range = not_negative(sense::heat_exchange),
          .constant_in_time = true,
-         .used = exchange},
+         .used = exchange,
+         .also = {"k_c"}},
         &heat.coefficient);
   v.key({.name = "foundation_temperature",
          .description = "temperature theta_f of the foundation (13), difference to the reference "
@@ -48,15 +50,26 @@ void declare(Visitor &v, HeatExchangeCase &heat) {
          .unit = "K",
          .required = true,
          .range = any(sense::temperature),
-         .used = exchange},
+         .used = exchange,
+         .also = {"theta_f"}},
         &heat.foundation_temperature);
+}
+
+// Of the six shape functions on a facet those of the corners have the mean 0.
+std::string weight_complaint(const MeshCase &mesh) {
+  if (mesh.degree == 1 || (mesh.file && !mesh.content) || shape_of(mesh) != CellShape::tetrahedron)
+    return "";
+  return "contact on tetrahedra of degree 2 is not available, as the corners of their facets have "
+         "no weight in the contact; give mesh.degree = 1, or hexahedra";
 }
 
 void declare(Visitor &v, ContactCase &contact, const MeshCase &mesh) {
   v.place(contact.where);
+  v.places(contact.places);
   v.key(on_sides("boundary, or list of boundaries, in contact with the foundation", mesh),
         &contact.on);
   v.check("on", [&] { return inside_complaint(contact.on, mesh); });
+  v.check("on", [&] { return weight_complaint(mesh); });
   v.key({.name = "normal",
          .description = "bilateral: contact is never lost, u_nu = 0 (9)",
          .choices = {"bilateral"},

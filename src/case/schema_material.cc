@@ -69,10 +69,15 @@ std::vector<Key> make_constants() {
   for (const char *letter : {"c", "s"})
     for (const char *indices : {"11", "12", "13", "14", "22", "23", "33", "44", "55", "66"})
       all.push_back(elastic(letter, indices));
-  all.push_back({"young", "Young's modulus of an isotropic material", "Pa", false,
-                 positive(sense::stiffness)});
-  all.push_back({"poisson", "Poisson's ratio of an isotropic material", "", false,
-                 Range{-1, 0.5, false, false}});
+  all.push_back({.name = "young",
+                 .description = "Young's modulus of an isotropic material",
+                 .unit = "Pa",
+                 .range = positive(sense::stiffness),
+                 .also = {"E", "youngs_modulus", "elastic_modulus"}});
+  all.push_back({.name = "poisson",
+                 .description = "Poisson's ratio of an isotropic material",
+                 .range = Range{-1, 0.5, false, false},
+                 .also = {"nu", "poissons_ratio"}});
   for (const char *letter : {"e", "d"})
     for (const char *indices : {"11", "14", "15", "22", "24", "31", "32", "33"})
       all.push_back(piezoelectric(letter, indices));
@@ -91,12 +96,22 @@ std::vector<Key> make_constants() {
   all.push_back({"p3_T", "pyroelectric coefficient along axis 3 at constant stress", "C/(K m^2)",
                  false, any(sense::pyroelectric)});
   add_diagonals(all, "k", "", "thermal conductivity", "W/(K m)", positive(sense::conductivity));
-  all.push_back({"density", "rho", "kg/m^3", false, positive(sense::density)});
-  all.push_back({"specific_heat", "c_v; the heat capacity of (6) is rho c_v / theta_ref",
-                 "J/(kg K)", false, positive(sense::specific_heat)});
-  all.push_back({"reference_temperature",
-                 "theta_ref, the absolute temperature that all others are differences to", "K",
-                 false, positive(sense::absolute_temperature)});
+  all.push_back({.name = "density",
+                 .description = "rho",
+                 .unit = "kg/m^3",
+                 .range = positive(sense::density),
+                 .also = {"rho"}});
+  all.push_back({.name = "specific_heat",
+                 .description = "c_v; the heat capacity of (6) is rho c_v / theta_ref",
+                 .unit = "J/(kg K)",
+                 .range = positive(sense::specific_heat),
+                 .also = {"c_v", "cv", "c_p", "cp", "heat_capacity"}});
+  all.push_back(
+      {.name = "reference_temperature",
+       .description = "theta_ref, the absolute temperature that all others are differences to",
+       .unit = "K",
+       .range = positive(sense::absolute_temperature),
+       .also = {"theta_ref", "T_ref", "T0", "T_0"}});
   return all;
 }
 
@@ -347,8 +362,10 @@ void declare(Visitor &v, MaterialCase &material, int dimension) {
                       "and one in another form than the entry's replaces all of its kind"},
       material.library);
   v.optional({.name = "file",
-              .description = "file of materials of one's own, found from the folder of the case: a "
-                             "table for each, with the keys of this one and `source`",
+              .description =
+                  "file of materials of one's own, found from the folder of the case: a "
+                  "table for each, with the keys of this one and `source`, a text that says where "
+                  "the numbers are from and must be given",
               .used = with("library", material.library.has_value())},
              material.file);
   if (material.file)

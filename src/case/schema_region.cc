@@ -21,8 +21,12 @@ std::string all_regions(const MeshCase &mesh) {
 
 Key key_of_names(const MeshCase &mesh) {
   Key key{.name = "on", .description = "region, or list of regions, of a mesh file"};
-  if (mesh.content)
+  if (mesh.content) {
     key.choices = mesh.content->regions.names;
+    key.no_choices = "the mesh file names no region: put its " +
+                     std::string(mesh.content->dimension == 2 ? "surfaces" : "volumes") +
+                     " into physical groups, or say by `where` which cells are meant";
+  }
   key.choices_words = "the names of a mesh file";
   key.default_words = "none";
   key.used = with("mesh.file", !mesh.box && !mesh.annulus);

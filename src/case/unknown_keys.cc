@@ -14,14 +14,20 @@
 
 namespace tourmaline::casefile {
 
-void Names::key(const Key &key, Value value) {
+void Names::add(const Key &key) {
   all.push_back(key.name);
+  for (const std::string &other : key.also)
+    also.emplace_back(other, key.name);
+}
+
+void Names::key(const Key &key, Value value) {
+  add(key);
   if (std::holds_alternative<std::string *>(value) && !key.choices.empty())
     laws.push_back(key);
 }
 
 bool Names::given(const Key &key, bool) {
-  all.push_back(key.name);
+  add(key);
   return false;
 }
 
@@ -84,6 +90,7 @@ struct Unknown {
   const toml::node *node;
   std::vector<std::string> allowed;
   std::string reason;  ///< of a name that one may expect there
+  std::string meant;   ///< the key whose symbol or other name this is
 
   // Those of the command line stand behind those of the file.
   auto order() const {
@@ -103,8 +110,9 @@ struct Unknown {
     std::string list;
     if (allowed.size() <= most)
       list = fmt::format("; allowed: {}", fmt::join(allowed, ", "));
-    const std::string meant = did_you_mean(name, allowed);
-    return place + ": unknown key" + list + (meant.empty() ? found_elsewhere(name) : meant);
+    const std::string near =
+        meant.empty() ? did_you_mean(name, allowed) : "; did you mean \"" + meant + "\"?";
+    return place + ": unknown key" + list + (near.empty() ? found_elsewhere(name) : near);
   }
 };
 
@@ -122,7 +130,8 @@ class Census : public Visitor {
       return;
     for (const auto &[key, node] : table_)
       if (!names.hold(std::string(key.str())))
-        found_.push_back({path_, key, &node, names.all, reason(names, std::string(key.str()))});
+        found_.push_back({path_, key, &node, names.all, reason(names, std::string(key.str())),
+                          meant(names, std::string(key.str()))});
     body(*this);
   }
 
@@ -171,6 +180,13 @@ class Census : public Visitor {
     for (const auto &[refused, reason] : names.refused)
       if (name == refused)
         return reason;
+    return "";
+  }
+
+  static std::string meant(const Names &names, const std::string &name) {
+    for (const auto &[other, key] : names.also)
+      if (edit_distance(other, name) == 0)
+        return key;
     return "";
   }
 

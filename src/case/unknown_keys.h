@@ -14,6 +14,7 @@ class Names : public Visitor {
  public:
   std::vector<std::string> all;
   std::vector<std::pair<std::string, std::string>> refused;  ///< with the reason
+  std::vector<std::pair<std::string, std::string>> also;     ///< other names, and the key's
   std::vector<Key> laws;  ///< on whose texts it may depend which other keys there are
 
   void key(const Key &key, Value value) override;
@@ -24,6 +25,9 @@ class Names : public Visitor {
   void refuse(const std::string &name, const std::string &reason) override;
 
   bool hold(const std::string &name) const;
+
+ private:
+  void add(const Key &key);
 };
 
 /// What is wrong with every key of `root`, and of the tables inside, that is not declared there:

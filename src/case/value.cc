@@ -91,8 +91,10 @@ void check_choice(const Item &item, const std::string &text) {
   const auto among = [&](const std::vector<std::string> &texts) {
     return std::find(texts.begin(), texts.end(), text) != texts.end();
   };
-  if (key.choices.empty() || among(key.choices))
+  if ((key.choices.empty() && key.no_choices.empty()) || among(key.choices))
     return;
+  if (key.choices.empty())
+    fail(item, "is not allowed; " + key.no_choices);
   if (among(key.foreseen))
     fail(item, "not available in this version; allowed: " + listed(key.choices));
   std::vector<std::string> known = key.choices;
@@ -241,7 +243,9 @@ void read_into(const Item &item, std::vector<std::string> &names) {
   }
   read_entries(item, "a text or a list of texts", names);
   if (names.empty())
-    fail(item, "names nothing; allowed: " + listed(item.key.choices));
+    fail(item, "names nothing; " + (item.key.no_choices.empty() || !item.key.choices.empty()
+                                        ? "allowed: " + listed(item.key.choices)
+                                        : item.key.no_choices));
   for (std::size_t i = 0; i < names.size(); ++i)
     if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
         names.begin() + static_cast<std::ptrdiff_t>(i))
@@ -253,6 +257,8 @@ void read_into(const Item &item, std::vector<std::string> &names) {
 std::string toml_complaint(const toml::parse_error &error) {
   std::string text(error.description());
   // It says of 1e400 only that it "could not be interpreted as a value".
+  if (text.find("unescaped control characters") != std::string::npos)
+    return text + "; where that is the end of the line, a closing quote is missing";
   const std::size_t begin = text.find('\'');
   const std::string reason =
       begin == std::string::npos ? "" : too_large_in_toml(text.substr(begin + 1));

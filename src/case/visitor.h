@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -49,7 +50,9 @@ struct Key {
   bool constant_in_time = false;           ///< of a formula
   std::string default_words = {};          ///< the default where the value does not say it
   Use used = {};
-  bool optional = false;  ///< not giving it differs from giving any value
+  bool optional = false;               ///< not giving it differs from giving any value
+  std::string no_choices = {};         ///< why no text is allowed where `choices` is empty
+  std::vector<std::string> also = {};  ///< symbols and names by which others know it
 };
 
 /// One entry for each component; empty where the component is free.
@@ -89,6 +92,8 @@ class Visitor {
   virtual void locate(const std::string & /*name*/, std::string & /*file*/) {}
   /// Where this table stands, for later error texts.
   virtual void place(std::string & /*where*/) {}
+  /// Where each of the keys stands that this table gives, by name.
+  virtual void places(std::map<std::string, std::string> & /*where*/) {}
 
   template <class T>
   void optional(Key key_, std::optional<T> &value) {

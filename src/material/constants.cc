@@ -271,8 +271,10 @@ std::string lack_of(const MaterialCase &given) {
                            symmetry_of(given), missing);
 }
 
-std::string remedy(bool some_have_entries, bool some_have_none) {
-  return fmt::format(". Give them{}{}", some_have_entries ? " beside the entry" : "",
+// Which entry a file of materials has, that file says; the built-in library nobody changes.
+std::string remedy(const std::string &files, bool some_have_entries, bool some_have_none) {
+  const std::string beside = some_have_entries ? " beside `library`" : "";
+  return fmt::format(". Give them{}{}", files.empty() ? beside : " in " + files + ", or" + beside,
                      some_have_none ? ", or a library entry that has them (`tourmaline materials` "
                                       "lists them)"
                                     : "");
@@ -283,6 +285,7 @@ std::string remedy(bool some_have_entries, bool some_have_none) {
 void require_complete(const std::vector<MaterialCase> &materials) {
   std::vector<std::pair<std::string, std::string>> lacks;  // what, and of which
   bool entries = false, none = false;
+  std::string files;
   for (const MaterialCase &asked : materials) {
     const MaterialCase given = with_entry(asked);
     check_class(given);
@@ -290,6 +293,8 @@ void require_complete(const std::vector<MaterialCase> &materials) {
     if (lack.empty())
       continue;
     (given.library ? entries : none) = true;
+    if (given.file && files.find(*given.file) == std::string::npos)
+      files += (files.empty() ? "" : " and ") + *given.file;
     const auto same = std::find_if(lacks.begin(), lacks.end(),
                                    [&](const auto &other) { return other.first == lack; });
     if (same == lacks.end())
@@ -301,7 +306,7 @@ void require_complete(const std::vector<MaterialCase> &materials) {
   for (const auto &[lack, places] : lacks)
     text += (text.empty() ? "" : "; and ") + places + " " + lack;
   if (!text.empty())
-    throw CaseError(text + remedy(entries, none));
+    throw CaseError(text + remedy(files, entries, none));
 }
 
 Constants constants_of(const MaterialCase &asked) {

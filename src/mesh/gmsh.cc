@@ -94,13 +94,56 @@ void check_not_meshed() {
         "mesh.size");
 }
 
-void generate(Format format, const casefile::MeshCase &asked) {
+// Area or volume of an entity; without that of CAD's kernel a tenth of the box about it, which
+// bodies with holes or thin walls may not fill either.
+double measure(int dimension, int tag) {
+  gmsh::vectorpair of_cad;
+  gmsh::model::occ::getEntities(of_cad, dimension);
+  if (std::find(of_cad.begin(), of_cad.end(), std::pair(dimension, tag)) != of_cad.end()) {
+    double mass = 0;
+    gmsh::model::occ::getMass(dimension, tag, mass);
+    return mass;
+  }
+  double least[3], most[3];
+  gmsh::model::getBoundingBox(dimension, tag, least[0], least[1], least[2], most[0], most[1],
+                              most[2]);
+  double size = 0.1;
+  for (int axis = 0; axis < dimension; ++axis)
+    size *= most[axis] - least[axis];
+  return size;
+}
+
+// A size in metres beside a file in millimetres makes 1e6 or 1e9 times as many cells as were meant,
+// and libgmsh would mesh until a limit ends it. `bytes` is that of memory; the program alone needs
+// so much for a simplex (docs/architecture.md).
+void check_size_is_possible(const casefile::MeshCase &asked, double bytes) {
+  const int dimension = gmsh::model::getDimension();
+  gmsh::vectorpair entities;
+  gmsh::model::getEntities(entities, dimension);
+  double size = 0;
+  for (const auto &[of, tag] : entities)
+    size += measure(of, tag);
+  // regular triangles and tetrahedra with edges of that size
+  const double cell =
+      (dimension == 2 ? std::sqrt(3) / 4 : std::sqrt(2) / 12) * std::pow(*asked.size, dimension);
+  const double bytes_per_cell = dimension == 2 ? 290 : 480;
+  const double most = std::min(2147483647., bytes / bytes_per_cell);
+  if (size / cell > most)
+    throw CaseError(
+        fmt::format("would have about {:.1g} cells with mesh.size = {:g}, and no more than {:.1g} "
+                    "fit; mesh.size "
+                    "is in the unit of the file, which is mesh.scale = {:g} m: give it larger",
+                    size / cell, *asked.size, most, asked.scale));
+}
+
+void generate(Format format, const casefile::MeshCase &asked, double bytes) {
   if (format == Format::cad)
     join_solids();
-  if (asked.size)
+  if (asked.size) {
     check_not_meshed();
-  if (asked.size)
+    check_size_is_possible(asked, bytes);
     gmsh::option::setNumber("Mesh.MeshSizeMax", *asked.size);
+  }
   // Whatever the geometry asks for: on several threads libgmsh 4.8 crashes now and then.
   for (const char *threads : {"General.NumThreads", "Mesh.MaxNumThreads1D", "Mesh.MaxNumThreads2D",
                               "Mesh.MaxNumThreads3D"})
@@ -117,7 +160,7 @@ std::string without_options(const std::string &file) {
   return fmt::format("/proc/self/fd/{}", descriptor);
 }
 
-void open(Format format, const casefile::MeshCase &asked) {
+void open(Format format, const casefile::MeshCase &asked, double bytes) {
   // A format-2 file may give elements of one entity to different groups, which libgmsh would give
   // to all of them. With the two tags switched an entity is a group.
   gmsh::option::setNumber("Mesh.SwitchElementTags", format == Format::msh2 ? 1 : 0);
@@ -130,14 +173,15 @@ void open(Format format, const casefile::MeshCase &asked) {
     gmsh::merge(without_options(*asked.file));
   Session::check();
   if (is_geometry(format))
-    generate(format, asked);
+    generate(format, asked, bytes);
   Session::check();
 }
 
-MeshFile read_with_libgmsh(Format format, const casefile::MeshCase &asked, bool confined) {
+MeshFile read_with_libgmsh(Format format, const casefile::MeshCase &asked, bool confined,
+                           double bytes) {
   const Session session(confined);
   try {
-    open(format, asked);
+    open(format, asked, bytes);
     return listed(format, asked);
   } catch (const std::string &error) {  // libgmsh's own kind of exception
     Session::check();
@@ -219,7 +263,8 @@ MeshFile read(const casefile::MeshCase &asked, const Reading &how) {
       [&] {
         if (confined)
           build_walls(format, *asked.file, how);
-        return bytes_of(read_with_libgmsh(format, asked, confined && is_geometry(format)));
+        return bytes_of(
+            read_with_libgmsh(format, asked, confined && is_geometry(format), limits.bytes));
       },
       limits, [&](Ending ending) { return complaint_about(format, limits, ending); }));
 }

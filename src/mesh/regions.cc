@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "case/toml_text.h"
 #include "mesh/mesh.h"
 #include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
@@ -53,11 +56,53 @@ bool is_in(const casefile::RegionCase &region, std::size_t cell, const CellNames
   return region.inside ? region.inside->value(centre, 0) != 0 : names.holds(cell, region.on);
 }
 
-[[noreturn]] void fail(const std::string &what, const std::array<double, 3> &centre,
-                       const std::string &names) {
-  throw CaseError(fmt::format(
-      "[[region]]: the cell at ({:g}, {:g}, {:g}){} {}; every cell must be in exactly one region",
-      centre[0], centre[1], centre[2], names, what));
+// The corners of the box about some points.
+struct Bounds {
+  std::array<double, 3> least{}, most{};
+  bool empty = true;
+
+  void add(const std::array<double, 3> &point) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      least[axis] = empty ? point[axis] : std::min(least[axis], point[axis]);
+      most[axis] = empty ? point[axis] : std::max(most[axis], point[axis]);
+    }
+    empty = false;
+  }
+
+  std::string words(int dimension) const {
+    std::string text;
+    for (std::size_t axis = 0; axis < static_cast<std::size_t>(dimension); ++axis)
+      text += fmt::format("{}{} from {:g} to {:g}", axis == 0 ? "" : ", ", "xyz"[axis], least[axis],
+                          most[axis]);
+    return text + " m";
+  }
+};
+
+[[noreturn]] void fail(const casefile::Case &asked, const std::string &what,
+                       const std::array<double, 3> &centre, const std::string &names) {
+  throw CaseError(
+      fmt::format("{} [[region]]: the cell at ({:g}, {:g}, {:g}){} {}; every cell must be in "
+                  "exactly one region",
+                  asked.source, centre[0], centre[1], centre[2], names, what));
+}
+
+// Most likely its name or its condition is another than was meant.
+void check_none_is_empty(const casefile::Case &asked, const std::vector<std::size_t> &n_cells,
+                         const Bounds &centres) {
+  for (std::size_t i = 0; i < n_cells.size(); ++i) {
+    if (n_cells[i] != 0)
+      continue;
+    const casefile::RegionCase &region = asked.regions[i];
+    const std::string why =
+        region.inside ? fmt::format("where = {} is 0 at the centres of all cells, which lie at {}",
+                                    casefile::toml_text(region.inside->text()),
+                                    centres.words(asked.dimension))
+                      : fmt::format("no cell of the mesh file is called \"{}\"",
+                                    fmt::join(region.on, "\" or \""));
+    throw CaseError(fmt::format("{}: the region holds no cell: {}",
+                                region.place.empty() ? asked.source + " [[region]]" : region.place,
+                                why));
+  }
 }
 
 }  // namespace
@@ -65,6 +110,8 @@ bool is_in(const casefile::RegionCase &region, std::size_t cell, const CellNames
 template <int dim>
 void assign_regions(Mesh<dim> &mesh, const casefile::Case &asked) {
   const CellNames names(asked.mesh);
+  std::vector<std::size_t> n_cells(asked.regions.size());
+  Bounds centres;
   for (const auto &cell : mesh.cells->active_cell_iterators()) {
     const auto index = static_cast<std::size_t>(cell->index());
     const std::array<double, 3> centre = in_space<dim>(cell->center());
@@ -73,13 +120,17 @@ void assign_regions(Mesh<dim> &mesh, const casefile::Case &asked) {
       if (is_in(asked.regions[region], index, names, centre))
         found.push_back(region);
     if (found.size() > 1)
-      fail(fmt::format("is in the regions {} (counted from 0)", fmt::join(found, " and ")), centre,
-           names.words(index));
+      fail(asked, fmt::format("is in the regions {} (counted from 0)", fmt::join(found, " and ")),
+           centre, names.words(index));
     if (found.empty() && !asked.regions.empty())
-      fail("is in no region and has no material", centre, names.words(index));
+      fail(asked, "is in no region and has no material", centre, names.words(index));
     cell->set_material_id(found.empty() ? 0
                                         : static_cast<dealii::types::material_id>(found.front()));
+    for (const std::size_t region : found)
+      ++n_cells[region];
+    centres.add(centre);
   }
+  check_none_is_empty(asked, n_cells, centres);
 }
 
 template <int dim>

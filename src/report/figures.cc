@@ -80,11 +80,17 @@ class Set {
   std::string moment_;
 };
 
+std::string all_of(const Field &field) {
+  std::string list;
+  for (const std::string &component : field.components)
+    list += (list.empty() ? "" : ", ") + field.name + (component.empty() ? "" : "." + component);
+  return list;
+}
+
 std::string all_fields(const Result &result) {
   std::string list;
   for (const Field &field : result.fields)
-    for (const std::string &component : field.components)
-      list += (list.empty() ? "" : ", ") + field.name + (component.empty() ? "" : "." + component);
+    list += (list.empty() ? "" : ", ") + all_of(field);
   return list;
 }
 
@@ -97,6 +103,12 @@ void draw_named(Set &set, const Result &result, const std::string &wanted,
     for (std::size_t c = 0; c < field->components.size(); ++c)
       if (field->components[c] == component)
         return set.field(*field, c, file.empty() ? field->name : file);
+  if (const Field *field = result.field(wanted.substr(0, dot)))
+    throw CaseError(fmt::format("the field \"{}\" {}; give one of {}", field->name,
+                                component.empty()
+                                    ? "has components, and a figure shows one number at each place"
+                                    : "has no component \"" + component + "\"",
+                                all_of(*field)));
   throw CaseError(fmt::format("there is no field \"{}\" in the results; there are {}", wanted,
                               all_fields(result)));
 }

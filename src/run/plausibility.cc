@@ -20,6 +20,11 @@ namespace {
 constexpr double largest_coupling = 0.98, largest_ratio_inside = 1e4, largest_ratio_between = 1e5,
                  largest_strain = 0.1;
 
+// Of known materials: relaxors have 1e5 times the permittivity of vacuum, foams 30 kg/m^3. Below 50
+// K there are experiments, but far more people who think in degrees Celsius.
+constexpr double vacuum_permittivity = 8.8541878128e-12;  // CODATA 2018 [C/(V m)]
+constexpr double largest_permittivity = 1e-6, least_density = 30, least_reference = 50;
+
 constexpr const char *units =
     "check the units: stiffness in Pa (1 GPa = 1e9 Pa), d in C/N (1 pC/N = 1e-12 C/N), e in C/m^2";
 
@@ -69,6 +74,35 @@ std::string ratio_warning(const Part &part) {
                      least + 1, smallest, units);
 }
 
+std::string permittivity_warning(const Part &part) {
+  const double largest = part.constants.permittivity.diagonal().maxCoeff();
+  if (part.constants.conductor || largest <= largest_permittivity)
+    return "";
+  return fmt::format(
+      "{}: a permittivity of {:.4g} C/(V m) is {:.2g} times that of vacuum; relative "
+      "permittivities "
+      "are given as eps11, ..., and beta11, ... or `permittivity` in C/(V m)",
+      part.name, largest, largest / vacuum_permittivity);
+}
+
+std::string density_warning(const Part &part) {
+  return part.constants.density >= least_density
+             ? ""
+             : fmt::format(
+                   "{}: the density {:g} kg/m^3 is less than that of a foam; check the unit "
+                   "(1 g/cm^3 = 1000 kg/m^3)",
+                   part.name, part.constants.density);
+}
+
+std::string reference_warning(const Part &part) {
+  return part.constants.reference_temperature >= least_reference
+             ? ""
+             : fmt::format(
+                   "{}: the reference temperature is {:g} K; check the unit, it is absolute "
+                   "(20 degrees Celsius = 293 K)",
+                   part.name, part.constants.reference_temperature);
+}
+
 std::string contrast_warning(const std::vector<Part> &parts) {
   const auto [soft, stiff] =
       std::minmax_element(parts.begin(), parts.end(), [](const Part &a, const Part &b) {
@@ -93,6 +127,9 @@ std::vector<std::string> material_warnings(const casefile::Case &asked) {
   for (const Part &part : parts) {
     add(coupling_warning(part), all);
     add(ratio_warning(part), all);
+    add(permittivity_warning(part), all);
+    add(density_warning(part), all);
+    add(reference_warning(part), all);
   }
   add(contrast_warning(parts), all);
   return all;

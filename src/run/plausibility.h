@@ -10,7 +10,8 @@ namespace tourmaline::run {
 
 /// Warnings of material constants that are possible and yet hardly meant, as those in GPa or pC/N
 /// instead of Pa and C/N: an electromechanical coupling factor above 0.98, diagonal stiffnesses
-/// of one material that differ by more than 1e4, of two materials by more than 1e5. Throws
+/// of one material that differ by more than 1e4, of two materials by more than 1e5, permittivities
+/// above 1e-6 C/(V m), densities below 30 kg/m^3, reference temperatures below 50 K. Throws
 /// CaseError for materials that are not complete.
 std::vector<std::string> material_warnings(const casefile::Case &asked);
 

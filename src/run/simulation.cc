@@ -9,6 +9,7 @@
 #include "run/memory.h"
 #include "run/process.h"
 #include "run/resumption.h"
+#include "run/temperatures.h"
 #include "run/time_loop.h"
 #include "tourmaline/error.h"
 
@@ -19,6 +20,7 @@ void check(const casefile::Case &asked) {
     material::Composition<2>{asked};
   else
     material::Composition<3>{asked};
+  check_temperatures(asked);
   parallel::together([&] { require_memory(asked); });
 }
 
@@ -95,11 +97,12 @@ void simulate(const casefile::Case &asked, const std::filesystem::path &director
       std::cout << places_text(directory) << std::flush;
     return;
   }
+  const casefile::Case limited = above_absolute_zero(asked);
   try {
     if (asked.dimension == 2)
-      TimeLoop<2>(asked, directory, options, std::move(from.checkpoint), std::move(lock)).run();
+      TimeLoop<2>(limited, directory, options, std::move(from.checkpoint), std::move(lock)).run();
     else
-      TimeLoop<3>(asked, directory, options, std::move(from.checkpoint), std::move(lock)).run();
+      TimeLoop<3>(limited, directory, options, std::move(from.checkpoint), std::move(lock)).run();
   } catch (const Error &) {
     throw;  // is that of all ranks
   } catch (const std::exception &error) {

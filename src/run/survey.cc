@@ -12,6 +12,7 @@
 #include "mesh/mesh.h"
 #include "run/locking.h"
 #include "run/plausibility.h"
+#include "run/temperatures.h"
 #include "tourmaline/case/case.h"
 
 namespace tourmaline::run {
@@ -175,6 +176,8 @@ std::string survey(const casefile::Case &asked) {
   if (asked.mesh.content || !asked.regions.empty() || varies(asked.material))
     text += asked.dimension == 2 ? survey_in<2>(asked) : survey_in<3>(asked);
   std::vector<std::string> warnings = material_warnings(asked);
+  for (const std::string &warning : temperature_warnings(asked))
+    warnings.push_back(warning);
   if (const std::string warning = slender_warning(asked); !warning.empty())
     warnings.push_back(warning);
   for (const std::string &warning : warnings)

@@ -14,6 +14,7 @@
 #include "run/resumption.h"
 #include "run/step_check.h"
 #include "run/survey.h"
+#include "run/temperatures.h"
 #include "run/versions.h"
 #include "stopwatch.h"
 #include "tourmaline/contact/friction.h"
@@ -335,6 +336,11 @@ std::vector<std::string> TimeLoop<dim>::warnings() const {
   if (const std::string text = locking_->warning(); !text.empty())
     all.push_back(text);
   for (const std::string &text : material_warnings(model_.asked))
+    all.push_back(text);
+  const std::vector<std::string> given = temperature_warnings(model_.asked);
+  all.insert(all.end(), given.begin(), given.end());
+  if (const std::string text = temperature_warning(model_, std::span(state_));
+      given.empty() && !text.empty())
     all.push_back(text);
   if (const std::string text = strain_warning(model_, std::span(state_)); !text.empty())
     all.push_back(text);

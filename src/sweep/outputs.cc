@@ -37,8 +37,12 @@ class List {
 
   void add(const std::string &unit, const std::vector<std::string> &names) {
     for (const std::string &name : names)
-      if (std::none_of(all.begin(), all.end(), [&](const Output &o) { return o.name == name; }))
+      if (const auto same =
+              std::find_if(all.begin(), all.end(), [&](const Output &o) { return o.name == name; });
+          same == all.end())
         all.push_back({name, unit});
+      else if (same->unit != unit)  // of bodies in two and in three dimensions
+        same->unit += " or " + unit;
   }
   void add_each(const std::string &prefix, const std::vector<std::string> &names,
                 const std::string &unit) {
@@ -47,21 +51,28 @@ class List {
   }
 };
 
+/// The unit of what is summed over the body or its boundary: in two dimensions for each metre of
+/// thickness.
+std::string whole(const std::string &unit, int dimension) {
+  return dimension == 2 ? unit + "/m" : unit;
+}
+
 // Boundaries through which charge or heat may flow, as solve/balance.h has them.
 void add_flows(const casefile::Case &asked, List &list) {
+  const std::string charge = whole("C", asked.dimension), heat = whole("W", asked.dimension);
   for (const casefile::BoundaryCase &boundary : asked.boundaries) {
     if (boundary.potential || boundary.surface_charge)
-      list.add_each("charge_", boundary.on, "C");
+      list.add_each("charge_", boundary.on, charge);
     if (boundary.temperature || boundary.heat_flux)
-      list.add_each("heat_", boundary.on, "W");
+      list.add_each("heat_", boundary.on, heat);
   }
   if (asked.contact && asked.contact->heat.law == "exchange")
-    list.add_each("heat_", asked.contact->on, "W");
+    list.add_each("heat_", asked.contact->on, heat);
   for (const casefile::ElectrodeCase &electrode : asked.electrodes) {
     const std::string name = "electrode_" + electrode.name;
     list.add("V", {name + "_voltage"});
-    list.add("C", {name + "_charge"});
-    list.add("A", {name + "_current"});
+    list.add(charge, {name + "_charge"});
+    list.add(whole("A", asked.dimension), {name + "_current"});
   }
 }
 
@@ -81,14 +92,16 @@ std::vector<Output> outputs_of(const casefile::Case &asked) {
   list.add("", {"step"});
   list.add("s", {"time"});
   list.add("", {"newton_iterations", "residual", "stick", "slip", "open"});
-  list.add("J", {"elastic_energy", "electric_energy", "thermal_energy", "coupling_energy"});
-  list.add("W", {"stored_energy_rate", "load_power", "electric_power", "thermal_power",
-                 "friction_dissipation", "conduction_loss", "time_step_loss"});
+  list.add(whole("J", asked.dimension),
+           {"elastic_energy", "electric_energy", "thermal_energy", "coupling_energy"});
+  const std::string power = whole("W", asked.dimension);
+  list.add(power, {"stored_energy_rate", "load_power", "electric_power", "thermal_power",
+                   "friction_dissipation", "conduction_loss", "time_step_loss"});
   for (int c = 0; c < asked.dimension; ++c)
     for (const char *force : {"load_", "reaction_", "contact_force_"})
-      list.add("N", {std::string(force) + axes[c]});
+      list.add(whole("N", asked.dimension), {std::string(force) + axes[c]});
   add_flows(asked, list);
-  list.add("W", {"stored_heat_rate", "heat_source"});
+  list.add(power, {"stored_heat_rate", "heat_source"});
   list.add("", {"energy_imbalance", "force_imbalance", "charge_imbalance", "heat_imbalance"});
   add_extremes(asked.dimension, list);
   return list.all;

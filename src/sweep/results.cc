@@ -88,7 +88,7 @@ std::string table_text(const Results &results) {
 report::Plot plot_of(const Results &results) {
   const Variation &first = results.variations.front();
   report::Plot plot{.abscissa_name = first.key,
-                    .abscissa_unit = casefile::unit_of_key(first.key),
+                    .abscissa_unit = casefile::unit_of_key(first.key, results.dimension),
                     .abscissae = {},
                     .logarithmic = first.logarithmic,
                     .line_names = {},

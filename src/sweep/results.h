@@ -21,6 +21,7 @@ struct Results {
   std::vector<Member> members;
   std::vector<Output> outputs;
   std::vector<Row> rows;
+  int dimension = 2;  ///< of the first member's body
 };
 
 /// sweep.csv: member,KEY...,status,OUTPUT...; a value that holds commas stands in quotes.

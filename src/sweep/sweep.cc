@@ -267,6 +267,8 @@ Outcome run(const Request &request) {
     asked.push_back(one.asked);
   results.outputs = chosen_outputs(request.outputs, asked);
   const std::vector<double> none(results.outputs.size(), std::numeric_limits<double>::quiet_NaN());
+  if (!asked.empty())
+    results.dimension = asked.front().dimension;
   results.rows.assign(results.members.size(), {"stopped", none});
   const output::FolderLock lock(request.folder);  // before anything there is looked at
   Outcome outcome = Study(request, results, cases).run();

@@ -9,7 +9,9 @@
 namespace tourmaline::casefile {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 const std::string ground = "{ name = 'ground', on = 'right', voltage = 0 }";
 
@@ -30,7 +32,7 @@ TEST(Electrodes, EveryKindThatThereIsCanBeAsked) {
 }
 
 struct Mistake {
-  std::string electrode, piece;  ///< of the error text
+  std::string electrode, key, piece;  ///< of the error text
 };
 
 void PrintTo(const Mistake &mistake, std::ostream *out) {
@@ -41,24 +43,34 @@ class MistakeInAnElectrode : public testing::TestWithParam<Mistake> {};
 
 TEST_P(MistakeInAnElectrode, IsAnsweredWithTheReason) {
   const std::string error = error_of(ground + ", { " + GetParam().electrode + " }");
-  EXPECT_THAT(error, HasSubstr("[electrode[1]]"));
+  EXPECT_THAT(error, HasSubstr("[electrode[1]] " + GetParam().key));
   EXPECT_THAT(error, HasSubstr(GetParam().piece));
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Electrodes, MistakeInAnElectrode,
     testing::Values(
-        Mistake{"name = 'ground', on = 'top'", "this name has already been given at"},
-        Mistake{"name = 'my top', on = 'top'", "must consist of letters, digits, _ and -"},
-        Mistake{"name = 'a', on = 'right'", "on = \"right\": there is an electrode already"},
-        Mistake{"name = 'a', on = 'top', charge = 0, voltage = 1", "its charge is given"},
-        Mistake{"name = 'a', on = 'top', charge = 0, resistor = 1", "its charge is given"},
-        Mistake{"name = 'a', on = 'top', voltage = '3*x'", "depends on the place"},
-        Mistake{"name = 'a', on = 'top', resistor = 0", "must be > 0"},
-        Mistake{"name = 'a', on = 'top', to = 'ground'", "but there is none"},
-        Mistake{"name = 'a', on = 'top', resistor = 1, to = 'ground', voltage = 1", "give one"},
-        Mistake{"name = 'a', on = 'top', resistor = 1, to = 'groud'", "did you mean \"ground\"?"},
-        Mistake{"name = 'a', on = 'top', resistor = 1, to = 'a'", "is the electrode itself"}));
+        Mistake{"name = 'ground', on = 'top'", "name", "this name has already been given at"},
+        Mistake{"name = 'my top', on = 'top'", "name", "must consist of letters, digits, _ and -"},
+        Mistake{"name = 'a', on = 'right'", "on", "on = \"right\": there is an electrode already"},
+        Mistake{"name = 'a', on = 'top', charge = 0, voltage = 1", "charge", "its charge is given"},
+        Mistake{"name = 'a', on = 'top', charge = 0, resistor = 1", "charge",
+                "its charge is given"},
+        Mistake{"name = 'a', on = 'top', voltage = '3*x'", "voltage", "depends on the place"},
+        Mistake{"name = 'a', on = 'top', resistor = 0", "resistor", "must be > 0"},
+        Mistake{"name = 'a', on = 'top', to = 'ground'", "to", "but there is none"},
+        Mistake{"name = 'a', on = 'top', resistor = 1, to = 'ground', voltage = 1", "to",
+                "give one"},
+        Mistake{"name = 'a', on = 'top', resistor = 1, to = 'groud'", "to",
+                "did you mean \"ground\"?"},
+        Mistake{"name = 'a', on = 'top', resistor = 1, to = 'a'", "to",
+                "is the electrode itself"}));
+
+TEST(Electrodes, TheNearestNameIsNeverTheElectrodesOwn) {
+  EXPECT_THAT(error_of("{ name = 'a', on = 'right', resistor = 1, to = 'b' }"),
+              AllOf(HasSubstr("[electrode[0]] to = \"b\": names no electrode"),
+                    HasSubstr("there is no other electrode"), Not(HasSubstr("did you mean"))));
+}
 
 TEST(Electrodes, AGivenChargeCannotFlowOverAResistor) {
   EXPECT_THAT(error_of(ground + ", { name = 'a', on = 'top', charge = 1e-9 }, { name = 'b', on = "

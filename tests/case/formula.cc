@@ -226,7 +226,9 @@ TEST(Formula, NotANumberNamesPlaceTimeAndText) {
   const std::string error = error_of("sqrt(-t*x)");
   EXPECT_THAT(error, HasSubstr("case.toml:3:5 [load] heat = \"sqrt(-t*x)\""));
   EXPECT_THAT(error, HasSubstr("nan"));
-  EXPECT_THAT(error, HasSubstr("x = 1, y = 2, z = 3 m, t = 4 s"));
+  EXPECT_THAT(error, HasSubstr("at x = 1 m, t = 4 s"));
+  EXPECT_THAT(error_of("sqrt(-x*y*z)"), HasSubstr("at x = 1, y = 2, z = 3 m"));
+  EXPECT_THAT(error_of("sqrt(-t)"), HasSubstr("at t = 4 s"));
 }
 
 TEST(Formula, DivisionByZeroIsAnError) {

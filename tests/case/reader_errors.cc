@@ -48,10 +48,16 @@ const Mistake syntax[] = {
     {"steps = 20", "steps = 20\nsteps = 30", {"case.toml:13:", "cannot redefine"}},
     {"Thermally", "Therm\xFF\xFE", {"case.toml:1:", "is not UTF-8"}},
     {"steps = 20", "steps = 99999999999999999999", {"case.toml:12:", "64 bits"}},
+    {"on = \"left\"", "on = \"left", {"case.toml:29:", "a closing quote is missing"}},
 };
 INSTANTIATE_TEST_SUITE_P(Syntax, MistakeInAFile, testing::ValuesIn(syntax));
 
 const Mistake names[] = {
+    {"pyroelectric = [0, 1e-4]",
+     "theta_ref = 293",
+     {"[material] theta_ref = 293", "did you mean \"reference_temperature\"?"}},
+    {"pyroelectric = [0, 1e-4]", "rho = 5e3", {"did you mean \"density\"?"}},
+    {"coefficient = 1", "k_c = 1", {"[contact.heat] k_c = 1", "did you mean \"coefficient\"?"}},
     {"[solver]", "[sovler]", {"case.toml:34:2 sovler", "unknown key", "did you mean \"solver\"?"}},
     {"friction = ",
      "frictoin = ",

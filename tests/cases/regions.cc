@@ -70,6 +70,17 @@ TEST(Regions, EveryCellMustBeInExactlyOne) {
   EXPECT_THAT(complaint(square), HasSubstr("material"));
 }
 
+TEST(Regions, OneThatHoldsNoCellIsRefusedWithWhereTheCellsAre) {
+  const std::string whole = "[[region]]\nwhere = \"1\"\nmaterial.library = \"steel\"\n";
+  EXPECT_THAT(
+      complaint(square + whole + "[[region]]\nwhere = \"y > 2\"\nmaterial.library = \"steel\"\n"),
+      AllOf(HasSubstr("[region[1]]"), HasSubstr("holds no cell: where = \"y > 2\""),
+            HasSubstr("y from 0.00416667 to 0.0958333 m")));
+  EXPECT_THAT(complaint(square + "[[region]]\nwhere = \"x < 0.05\"\nmaterial.library = "
+                                 "\"steel\"\n"),
+              HasSubstr("case.toml [[region]]: the cell"));
+}
+
 TEST(Regions, ReferenceTemperaturesMustAgree) {
   EXPECT_THAT(complaint(square + R"([[region]]
 where = "x < 0.05"

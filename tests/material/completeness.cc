@@ -141,7 +141,7 @@ TEST(Completeness, AllThatIsMissingOfAllRegionsIsSaidAtOnce) {
                               "lacks: piezoelectric constants d31"));
   EXPECT_THAT(said, HasSubstr("thermal conductivity k11"));
   EXPECT_THAT(said, testing::Not(HasSubstr("case.toml:2:1")));
-  EXPECT_THAT(said, testing::EndsWith("Give them beside the entry, or a library entry that has "
+  EXPECT_THAT(said, testing::EndsWith("Give them beside `library`, or a library entry that has "
                                       "them (`tourmaline materials` lists them)"));
 }
 

@@ -283,6 +283,22 @@ reference_temperature = 293
   std::filesystem::remove(file);
 }
 
+TEST(OwnFile, AnEntryWithoutSourceTellsAllElseThatItLacks) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "tourmaline-lacking.toml";
+  std::ofstream(file) << "[glue]\nsymmetry = \"isotropic\"\nyoung = 3e9\npoisson = 0.35\n";
+  casefile::MaterialCase asked = named("glue");
+  asked.file = file.string();
+  EXPECT_THAT(complaint(asked), HasSubstr("source: missing, but must be given"));
+  EXPECT_THAT(complaint(asked), HasSubstr("also lacks: "));
+  EXPECT_THAT(complaint(asked), HasSubstr("density"));
+  std::ofstream(file) << "[glue]\nsource = \"x\"\nsymmetry = \"isotropic\"\nyoung = 3e9\n";
+  EXPECT_THAT(complaint(asked),
+              HasSubstr("Give them in " + file.string() + ", or beside `library`"));
+  std::filesystem::remove(file);
+  asked.where = "case.toml:6:1 [material]";
+  EXPECT_THAT(complaint(asked), HasSubstr("case.toml:6:1 [material] file: " + file.string()));
+}
+
 TEST(Composition, TurnsThePolingWithThePlace) {
   casefile::Case asked;
   asked.material = named("BaTiO3-Liu2014");

@@ -207,6 +207,17 @@ TEST_F(MeshFiles, ASizeThatChangesNothingIsRefused) {
   EXPECT_THAT(complaint(mesh), HasSubstr("is a mesh already"));
 }
 
+// Metres beside a file in millimetres: without the look ahead libgmsh would mesh for ten minutes.
+TEST_F(MeshFiles, ASizeThatMakesMoreCellsThanFitIsRefusedBeforeMeshing) {
+  const std::string cad =
+      "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 20, 20, 10};\n"
+      "Physical Volume(\"body\") = {1};\n";
+  for (const std::string &body : {cad, rectangle})
+    EXPECT_THAT(complaint(geo(body, 1e-6)),
+                AllOf(HasSubstr("cells with mesh.size = 1e-06"),
+                      HasSubstr("in the unit of the file, which is mesh.scale = 1 m")));
+}
+
 // Two steel blocks of 10 mm that touch, as a CAD program would leave them.
 TEST_F(MeshFiles, SolidsOfAStepFileComeInMetresAndAreJoinedWhereTheyTouch) {
   gmsh::initialize(0, nullptr, false);

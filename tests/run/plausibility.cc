@@ -140,6 +140,24 @@ TEST(Plausibility, ConstantsPerStressThatAreTooLargeAreNamedAsTheCause) {
   }
 }
 
+TEST(Plausibility, ConstantsInOtherUnitsThanTheirsStandOut) {
+  const auto with = [](const std::string &key, double value) {
+    casefile::MaterialCase material = ceramic();
+    material.constants[key] = value;
+    return material_warnings(of({material}));
+  };
+  casefile::MaterialCase relative = ceramic();
+  relative.constants.erase("eps11");
+  relative.constants.erase("eps33");
+  relative.constants["beta11"] = 1704;
+  relative.constants["beta33"] = 1434;
+  EXPECT_THAT(material_warnings(of({relative})),
+              ElementsAre(HasSubstr("relative permittivities are given as eps11")));
+  EXPECT_THAT(with("density", 7.5), ElementsAre(HasSubstr("1 g/cm^3 = 1000 kg/m^3")));
+  EXPECT_THAT(with("reference_temperature", 20), ElementsAre(HasSubstr("absolute")));
+  EXPECT_THAT(with("reference_temperature", 77), IsEmpty());
+}
+
 const std::string beam = "tests/cases/ill_conditioned/beam.toml";
 
 // The beam as a strip of half a metre's height, pulled.

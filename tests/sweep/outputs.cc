@@ -81,7 +81,15 @@ TEST(ChosenOutputs, TheyStandInTheOrderOfTheirNamesWithTheirUnits) {
   ASSERT_EQ(chosen.size(), 3u);
   EXPECT_EQ(chosen[0].unit, "V");
   EXPECT_EQ(chosen[1].unit, "m");
-  EXPECT_EQ(chosen[2].unit, "J");
+  EXPECT_EQ(chosen[2].unit, "J/m");  // of one metre of thickness
+}
+
+TEST(ChosenOutputs, OnlyInThreeDimensionsTheyAreOfTheWholeBody) {
+  const std::vector<casefile::Case> block{shipped("block-3d/twisted.toml", {})};
+  EXPECT_EQ(chosen_outputs({"elastic_energy"}, block)[0].unit, "J");
+  EXPECT_EQ(chosen_outputs({"load_x"}, block)[0].unit, "N");
+  EXPECT_EQ(chosen_outputs({"load_x"}, paper())[0].unit, "N/m");
+  EXPECT_EQ(chosen_outputs({"heat_left"}, paper())[0].unit, "W/m");
 }
 
 TEST(ChosenOutputs, OneOfTheCasesHasToHaveThem) {
@@ -108,7 +116,7 @@ TEST(ChosenOutputs, AColumnIsTakenAsItsNameSays) {
   EXPECT_EQ(chosen[0].reduction.kind, Kind::last);
   EXPECT_EQ(chosen[1].reduction.kind, Kind::max);
   EXPECT_EQ(chosen[1].column, "slip");
-  EXPECT_EQ(chosen[2].unit, "J");
+  EXPECT_EQ(chosen[2].unit, "J/m");
   EXPECT_EQ(chosen[3].reduction.kind, Kind::at);
   EXPECT_EQ(chosen[3].reduction.time, 0.1);
   EXPECT_EQ(chosen[3].name, "slip@0.1");

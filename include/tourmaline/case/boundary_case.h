@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +28,7 @@ struct ElectrodeCase {
   std::string name;
   std::vector<std::string> on;
   std::string where;
+  std::map<std::string, std::string> places;  ///< of its keys: file, line and key
   /// [V] of the electrode; beside a resistor or capacitor of their other end, 0 when not given
   std::optional<Formula> voltage;
   std::optional<Formula> charge;    ///< total charge on the electrode [C]

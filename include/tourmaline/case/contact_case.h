@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct HeatExchangeCase {
 struct ContactCase {
   std::vector<std::string> on;
   std::string where;
+  std::map<std::string, std::string> places;  ///< of its keys: file, line and key
   std::string normal = "bilateral";
   FrictionCase friction;
   HeatExchangeCase heat;

@@ -15,7 +15,7 @@ namespace tourmaline::casefile {
 /// `&&` and `||` only what decides is evaluated. Where any value that is evaluated on the way is
 /// infinite or not a number, a comparison or a `max` could hide it from the result: that is an
 /// error like a result that is not finite. `value` throws CaseError with `where()`, the text and
-/// the point.
+/// those of the point's coordinates and the time that it depends on.
 class Formula {
  public:
   Formula() : Formula(0.0) {}
@@ -33,8 +33,9 @@ class Formula {
 
   bool is_number() const { return !expression_; }
   bool is_zero() const { return is_number() && number_ == 0; }
-  bool depends_on_time() const { return uses_time_; }
-  bool depends_on_place() const { return uses_place_; }
+  bool depends_on_time() const { return uses_[3]; }
+  bool depends_on_place() const { return uses_[0] || uses_[1] || uses_[2]; }
+  bool depends_on_z() const { return uses_[2]; }
   /// The number with as many digits (at most 17) as reading the same number back takes, or the
   /// expression.
   std::string text() const;
@@ -45,7 +46,7 @@ class Formula {
 
   double number_ = 0;
   std::shared_ptr<const Expression> expression_;
-  bool uses_time_ = false, uses_place_ = false;
+  std::array<bool, 4> uses_{};  // x, y, z, t
   std::string where_;
 };
 
