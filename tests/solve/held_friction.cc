@@ -310,8 +310,10 @@ class HeldFriction : public ::testing::TestWithParam<std::tuple<Variant, const c
     Reference<dim> reference(c);
     const output::TemporaryFolder folder;
     run::RunOptions options{.quiet = true};
-    if (variant.own_law)
+    if (variant.own_law) {
       options.friction = ellipse_at;
+      options.friction_name = "ellipse";
+    }
     run::simulate(c, folder.path(), options);
     const Table contact = testing::read_table(folder / "contact.csv"),
                 nodes = testing::read_table(folder / "nodes.csv"),
