@@ -313,7 +313,8 @@ std::vector<PolingArrow> poling_arrows(const Result &result) {
   double all = 0;
   for (const Part &part : parts)
     all += static_cast<double>(part.area.size());
-  const double least = std::min<double>(fewest, std::max(1., 2 * wanted / parts.size()));
+  const double least =
+      std::clamp<double>(2 * wanted / static_cast<double>(parts.size()), 1, fewest);
   int number = 0;  // of the part in its region
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const auto &[region, area] = parts[i];
