@@ -151,9 +151,9 @@ Energies BalanceStep<dim>::change_of_energy() const {
     return now.products.of[field][i] + before.products.of[field][i];
   });
   // Not a square: half of it changes with phi, the other half with theta.
-  const Energies other = energy_of<dim>(
-      now.unknowns.size(), twice,
-      [&](int field, std::size_t i) { return product_change(field, i); });
+  const Energies other = energy_of<dim>(now.unknowns.size(), twice, [&](int field, std::size_t i) {
+    return product_change(field, i);
+  });
   energy.coupling = (energy.coupling + other.coupling) / 2;
   return energy;
 }

@@ -288,7 +288,8 @@ StepOutcome CondensedRoute<dim>::solve(double time, std::span<const double> righ
   return outcome;
 }
 
-// A step that moves a field as never before tells whether refinement helps, and is taken again if so.
+// A step that moves a field as never before tells whether refinement helps, and is taken again if
+// so.
 template <int dim>
 StepOutcome CondensedRoute<dim>::advance(double time, std::span<const double> right_side,
                                          std::span<const double> before, std::span<double> state) {

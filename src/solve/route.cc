@@ -65,11 +65,11 @@ RouteReport Route::report() const {
 
 void Route::save(output::SavedNumbers &numbers) const {
   const RouteReport now = report();
-  numbers.put("route", {now.backward_error, now.forward_error, double(now.is_refined),
-                        double(now.factorisations), now.factorise_seconds, now.substitution_seconds,
-                        now.contact_seconds, double(now.krylov_iterations),
-                        double(now.krylov_largest), double(now.safe_steps), measured_[0],
-                        measured_[1], measured_[2]});
+  numbers.put("route",
+              {now.backward_error, now.forward_error, double(now.is_refined),
+               double(now.factorisations), now.factorise_seconds, now.substitution_seconds,
+               now.contact_seconds, double(now.krylov_iterations), double(now.krylov_largest),
+               double(now.safe_steps), measured_[0], measured_[1], measured_[2]});
   save_memory(numbers);
 }
 
