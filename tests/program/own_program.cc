@@ -147,7 +147,7 @@ TEST_F(OwnProgram, AnErrorOfOneRankAloneEndsAll) {
   }
 }
 
-TEST_F(OwnProgram, AnErrorOfAllRanksIsToldAsOne) {
+TEST_F(OwnProgram, AnErrorOfAllRanksIsNotThatOfOneAlone) {
   const Outcome outcome = run("one", "bound=15 fault=throw solver.method=monolithic", 2);
   EXPECT_EQ(outcome.status, 2);
   EXPECT_THAT(outcome.said, AllOf(HasSubstr("out of tables"), Not(HasSubstr("on rank"))));

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tourmaline/case/case.h"
+
 namespace tourmaline::report {
 namespace {
 
