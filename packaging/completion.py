@@ -60,7 +60,7 @@ def choices(row):
 
 def keys(reference):
     """Keys of the case file by their paths; of an array of tables, those of its first entry."""
-    found, table, arrays = [], "", set()
+    found, table, arrays, same = [], "", set(), {}
     for line in reference.splitlines():
         heading = re.match(r"#+ (\[+)([\w.]+)\]", line)
         if heading:
@@ -71,7 +71,11 @@ def keys(reference):
         row = re.match(r"\| `(\w+)` \|", line)
         if row:
             found.append(Key(table + row[1], choices(line)))
-    return found
+        elsewhere = re.search(r"the keys are those of \[(\w+)\]", line)
+        if elsewhere:
+            same[table] = elsewhere[1] + "."
+    return found + [Key(table + key.path.removeprefix(source), key.choices) for table, source in same.items()
+                    for key in found if key.path.startswith(source)]
 
 
 # What an unknown --output is answered with, for a body that has all of it.

@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
@@ -283,13 +284,14 @@ void require_room_or_end() {
 
 int main(int argc, char **argv) {
   const PrintableOutput said(std::cout), complained(std::cerr);
-  // On several ranks MPI runs until an error has been told: a rank that ended before the first one
-  // has spoken would take it along.
-  std::optional<tourmaline::run::Process> process;
+  // A write beyond the limit of file sizes (ulimit -f) fails like one on a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     require_room_or_end();
+    // MPI runs until an error has been told: a rank that ended before the first one has spoken
+    // would take it along.
     if (tourmaline::parallel::is_launched())
-      process.emplace(1);
+      tourmaline::run::start_process(1);
     return obey(argc, argv);
   } catch (const tourmaline::CaseError &error) {
     return report(wrong_case, error.what());

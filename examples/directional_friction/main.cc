@@ -10,6 +10,7 @@
 #include <tourmaline/run/simulation.h>
 
 #include <algorithm>
+#include <exception>
 #include <iostream>
 #include <memory>
 
@@ -50,9 +51,12 @@ class Nap : public contact::FrictionLaw {
   double forwards_, backwards_;
 };
 
+constexpr double along = 5, against = 15;  // N/m^2
+
 // Which sense of its line a point counts as positive, `directions` says.
 contact::Friction nap_at(const contact::ContactPlace &place) {
-  constexpr double along = 5, against = 15;  // N/m^2
+  if (place.directions.cols() != 1)
+    throw tourmaline::CaseError("a nap is a law for plane bodies, and this one is solid");
   const bool is_up = place.directions(1, 0) > 0;
   return contact::OwnLaw{is_up ? std::make_shared<Nap>(along, against)
                                : std::make_shared<Nap>(against, along)};
@@ -66,8 +70,10 @@ int main(int argc, char **argv) {
   try {
     const auto asked =
         tourmaline::casefile::read_file(argv[1], {}, tourmaline::mesh::read_mesh_file);
-    tourmaline::run::simulate(asked, argv[2], {.friction = nap_at});
-  } catch (const tourmaline::Error &error) {
+    tourmaline::run::simulate(
+        asked, argv[2],
+        {.friction = nap_at, .friction_name = "nap, 5 N/m^2 along, 15 N/m^2 against"});
+  } catch (const std::exception &error) {
     std::cerr << "directional_friction: " << error.what() << '\n';
     return 1;
   }

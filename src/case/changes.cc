@@ -42,7 +42,9 @@ std::map<std::string, std::string> values(const std::string &text) {
   std::istringstream lines(text);
   Place place;
   for (std::string line; std::getline(lines, line);)
-    if (line.starts_with('['))
+    if (line.starts_with('#'))
+      continue;
+    else if (line.starts_with('['))
       place.open(line);
     else if (const std::size_t equals = line.find(" = "); equals != std::string::npos)
       values[place.of(line.substr(0, equals))] = line.substr(equals + 3);

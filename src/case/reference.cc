@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -90,10 +91,10 @@ class Page : public Visitor {
   explicit Page(std::string path) : path_(std::move(path)) {}
 
   std::string text() const {
-    constexpr std::string_view head =
-        "| key | type | unit | default | meaning |\n"
-        "| --- | --- | --- | --- | --- |\n";
-    return (rows_.empty() ? "" : std::string(head) + rows_) + tables_;
+    std::string all = with_head(rows_);
+    for (const Table &table : tables_)
+      all += table.heading + (is_elsewhere(table) ? "" : "\n" + with_head(table.rows));
+    return all;
   }
 
   void key(const Key &key, Value value) override {
@@ -138,17 +139,40 @@ class Page : public Visitor {
     return text;
   }
 
+  struct Table {
+    std::string path, heading, rows;
+  };
+
+  static std::string with_head(const std::string &rows) {
+    constexpr std::string_view head =
+        "| key | type | unit | default | meaning |\n"
+        "| --- | --- | --- | --- | --- |\n";
+    return rows.empty() ? "" : std::string(head) + rows;
+  }
+
+  // Whether a table nearer to the top has the same keys; the description says which.
+  bool is_elsewhere(const Table &table) const {
+    return std::any_of(tables_.begin(), tables_.end(), [&](const Table &other) {
+      return !table.rows.empty() && other.rows == table.rows &&
+             other.path.size() < table.path.size();
+    });
+  }
+
   void add(const Key &key, const Body &body, const char *open, const char *close) {
     const std::string path = path_.empty() ? key.name : path_ + "." + key.name;
     Page inner(path);
     body(inner);
     const char *level = path_.empty() ? "##" : "###";
     const char *required = key.required ? " Required." : "";
-    tables_ += fmt::format("\n{} {}{}{}\n\n{}.{}\n\n{}", level, open, path, close, key.description,
-                           required, inner.text());
+    tables_.push_back(
+        {path,
+         fmt::format("\n{} {}{}{}\n\n{}.{}\n", level, open, path, close, key.description, required),
+         inner.rows_});
+    tables_.insert(tables_.end(), inner.tables_.begin(), inner.tables_.end());
   }
 
-  std::string path_, rows_, tables_;
+  std::string path_, rows_;
+  std::vector<Table> tables_;
 };
 
 }  // namespace

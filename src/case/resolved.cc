@@ -1,5 +1,6 @@
 #include "case/resolved.h"
 
+#include <string_view>
 #include <utility>
 
 #include "case/schema.h"
@@ -77,6 +78,25 @@ std::string resolved(const Case &asked) {
   Writer writer("");
   declare(writer, copy);
   return writer.text();
+}
+
+namespace {
+
+constexpr std::string_view law_of_a_program =
+    "# Instead of [contact.friction] stand friction laws of a program: ";
+
+}  // namespace
+
+std::string resolved_with_law(const Case &asked, const std::string &friction_name) {
+  const std::string text = resolved(asked);
+  return friction_name.empty() ? text : std::string(law_of_a_program) + friction_name + "\n" + text;
+}
+
+std::string friction_name_in(const std::string &resolved) {
+  if (!resolved.starts_with(law_of_a_program))
+    return "";
+  const std::size_t begin = law_of_a_program.size();
+  return resolved.substr(begin, resolved.find('\n') - begin);
 }
 
 }  // namespace tourmaline::casefile

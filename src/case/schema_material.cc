@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "case/given.h"
 #include "case/symmetry.h"
@@ -62,6 +63,11 @@ void add_diagonals(std::vector<Key> &all, const std::string &letters, const std:
     all.push_back(diagonal(letters + indices + suffix, what, unit, range));
 }
 
+Key also_called(Key key, std::vector<std::string> names) {
+  key.also = std::move(names);
+  return key;
+}
+
 // Signs as in (1)-(3): sigma = F eps - E^T E - M theta, D = E eps + beta E + P theta. Which of them
 // a crystal has, its class says (symmetry.h).
 std::vector<Key> make_constants() {
@@ -69,15 +75,12 @@ std::vector<Key> make_constants() {
   for (const char *letter : {"c", "s"})
     for (const char *indices : {"11", "12", "13", "14", "22", "23", "33", "44", "55", "66"})
       all.push_back(elastic(letter, indices));
-  all.push_back({.name = "young",
-                 .description = "Young's modulus of an isotropic material",
-                 .unit = "Pa",
-                 .range = positive(sense::stiffness),
-                 .also = {"E", "youngs_modulus", "elastic_modulus"}});
-  all.push_back({.name = "poisson",
-                 .description = "Poisson's ratio of an isotropic material",
-                 .range = Range{-1, 0.5, false, false},
-                 .also = {"nu", "poissons_ratio"}});
+  all.push_back(also_called({"young", "Young's modulus of an isotropic material", "Pa", false,
+                             positive(sense::stiffness)},
+                            {"E", "youngs_modulus", "elastic_modulus"}));
+  all.push_back(also_called({"poisson", "Poisson's ratio of an isotropic material", "", false,
+                             Range{-1, 0.5, false, false}},
+                            {"nu", "poissons_ratio"}));
   for (const char *letter : {"e", "d"})
     for (const char *indices : {"11", "14", "15", "22", "24", "31", "32", "33"})
       all.push_back(piezoelectric(letter, indices));
@@ -96,22 +99,17 @@ std::vector<Key> make_constants() {
   all.push_back({"p3_T", "pyroelectric coefficient along axis 3 at constant stress", "C/(K m^2)",
                  false, any(sense::pyroelectric)});
   add_diagonals(all, "k", "", "thermal conductivity", "W/(K m)", positive(sense::conductivity));
-  all.push_back({.name = "density",
-                 .description = "rho",
-                 .unit = "kg/m^3",
-                 .range = positive(sense::density),
-                 .also = {"rho"}});
-  all.push_back({.name = "specific_heat",
-                 .description = "c_v; the heat capacity of (6) is rho c_v / theta_ref",
-                 .unit = "J/(kg K)",
-                 .range = positive(sense::specific_heat),
-                 .also = {"c_v", "cv", "c_p", "cp", "heat_capacity"}});
   all.push_back(
-      {.name = "reference_temperature",
-       .description = "theta_ref, the absolute temperature that all others are differences to",
-       .unit = "K",
-       .range = positive(sense::absolute_temperature),
-       .also = {"theta_ref", "T_ref", "T0", "T_0"}});
+      also_called({"density", "rho", "kg/m^3", false, positive(sense::density)}, {"rho"}));
+  all.push_back(
+      also_called({"specific_heat", "c_v; the heat capacity of (6) is rho c_v / theta_ref",
+                   "J/(kg K)", false, positive(sense::specific_heat)},
+                  {"c_v", "cv", "c_p", "cp", "heat_capacity"}));
+  all.push_back(
+      also_called({"reference_temperature",
+                   "theta_ref, the absolute temperature that all others are differences to", "K",
+                   false, positive(sense::absolute_temperature)},
+                  {"theta_ref", "T_ref", "T0", "T_0"}));
   return all;
 }
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "body/cell_products.h"
-#include "body/prescribed.h"
 #include "body/operator.h"
+#include "body/prescribed.h"
 #include "condensation/factorisation.h"
 
 namespace tourmaline::condensation {

@@ -12,8 +12,9 @@ struct Factorisation::Instance {
   std::vector<int> schur;
   std::vector<double> schur_complement, reduced;
 
-  Instance(SymmetricMatrix matrix, const std::vector<int> &position, int threads)
-      : mumps(std::move(matrix), position, Mumps::Pivoting::none, threads,
+  Instance(SymmetricMatrix matrix, const std::vector<int> &position, std::size_t n_schur,
+           int threads)
+      : mumps(std::move(matrix), position, n_schur, Mumps::Pivoting::none, threads,
               {"the operator of the body", "use a coarser mesh"}) {}
   void set_schur();
   void mirror_schur();
@@ -48,7 +49,7 @@ void Factorisation::Instance::mirror_schur() {
 
 Factorisation::Factorisation(SymmetricMatrix matrix, const std::vector<int> &position,
                              const std::vector<int> &schur, int threads)
-    : instance_(std::make_unique<Instance>(std::move(matrix), position, threads)) {
+    : instance_(std::make_unique<Instance>(std::move(matrix), position, schur.size(), threads)) {
   Instance &in = *instance_;
   for (const int v : schur)
     in.schur.push_back(v + 1);

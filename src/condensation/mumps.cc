@@ -19,11 +19,13 @@ constexpr int most_spare = 1000;  // per cent
 
 }  // namespace
 
-Mumps::Mumps(SymmetricMatrix the_matrix, const std::vector<int> &position, Pivoting pivoting,
-             int threads, Advice advice)
+Mumps::Mumps(SymmetricMatrix the_matrix, const std::vector<int> &position, std::size_t kept,
+             Pivoting pivoting, int threads, Advice advice)
     : matrix(std::move(the_matrix)), advice_(std::move(advice)) {
   for (const int p : position)
     position_.push_back(p + 1);
+  if (position.size() == kept)
+    add_pivot();
   data.comm_fortran = use_comm_world;
   data.par = 1;
   data.sym = static_cast<int>(pivoting);
@@ -64,7 +66,7 @@ void Mumps::check() const {
   throw SolveError(fmt::format("MUMPS failed with error {} ({})", code, infog(2)));
 }
 
-// Measured on this operator: docs/architecture.md.
+// Measured on this operator: docs/measurements.md.
 void Mumps::set_controls(int threads) {
   for (const int stream : {1, 2, 3})
     icntl(stream) = -1;
@@ -77,6 +79,18 @@ void Mumps::set_controls(int threads) {
   icntl(14) = 40;  // per cent of spare memory
   icntl(16) = threads;  // OpenMP
   icntl(10) = 0;        // no iterative refinement: it needs the matrix and two more substitutions
+}
+
+void Mumps::add_pivot() {
+  for (int &p : position_)
+    ++p;
+  position_.push_back(1);
+  ++matrix.size;
+  if (!parallel::is_first())
+    return;
+  matrix.row.push_back(matrix.size);
+  matrix.column.push_back(matrix.size);
+  matrix.value.push_back(1);
 }
 
 void Mumps::set_matrix() {
@@ -123,6 +137,7 @@ void Mumps::release_entries() {
 }
 
 void Mumps::set_right_side(std::vector<double> &right_side) {
+  right_side.resize(static_cast<std::size_t>(data.n), 0.);
   data.rhs = right_side.data();
   data.nrhs = 1;
   data.lrhs = data.n;

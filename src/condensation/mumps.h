@@ -20,9 +20,11 @@ class Mumps {
     std::string matrix, memory;
   };
 
-  /// `position[v]`: place of variable v (from 0) in the order of elimination.
-  Mumps(SymmetricMatrix matrix, const std::vector<int> &position, Pivoting pivoting, int threads,
-        Advice advice);
+  /// `position[v]`: place of variable v (from 0) in the order of elimination; the last `kept` are
+  /// not eliminated. MUMPS wants one that is: where there is none, it gets one of its own, which
+  /// has nothing to do with the others.
+  Mumps(SymmetricMatrix matrix, const std::vector<int> &position, std::size_t kept,
+        Pivoting pivoting, int threads, Advice advice);
   ~Mumps();
   Mumps(const Mumps &) = delete;
   Mumps &operator=(const Mumps &) = delete;
@@ -33,7 +35,8 @@ class Mumps {
   /// knows: where its space does not suffice, it is tried again with more.
   void factorise();
   void release_entries();  ///< once no other factorisation follows
-  /// One right-hand side, which `Job::solve` overwrites by the solution.
+  /// One right-hand side, which `Job::solve` overwrites by the solution; a variable of MUMPS's own
+  /// is added to it.
   void set_right_side(std::vector<double> &right_side);
 
   int &icntl(int i) { return data.icntl[i - 1]; }  ///< numbered as in MUMPS's guide
@@ -47,6 +50,7 @@ class Mumps {
   int attempt(Job job);
   void check() const;
   void set_controls(int threads);
+  void add_pivot();
   void set_matrix();
 
   std::vector<int> position_;  // from 1

@@ -12,7 +12,7 @@ struct SaddleFactorisation::Instance {
   int count = 0;
 
   Instance(SymmetricMatrix matrix, const std::vector<int> &position, int threads)
-      : mumps(std::move(matrix), position, Mumps::Pivoting::symmetric, threads,
+      : mumps(std::move(matrix), position, 0, Mumps::Pivoting::symmetric, threads,
               {"the matrix of the Newton step",
                "use a coarser mesh, or solver.method = \"condensed\""}) {}
 };
@@ -35,8 +35,10 @@ void SaddleFactorisation::factorise() {
 }
 
 void SaddleFactorisation::solve(std::vector<double> &right_side) {
+  const std::size_t n = right_side.size();
   instance_->mumps.set_right_side(right_side);
   instance_->mumps.call(Mumps::Job::solve);
+  right_side.resize(n);
   parallel::from_first(std::span<double>(right_side));
 }
 

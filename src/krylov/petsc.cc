@@ -8,7 +8,7 @@ namespace tourmaline::krylov {
 
 namespace {
 
-// Chosen by measurement: docs/architecture.md.
+// Chosen by measurement: docs/measurements.md.
 constexpr const char *options[][2] = {
     {"-ksp_type", "fgmres"},
     {"-ksp_gmres_restart", "100"},

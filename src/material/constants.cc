@@ -330,7 +330,7 @@ std::string couplings(const Constants &c) {
   const char *expands =
       c.thermal_stress.isZero(0) ? "without thermal expansion" : "with thermal expansion";
   if (c.conductor)
-    return expands;
+    return fmt::format("a conductor, {}", expands);
   return fmt::format("{}piezoelectric, {}pyroelectric, {}", c.piezoelectric.isZero(0) ? "not " : "",
                      c.pyroelectric.isZero(0) ? "not " : "", expands);
 }

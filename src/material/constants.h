@@ -51,7 +51,7 @@ casefile::MaterialCase with_entry(const casefile::MaterialCase &asked);
 /// piezoelectricity and permittivity; the others stay zero.
 Constants electromechanical(const casefile::MaterialCase &given);
 /// What of the couplings there is and what not: "piezoelectric, not pyroelectric, without thermal
-/// expansion"; of a conductor only the last.
+/// expansion"; "a conductor, with thermal expansion".
 std::string couplings(const Constants &constants);
 
 /// Throws CaseError unless elasticity, conductivity and the electro-thermal energy

@@ -18,7 +18,7 @@ namespace tourmaline::output {
 namespace {
 
 constexpr std::string_view magic = "Tourmaline checkpoint\n";
-constexpr std::uint64_t format_version = 2;
+constexpr std::uint64_t format_version = 3;
 
 // Of nothing zlib says 0, whatever stood before.
 std::uint64_t checksum(std::uint64_t before, std::string_view bytes) {

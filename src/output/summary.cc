@@ -70,6 +70,8 @@ Json seconds_json(const Seconds &seconds) {
 std::string summary_text(int dimension, const Summary &summary) {
   Json json;
   json["case"] = summary.title;
+  if (!summary.friction_name.empty())
+    json["friction_law"] = summary.friction_name;
   json["versions"] = versions(summary);
   json["inputs"] = summary.inputs;
   json["files"] = summary.files;

@@ -42,6 +42,7 @@ struct Summary {
   std::string title;                              // the case's
   std::string version;                            // Tourmaline's
   std::map<std::string, std::string> components;  // versions of the libraries, by their names
+  std::string friction_name;                      // of laws that a program brought along
   std::map<std::string, std::string> inputs;   // digests of the files that the case reads, by name
   std::map<std::string, std::uint64_t> files;  // bytes of the other files, see file_sizes
   std::map<std::string, std::int64_t> sizes;   // nodes, cells, unknowns, contact_nodes, steps, ...
@@ -58,11 +59,10 @@ struct Summary {
   std::vector<std::string> warnings;
 };
 
-/// summary.json: the keys case, versions, inputs, files, sizes, iterations, factorisations,
-/// negative_pivots, backward_error, forward_error, refined, extremes, materials, seconds, memory
-/// (bytes), warnings, in this
-/// order. Numbers read back as they were; what is not finite or not known is null. Places have
-/// `dimension` coordinates.
+/// summary.json: the keys case, friction_law (where a program brought it along), versions, inputs,
+/// files, sizes, iterations, factorisations, negative_pivots, backward_error, forward_error,
+/// refined, extremes, materials, seconds, memory (bytes), warnings, in this order. Numbers read
+/// back as they were; what is not finite or not known is null. Places have `dimension` coordinates.
 std::string summary_text(int dimension, const Summary &summary);
 
 }  // namespace tourmaline::output

@@ -7,6 +7,7 @@
 #include <new>
 #include <numeric>
 #include <string>
+#include <thread>
 
 #include "tourmaline/error.h"
 
@@ -191,6 +192,24 @@ void on_first(const std::function<void()> &work) {
     if (is_first())
       work();
   });
+}
+
+bool all_come(std::chrono::milliseconds patience) {
+  constexpr int tag = 32767;  // the largest that every MPI has; nothing else here sends to a tag
+  std::vector<MPI_Request> requests;
+  for (int other = 0; other < n_ranks(); ++other)
+    if (other != rank()) {
+      MPI_Isend(nullptr, 0, MPI_CHAR, other, tag, MPI_COMM_WORLD, &requests.emplace_back());
+      MPI_Irecv(nullptr, 0, MPI_CHAR, other, tag, MPI_COMM_WORLD, &requests.emplace_back());
+    }
+  const auto end = std::chrono::steady_clock::now() + patience;
+  int all = requests.empty();
+  while (!all && std::chrono::steady_clock::now() < end) {
+    MPI_Testall(static_cast<int>(requests.size()), requests.data(), &all, MPI_STATUSES_IGNORE);
+    if (!all)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return all != 0;
 }
 
 void end_all(int exit_status) {

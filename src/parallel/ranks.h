@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -47,6 +48,10 @@ std::vector<std::uint32_t> joined_on_first(const std::vector<std::uint32_t> &min
 void together(const std::function<void()> &work);
 /// The same for work that only the first rank does.
 void on_first(const std::function<void()> &work);
+
+/// Whether all ranks call this within `patience` of each other. It disturbs none that is busy with
+/// something else: for a rank that cannot know whether the others have its error as well.
+bool all_come(std::chrono::milliseconds patience);
 
 /// Ends all ranks at once, for errors that leave the others waiting.
 [[noreturn]] void end_all(int exit_status);

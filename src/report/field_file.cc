@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -66,6 +67,9 @@ class Piece {
     else
       section_ = element.name;
   }
+
+  /// A rank without cells writes such a piece.
+  bool is_empty() const { return file_.grid.points.empty() && !has_cells_; }
 
   FieldFile finish() {
     if (file_.grid.points.empty() || !has_cells_)
@@ -134,11 +138,11 @@ class Piece {
   bool has_cells_ = false;
 };
 
-FieldFile read_piece(const fs::path &path) {
+Piece piece_in(const fs::path &path) {
   const std::string text = read_text_file(path);
   Piece piece(path.string());
   for_each_element(text, path.string(), [&](const XmlElement &e) { piece.visit(e); });
-  return piece.finish();
+  return piece;
 }
 
 void append(FieldFile &all, const FieldFile &piece, const std::string &name) {
@@ -255,17 +259,26 @@ FieldFile read_pieces(const fs::path &path) {
   });
   if (pieces.empty())
     throw CaseError(path.string() + ": names no pieces");
-  FieldFile all = read_piece(pieces.front());
-  for (std::size_t i = 1; i < pieces.size(); ++i)
-    append(all, read_piece(pieces[i]), path.string());
-  merge_points(all);
-  return all;
+  std::optional<FieldFile> all;
+  for (const fs::path &file : pieces) {
+    Piece piece = piece_in(file);
+    if (piece.is_empty())
+      continue;
+    if (all)
+      append(*all, piece.finish(), path.string());
+    else
+      all = piece.finish();
+  }
+  if (!all)
+    throw CaseError(path.string() + ": none of its pieces holds points and cells");
+  merge_points(*all);
+  return *std::move(all);
 }
 
 }  // namespace
 
 FieldFile read_field_file(const fs::path &path) {
-  return path.extension() == ".pvtu" ? read_pieces(path) : read_piece(path);
+  return path.extension() == ".pvtu" ? read_pieces(path) : piece_in(path).finish();
 }
 
 }  // namespace tourmaline::report

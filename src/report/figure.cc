@@ -8,6 +8,7 @@
 #include "report/scale.h"
 #include "report/setting.h"
 #include "report/ticks.h"
+#include "report/wrapped_text.h"
 
 namespace tourmaline::report {
 namespace {
@@ -242,9 +243,10 @@ void Figure::outline() {
 }
 
 void Figure::setting() {
+  // What has no name stays as it is.
+  Raster raster = bare_surface();
   if (result_.dimension == 2)
-    put(bare_surface());
-  Raster raster(view_, per_metre_ * raster_pixels);
+    put(raster);
   // A facet may be in several groups; the first one, the contact, is painted last.
   std::vector<SettingGroup> groups = groups_of(result_);
   std::reverse(groups.begin(), groups.end());
@@ -291,10 +293,12 @@ void Figure::paint_sides(const Boundary &boundary, const Colour &colour) {
 }
 
 void Figure::paint_faces(Raster &raster, const Boundary &boundary, const Colour &colour) const {
+  const double slack = 1e-6 * size_of(result_);  // over what was painted there before
   for (const auto &facet : boundary.facets)
     for (std::size_t i = 2; i < facet.size(); ++i)
-      raster.triangle(view_.places[facet[0]], view_.places[facet[i - 1]], view_.places[facet[i]],
-                      [&](double, double, double) { return colour; });
+      raster.triangle(
+          view_.places[facet[0]], view_.places[facet[i - 1]], view_.places[facet[i]],
+          [&](double, double, double) { return colour; }, slack);
 }
 
 namespace {
@@ -343,13 +347,19 @@ std::vector<std::string> texts_of(const SettingGroup &group) {
   return texts.empty() ? std::vector<std::string>{"no condition"} : texts;
 }
 
-/// A line of the legend: a name with what is said of it, and what stands before it.
-struct Entry {
+}  // namespace
+
+/// A piece of the legend: a name with what is said of it, and what stands before it.
+struct Figure::Entry {
   enum class Mark { colour, arrow, none } mark;
   Colour colour;
   std::string name;
   std::vector<std::string> texts;
 };
+
+namespace {
+
+using Entry = Figure::Entry;
 
 bool is_poled(const Result &result) {
   const Field *field = result.field("poling");
@@ -362,6 +372,9 @@ std::vector<Entry> entries_of(const Result &result) {
   std::vector<Entry> entries;
   for (const SettingGroup &group : groups_of(result))
     entries.push_back({Entry::Mark::colour, group.colour, names_of(group), texts_of(group)});
+  if (has_unnamed_facets(result))
+    entries.push_back(
+        {Entry::Mark::colour, body_colour, name_of_unnamed(result), {"no condition"}});
   if (is_poled(result))
     entries.push_back({Entry::Mark::arrow, ink, "poling", {"direction of the crystal axis 3"}});
   for (const Part &part : parts_of(result))
@@ -369,40 +382,77 @@ std::vector<Entry> entries_of(const Result &result) {
   return entries;
 }
 
-constexpr double legend_size = 7;
+constexpr double legend_size = 7, legend_left = left_margin - 20, legend_names = legend_left + 11,
+                 between = 8, legend_width = left_margin + body_size + right_margin - legend_names;
+
+/// An entry in lines that fit: its name, and beside it what is said of it.
+struct Piece {
+  Entry entry;
+  std::vector<std::string> names, said;
+  double column = 0;  ///< how wide the names are
+
+  std::size_t n_lines() const { return std::max(names.size(), said.size()); }
+};
+
+std::vector<Piece> legend_of(const Result &result, Canvas &canvas) {
+  const auto width = [&](bool bold) {
+    return [&canvas, bold](const std::string &text) {
+      return canvas.text_width(text, legend_size, bold);
+    };
+  };
+  std::vector<Piece> pieces;
+  double conditions = 0, others = 0;  // the widest name of each kind
+  for (const Entry &entry : entries_of(result)) {
+    pieces.push_back({entry, wrapped(entry.name, 0.4 * legend_width, width(true)), {}});
+    double &widest = entry.mark == Entry::Mark::colour ? conditions : others;
+    for (const std::string &name : pieces.back().names)
+      widest = std::max(widest, canvas.text_width(name, legend_size, true));
+  }
+  for (Piece &piece : pieces) {
+    piece.column = piece.entry.mark == Entry::Mark::colour ? conditions : others;
+    const double room = legend_width - between - piece.column - 2;
+    for (const std::string &text : piece.entry.texts)
+      for (const std::string &line : wrapped(text, room, width(false)))
+        piece.said.push_back(line);
+  }
+  return pieces;
+}
 
 }  // namespace
 
+void Figure::mark(const Entry &entry, double y) {
+  const double left = legend_left, right = left + 7;
+  if (entry.mark == Entry::Mark::arrow)
+    return arrow({left - 1, y - 2.5}, {right + 1, y - 2.5});
+  if (entry.mark == Entry::Mark::none)
+    return;
+  const std::vector<Canvas::Point> square{
+      {left, y - 6}, {right, y - 6}, {right, y + 1}, {left, y + 1}, {left, y - 6}};
+  canvas_.area(square, entry.colour);
+  if (entry.colour == body_colour)  // too light to be seen on paper
+    canvas_.lines({square}, grey, 0.4);
+}
+
 void Figure::legend() {
-  const std::vector<Entry> entries = entries_of(result_);
-  double conditions = 0, others = 0;  // the widest name of each kind
-  for (const Entry &entry : entries) {
-    double &widest = entry.mark == Entry::Mark::colour ? conditions : others;
-    widest = std::max(widest, canvas_.text_width(entry.name, legend_size, true));
-  }
   double y = top_ + height_ + axis_room + 6;
-  for (const Entry &entry : entries) {
-    const double left = left_margin - 20, right = left + 7;
-    const double column = entry.mark == Entry::Mark::colour ? conditions : others;
-    if (entry.mark == Entry::Mark::colour)
-      canvas_.area({{left, y - 6}, {right, y - 6}, {right, y + 1}, {left, y + 1}}, entry.colour);
-    if (entry.mark == Entry::Mark::arrow)
-      arrow({left - 1, y - 2.5}, {right + 1, y - 2.5});
-    canvas_.text(entry.name, {left + 11, y}, Canvas::Align::left, legend_size, true);
-    for (const std::string &text : entry.texts) {
-      const double room = left_margin + body_size + right_margin - left - 21 - column;
-      const double fit = std::min(1., room / canvas_.text_width(text, legend_size));
-      canvas_.text(text, {left + 19 + column, y}, Canvas::Align::left, fit * legend_size);
-      y += line_height;
+  for (const Piece &piece : legend_of(result_, canvas_)) {
+    mark(piece.entry, y);
+    for (std::size_t i = 0; i < piece.n_lines(); ++i, y += line_height) {
+      if (i < piece.names.size())
+        canvas_.text(piece.names[i], {legend_names, y}, Canvas::Align::left, legend_size, true);
+      if (i < piece.said.size())
+        canvas_.text(piece.said[i], {legend_names + piece.column + between, y}, Canvas::Align::left,
+                     legend_size);
     }
   }
 }
 
-double legend_height(const Result &result) {
-  double lines = 0;
-  for (const Entry &entry : entries_of(result))
-    lines += static_cast<double>(entry.texts.size());
-  return lines * line_height + 8;
+double legend_height(const Result &result, FigureFormat format) {
+  Canvas scratch(format, 1, 1);
+  std::size_t lines = 0;
+  for (const Piece &piece : legend_of(result, scratch))
+    lines += piece.n_lines();
+  return static_cast<double>(lines) * line_height + 8;
 }
 
 }  // namespace tourmaline::report

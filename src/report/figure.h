@@ -30,6 +30,8 @@ class Figure {
   void setting();
   void write(const std::filesystem::path &path) { canvas_.write(path); }
 
+  struct Entry;  ///< of the legend
+
  private:
   Canvas::Point on_paper(std::uint32_t node) const;
   Canvas::Point on_paper(const Vector3 &place) const;
@@ -45,6 +47,7 @@ class Figure {
   void poling();
   void arrow(const Canvas::Point &tail, const Canvas::Point &tip);
   void legend();
+  void mark(const Entry &entry, double y);
 
   const Result &result_;
   double scale_;
@@ -56,6 +59,6 @@ class Figure {
 /// Room for a colour bar and its numbers [pt].
 constexpr double colour_bar_height = 26;
 /// Room for the legend of the setting [pt].
-double legend_height(const Result &result);
+double legend_height(const Result &result, FigureFormat format);
 
 }  // namespace tourmaline::report

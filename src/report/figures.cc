@@ -27,7 +27,7 @@ class Set {
   void setting() {
     if (result_.boundaries.empty())
       return;
-    Figure figure(result_, format_, 0, legend_height(result_));
+    Figure figure(result_, format_, 0, legend_height(result_, format_));
     figure.title("Physical setting");
     figure.setting();
     write(figure, "setting");

@@ -29,10 +29,13 @@ std::string traction_text(const casefile::FormulaVector &components) {
   return fmt::format("σν = ({}) N/m²", list);
 }
 
-void add_contact(Conditions &conditions, const casefile::ContactCase &contact) {
+void add_contact(Conditions &conditions, const casefile::ContactCase &contact,
+                 const std::string &friction_name) {
   conditions.kind = "contact";
   conditions.texts.push_back(contact.normal + " contact");
-  if (contact.friction.law == "none")
+  if (!friction_name.empty())
+    conditions.texts.push_back(fmt::format("friction of a program: {}", friction_name));
+  else if (contact.friction.law == "none")
     conditions.texts.push_back("no friction");
   else
     conditions.texts.push_back(
@@ -90,10 +93,11 @@ std::string electrode_text(const casefile::ElectrodeCase &electrode, int dimensi
 
 }  // namespace
 
-Conditions conditions_on(const casefile::Case &asked, const std::string &boundary) {
+Conditions conditions_on(const casefile::Case &asked, const std::string &boundary,
+                         const std::string &friction_name) {
   Conditions conditions;
   if (asked.contact && names(asked.contact->on, boundary))
-    add_contact(conditions, *asked.contact);
+    add_contact(conditions, *asked.contact, friction_name);
   const auto add_entries = [&](auto add) {
     for (const casefile::BoundaryCase &entry : asked.boundaries)
       if (names(entry.on, boundary))

@@ -16,6 +16,8 @@ struct Conditions {
   std::vector<std::string> texts;  ///< UTF-8; empty where nothing is said
 };
 
-Conditions conditions_on(const casefile::Case &asked, const std::string &boundary);
+/// `friction_name`: of laws that a program brought along instead of the case's; "": none.
+Conditions conditions_on(const casefile::Case &asked, const std::string &boundary,
+                         const std::string &friction_name = "");
 
 }  // namespace tourmaline::report

@@ -137,6 +137,7 @@ Json result_json(Packing &packing, const Result &result) {
             {"steps", result.steps},
             {"fields", Json::array()},
             {"boundaries", Json::array()},
+            {"unnamed", has_unnamed_facets(result) ? name_of_unnamed(result) : ""},
             {"contactPieces", Json::array()},
             {"parts", Json::array()}};
   if (json["summary"].is_discarded())
@@ -177,6 +178,31 @@ std::string script_text(const Json &json) {
   return text;
 }
 
+// The names that a folder has with more and more of its path: "b", "a/b".
+std::string name_with(const std::filesystem::path &folder, int parts) {
+  std::filesystem::path plain = std::filesystem::absolute(folder).lexically_normal();
+  if (!plain.has_filename())
+    plain = plain.parent_path();
+  std::filesystem::path name;
+  for (int i = 0; i < parts && plain.has_filename(); ++i, plain = plain.parent_path())
+    name = name.empty() ? plain.filename() : plain.filename() / name;
+  return name.string();
+}
+
+/// Two folders of one name are told apart by those in which they stand.
+void tell_apart(Json &results, const std::vector<std::filesystem::path> &folders) {
+  if (results.size() < 2 || results[0]["name"] != results[1]["name"])
+    return;
+  for (int parts = 2; parts <= 64; ++parts) {
+    const std::string one = name_with(folders[0], parts), other = name_with(folders[1], parts);
+    if (one == other)
+      continue;
+    results[0]["name"] = one;
+    results[1]["name"] = other;
+    return;
+  }
+}
+
 }  // namespace
 
 void write_page(const std::vector<std::filesystem::path> &folders,
@@ -189,6 +215,7 @@ void write_page(const std::vector<std::filesystem::path> &folders,
   for (const std::filesystem::path &folder : folders)
     results.push_back(
         result_json(packing, read_result(folder, {most_numbers / folders.size(), {}})));
+  tell_apart(results, folders);
   const Json page{
       {"results", results},
       {"colourMaps", {{"even", map_json(viridis())}, {"signed", map_json(blue_red())}}}};

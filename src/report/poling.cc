@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "report/raster.h"
 
@@ -14,8 +15,10 @@ using Triple = std::array<double, 3>;
 
 constexpr double wanted = 36;  // arrows in all parts
 constexpr std::size_t fewest = 6;
-constexpr double pixels = 400;                  // along the largest side of the picture
-constexpr double shortest = 0.045 * pixels;     // an arrow that can still be read
+constexpr double pixels = 400;                        // along the largest side of the picture
+constexpr double shortest = 0.045 * pixels;           // an arrow that can still be read
+constexpr double smallest = shortest * shortest / 4;  // a part beside larger ones [pixels]
+constexpr std::size_t most_parts = 36;
 constexpr double of_box = 0.7, of_part = 0.85;  // how much of its room an arrow fills
 
 constexpr int nothing = -1;
@@ -24,6 +27,11 @@ struct Pixel {
   int x, y;
 };
 using Area = std::vector<Pixel>;  // of one part, from top to bottom, each line from left to right
+
+struct Part {
+  int region;
+  Area area;
+};
 
 /// What a cell of the skin has of a field in the last state, 0 where there is no such component.
 double value_at(const Result &result, const char *name, const char *component, std::size_t cell) {
@@ -53,6 +61,10 @@ std::vector<int> regions_of(const Result &result, const std::vector<Triple> &pol
   return regions;
 }
 
+double dot(const Triple &a, const Triple &b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 /// Which triangle is seen at each pixel, and what stands in its cell.
 class Picture {
  public:
@@ -72,30 +84,26 @@ class Picture {
     }
   }
 
-  /// The poled parts by the index of their region.
-  std::map<int, Area> parts() const {
-    std::map<int, Area> parts;
+  /// Pixels of one region that hang together and whose poling turns nowhere by a right angle or
+  /// more from one pixel to the next: where a formula turns it over, each side is a part. Of many
+  /// only the largest, and one for each region; what is smaller than an arrow's head is no part.
+  std::vector<Part> parts() {
+    std::vector<Part> all;
+    of_pixel_.assign(raster_.pixels().size(), nothing);
     for (int y = 0; y < raster_.height(); ++y)
       for (int x = 0; x < raster_.width(); ++x)
-        if (const int region = region_at(x, y); region != nothing)
-          parts[region].push_back({x, y});
-    return parts;
-  }
-
-  /// `nothing` also beside the body.
-  int region_at(int x, int y) const {
-    if (x < 0 || y < 0 || x >= raster_.width() || y >= raster_.height() || pixel(x, y) == 0)
-      return nothing;
-    return regions_[result_.skin.triangle_cells[triangle_at(x, y)]];
+        if (region_at({x, y}) != nothing && part_at({x, y}) == nothing)
+          all.push_back(grown_from({x, y}, static_cast<int>(all.size())));
+    return worth_showing(std::move(all));
   }
 
   const Triple &poling_at(const Pixel &at) const {
-    return polings_[result_.skin.triangle_cells[triangle_at(at.x, at.y)]];
+    return polings_[result_.skin.triangle_cells[triangle_at(at)]];
   }
 
   /// The place on the body that is seen there.
   Triple place_at(const Pixel &at) const {
-    const auto &t = result_.skin.triangles[triangle_at(at.x, at.y)];
+    const auto &t = result_.skin.triangles[triangle_at(at)];
     const auto &a = view_.places[t[0]], &b = view_.places[t[1]], &c = view_.places[t[2]];
     const double x = view_.low[0] + (at.x + 0.5) / per_metre_ - a[0],
                  y = view_.high[1] - (at.y + 0.5) / per_metre_ - a[1];
@@ -113,11 +121,11 @@ class Picture {
   /// [pixels].
   double room_at(const Pixel &at, double most) const {
     const Triple along = seen(result_.dimension, poling_at(at));
-    const int region = region_at(at.x, at.y);
+    const int part = part_at(at);
     for (int half = 0; half < most / 2; ++half)
       for (const int side : {-half, half})
-        if (region_at(static_cast<int>(std::floor(at.x + 0.5 + side * along[0])),
-                      static_cast<int>(std::floor(at.y + 0.5 - side * along[1]))) != region)
+        if (part_at({static_cast<int>(std::floor(at.x + 0.5 + side * along[0])),
+                     static_cast<int>(std::floor(at.y + 0.5 - side * along[1]))}) != part)
           return 2 * half;
     return most;
   }
@@ -125,10 +133,58 @@ class Picture {
   double per_metre() const { return per_metre_; }
 
  private:
-  std::uint32_t pixel(int x, int y) const {
-    return raster_.pixels()[static_cast<std::size_t>(y) * raster_.width() + x];
+  bool is_inside(const Pixel &at) const {
+    return at.x >= 0 && at.y >= 0 && at.x < raster_.width() && at.y < raster_.height();
   }
-  std::size_t triangle_at(int x, int y) const { return pixel(x, y) & 0xffffffU; }
+  std::size_t place_of(const Pixel &at) const {
+    return static_cast<std::size_t>(at.y) * raster_.width() + at.x;
+  }
+  std::size_t triangle_at(const Pixel &at) const {
+    return raster_.pixels()[place_of(at)] & 0xffffffU;
+  }
+  /// `nothing` also beside the body.
+  int region_at(const Pixel &at) const {
+    if (!is_inside(at) || raster_.pixels()[place_of(at)] == 0)
+      return nothing;
+    return regions_[result_.skin.triangle_cells[triangle_at(at)]];
+  }
+  int part_at(const Pixel &at) const { return is_inside(at) ? of_pixel_[place_of(at)] : nothing; }
+
+  bool continues(const Pixel &from, const Pixel &to) const {
+    return region_at(to) == region_at(from) && part_at(to) == nothing &&
+           dot(poling_at(from), poling_at(to)) > 0;
+  }
+
+  Part grown_from(const Pixel &first, int number) {
+    Part part{region_at(first), {first}};
+    of_pixel_[place_of(first)] = number;
+    for (std::size_t i = 0; i < part.area.size(); ++i) {
+      const Pixel at = part.area[i];
+      for (const Pixel next : {Pixel{at.x + 1, at.y}, Pixel{at.x - 1, at.y}, Pixel{at.x, at.y + 1},
+                               Pixel{at.x, at.y - 1}})
+        if (continues(at, next)) {
+          of_pixel_[place_of(next)] = number;
+          part.area.push_back(next);
+        }
+    }
+    std::sort(part.area.begin(), part.area.end(),
+              [](const Pixel &a, const Pixel &b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
+    return part;
+  }
+
+  static std::vector<Part> worth_showing(std::vector<Part> all) {
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Part &a, const Part &b) { return a.area.size() > b.area.size(); });
+    std::vector<Part> kept;
+    std::set<int> regions;
+    for (Part &part : all)
+      if (regions.insert(part.region).second ||
+          (static_cast<double>(part.area.size()) >= smallest && kept.size() < most_parts))
+        kept.push_back(std::move(part));
+    std::stable_sort(kept.begin(), kept.end(),
+                     [](const Part &a, const Part &b) { return a.region < b.region; });
+    return kept;
+  }
 
   const Result &result_;
   std::vector<Triple> polings_;
@@ -136,6 +192,7 @@ class Picture {
   View view_;
   double per_metre_;
   Raster raster_;
+  std::vector<int> of_pixel_;  // the number of its part
 };
 
 /// A part of a picture in boxes of about `size` pixels, all alike, that fill its frame.
@@ -251,15 +308,20 @@ std::vector<PolingArrow> poling_arrows(const Result &result) {
   std::vector<PolingArrow> arrows;
   if (!result.field("poling") || result.skin.triangles.size() > 0xffffffU)
     return arrows;
-  const Picture picture(result);
-  const std::map<int, Area> parts = picture.parts();
+  Picture picture(result);
+  const std::vector<Part> parts = picture.parts();
   double all = 0;
-  for (const auto &[region, part] : parts)
-    all += static_cast<double>(part.size());
-  for (const auto &[region, part] : parts)
-    add_arrows(picture, part,
-               std::max<double>(fewest, wanted * static_cast<double>(part.size()) / all),
-               region % 2 == 1, arrows);
+  for (const Part &part : parts)
+    all += static_cast<double>(part.area.size());
+  const double least =
+      std::clamp<double>(2 * wanted / static_cast<double>(parts.size()), 1, fewest);
+  int number = 0;  // of the part in its region
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto &[region, area] = parts[i];
+    number = i > 0 && parts[i - 1].region == region ? number + 1 : 0;
+    add_arrows(picture, area, std::max(least, wanted * static_cast<double>(area.size()) / all),
+               (region + number) % 2 == 1, arrows);
+  }
   return arrows;
 }
 

@@ -22,7 +22,7 @@ Place Raster::in_pixels(const Place &place) const {
 }
 
 void Raster::triangle(const Place &first, const Place &second, const Place &third,
-                      const Paint &paint) {
+                      const Paint &paint, double slack) {
   const Place a = in_pixels(first), b = in_pixels(second), c = in_pixels(third);
   const double area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
   if (area == 0)
@@ -40,7 +40,7 @@ void Raster::triangle(const Place &first, const Place &second, const Place &thir
         continue;
       const std::size_t at = static_cast<std::size_t>(y) * width_ + x;
       const double depth = u * a[2] + v * b[2] + w * c[2];
-      if (depth >= depth_[at])
+      if (depth >= depth_[at] + slack)
         continue;
       const Colour colour = paint(u, v, w);
       depth_[at] = depth;

@@ -17,8 +17,9 @@ class Raster {
 
   /// The colour at the corners' weights (a, b, c), which add to 1.
   using Paint = std::function<Colour(double a, double b, double c)>;
+  /// `slack` [m] is how far behind what is there it may lie and still be painted over it.
   void triangle(const std::array<double, 3> &a, const std::array<double, 3> &b,
-                const std::array<double, 3> &c, const Paint &paint);
+                const std::array<double, 3> &c, const Paint &paint, double slack = 0);
   /// Darkens the pixels of a line that nothing hides; `slack` [m] is how far behind a surface it
   /// may lie.
   void line(const std::array<double, 3> &a, const std::array<double, 3> &b, double slack);

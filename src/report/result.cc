@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "case/resolved.h"
 #include "report/field_file.h"
 #include "report/recorded_mesh.h"
 #include "report/text_file.h"
@@ -42,6 +43,7 @@ void read_case(Result &result, const fs::path &folder) {
   if (!fs::exists(folder / "resolved.toml"))
     return;
   result.resolved = read_text_file(folder / "resolved.toml");
+  result.friction_name = casefile::friction_name_in(result.resolved);
   try {
     result.asked =
         casefile::read_file(folder / "resolved.toml", {},
@@ -64,8 +66,9 @@ void read_tables(Result &result, const fs::path &folder) {
     result.remarks.push_back("The run did not finish, or has not yet: there is no summary.json.");
 }
 
+// Tresca's; what the page draws of another law is evaluated here too.
 void evaluate_friction_bound(Result &result) {
-  if (!result.asked || !result.asked->contact || !result.contact ||
+  if (!result.asked || !result.asked->contact || !result.contact || !result.friction_name.empty() ||
       result.asked->contact->friction.law == "none")
     return;
   const std::vector<double> *time = result.contact->find("time"), *x = result.contact->find("x"),
@@ -278,7 +281,7 @@ Boundary seen_boundary(const NamedFacets &named, const Result &result,
   Boundary boundary;
   boundary.name = named.name;
   if (result.asked)
-    boundary.conditions = conditions_on(*result.asked, boundary.name);
+    boundary.conditions = conditions_on(*result.asked, boundary.name, result.friction_name);
   for (const auto &nodes : named.facets) {
     std::vector<std::uint32_t> facet;
     for (const std::uint32_t node : nodes)

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "output/records.h"
-#include "report/legend.h"
 #include "report/contact_line.h"
+#include "report/legend.h"
 #include "report/skin.h"
 #include "report/table.h"
 #include "tourmaline/case/case.h"
@@ -48,10 +48,11 @@ struct Result {
   int dimension = 2;
   std::string resolved;                 ///< resolved.toml
   std::optional<casefile::Case> asked;  ///< the same, read
+  std::string friction_name;            ///< of a program's own laws; empty: the case's
   std::string summary;                  ///< summary.json
   std::optional<Table> history, contact;
   std::vector<ContactPiece> contact_pieces;  ///< of a plane body
-  std::vector<double> friction_bound;  ///< S at each row of `contact` [N/m^2]; empty: no friction
+  std::vector<double> friction_bound;        ///< S at each row of `contact` [N/m^2]; empty: none
   std::vector<std::string> remarks;
 
   Skin skin;

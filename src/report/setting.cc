@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 namespace tourmaline::report {
 namespace {
@@ -65,6 +66,20 @@ std::vector<SettingGroup> groups_of(const Result &result) {
       groups.push_back({colour_for(*boundary, groups), {boundary}});
   }
   return groups;
+}
+
+bool has_unnamed_facets(const Result &result) {
+  std::set<std::vector<std::uint32_t>> named;  // a facet may have several names
+  for (const Boundary &boundary : result.boundaries)
+    for (std::vector<std::uint32_t> facet : boundary.facets) {
+      std::sort(facet.begin(), facet.end());
+      named.insert(std::move(facet));
+    }
+  return !result.boundaries.empty() && named.size() < result.skin.n_facets;
+}
+
+std::string name_of_unnamed(const Result &result) {
+  return result.dimension == 2 ? "other sides" : "other faces";
 }
 
 namespace {

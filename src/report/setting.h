@@ -18,6 +18,13 @@ struct SettingGroup {
 /// Contact first, then prescribed displacements, tractions, the rest.
 std::vector<SettingGroup> groups_of(const Result &result);
 
+/// Whether the boundary has facets that no name holds (`mesh.unnamed = "natural"`), with nothing
+/// said of them.
+bool has_unnamed_facets(const Result &result);
+
+/// What a legend calls them: "other sides", "other faces".
+std::string name_of_unnamed(const Result &result);
+
 /// A region and what it consists of, in words for a legend.
 struct Part {
   std::string name, material;

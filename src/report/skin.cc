@@ -111,6 +111,20 @@ std::vector<Face> outer(const std::vector<Face> &faces, const std::vector<std::u
   return result;
 }
 
+/// Sides that belong to one plane cell only.
+std::size_t outer_sides(const std::vector<Face> &cells, const std::vector<std::uint32_t> &names) {
+  std::map<std::array<std::uint32_t, 2>, int> cells_at;
+  for (const Face &cell : cells) {
+    const std::size_t n = corners_of(cell.nodes.size());
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::uint32_t a = names[cell.nodes[i]], b = names[cell.nodes[(i + 1) % n]];
+      ++cells_at[{std::min(a, b), std::max(a, b)}];
+    }
+  }
+  return std::count_if(cells_at.begin(), cells_at.end(),
+                       [](const auto &side) { return side.second == 1; });
+}
+
 void sort_once(std::vector<std::uint32_t> &numbers) {
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
@@ -146,6 +160,7 @@ Skin skin_of(const output::Grid &grid) {
   if (grid.dimension == 3)
     faces = outer(faces, names);
   Skin skin;
+  skin.n_facets = grid.dimension == 3 ? faces.size() : outer_sides(faces, names);
   for (const Face &face : faces) {
     skin.nodes.insert(skin.nodes.end(), face.nodes.begin(), face.nodes.end());
     skin.cells.push_back(face.cell);

@@ -17,6 +17,7 @@ struct Skin {
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< places in `nodes`; outward in 3D
   std::vector<std::uint32_t> triangle_cells;            ///< places in `cells`
   std::vector<std::array<std::uint32_t, 2>> edges;      ///< sides of cells; places in `nodes`
+  std::size_t n_facets = 0;  ///< of the whole boundary: sides of plane cells, faces of solid ones
 };
 
 /// Points at one place, of which there is one for each region that meets there, belong to one node:

@@ -8,7 +8,7 @@ namespace tourmaline::run {
 
 /// Bytes that a run with a factorisation will need at its peak, from the number of nodes alone:
 /// growing as N log N in 2D and as N^(4/3) in 3D (the factor of nested dissection), fitted to
-/// measured runs (docs/architecture.md).
+/// measured runs (docs/measurements.md).
 double factorised_memory(const casefile::Case &asked);
 /// The same of a run that solves the body's equations iteratively: growing as N.
 double iterative_memory(const casefile::Case &asked);

@@ -34,14 +34,38 @@ void start_mpi() {
   MPI_Init(nullptr, nullptr);
 }
 
+pid_t owner_of_mpi = 0;
+
+// MPI can be started only once in a process, so it runs until the end: an exit handler. Children
+// that were forked have their parent's handlers, but not its MPI.
+void end_mpi() {
+  int ended = 0;
+  MPI_Finalized(&ended);
+  if (ended || getpid() != owner_of_mpi)
+    return;
+  krylov::finish();
+  MPI_Finalize();
+}
+
+void require_mpi_not_ended() {
+  int ended = 0;
+  MPI_Finalized(&ended);
+  if (ended)
+    throw MachineError(
+        "this program has ended MPI, which cannot be started twice: call MPI_Finalize after the "
+        "last run, or leave MPI to the runs");
+}
+
 }  // namespace
 
-Process::Process(int threads) {
+void start_process(int threads) {
+  require_mpi_not_ended();
   int running = 0;
   MPI_Initialized(&running);
   if (!running) {
     start_mpi();
-    owns_mpi_ = true;
+    owner_of_mpi = getpid();
+    std::atexit(end_mpi);
   }
   openblas_set_num_threads(threads);
   dealii::MultithreadInfo::set_thread_limit(threads);
@@ -60,13 +84,6 @@ double process_age() {
   uptime >> now;
   return std::max(
       0., now - std::strtod(text.c_str(), nullptr) / static_cast<double>(sysconf(_SC_CLK_TCK)));
-}
-
-Process::~Process() {
-  if (!owns_mpi_)
-    return;
-  krylov::finish();
-  MPI_Finalize();
 }
 
 }  // namespace tourmaline::run

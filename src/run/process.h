@@ -2,18 +2,10 @@
 
 namespace tourmaline::run {
 
-/// MPI for as long as it lives, and the number of threads of OpenBLAS and deal.II. MUMPS needs MPI
-/// even on one rank.
-class Process {
- public:
-  explicit Process(int threads);
-  ~Process();
-  Process(const Process &) = delete;
-  Process &operator=(const Process &) = delete;
-
- private:
-  bool owns_mpi_ = false;
-};
+/// Starts MPI, unless it runs, until the process ends (MUMPS needs it even on one rank), and sets
+/// the number of threads of OpenBLAS and deal.II. Throws MachineError when MPI has been ended, as
+/// it cannot be started again.
+void start_process(int threads);
 
 /// Seconds since the operating system started this process, to a hundredth; loading the libraries
 /// included.

@@ -77,18 +77,32 @@ std::map<std::string, std::string> contents_in(const nlohmann::json &json) {
   return digests;
 }
 
-std::string inputs(const std::string &resolved, const std::map<std::string, std::string> &digests) {
-  std::string text = resolved + "\n[contents]\n";
+std::string inputs(const std::string &resolved, const std::string &friction_name,
+                   const std::map<std::string, std::string> &digests) {
+  std::string text = resolved;
+  if (!friction_name.empty())
+    text += fmt::format("\n[program]\nfriction = {}\n", friction_name);
+  text += "\n[contents]\n";
   for (const auto &[file, digest] : digests)
     text += fmt::format("{} = {}\n", file, digest);
   return text;
 }
 
 constexpr std::string_view contents = "contents.";  // of keys that are files
+constexpr std::string_view friction = "program.friction";
+
+std::string words_of_laws(const casefile::Change &change) {
+  const auto law = [](const std::string &name) {
+    return name.empty() ? "that of the case" : fmt::format("\"{}\" of a program", name);
+  };
+  return fmt::format("the friction law was {}, is {}", law(change.then), law(change.now));
+}
 
 std::string words(const casefile::Change &change) {
   if (change.key.starts_with(contents))
     return fmt::format("the content of {} has changed", change.key.substr(contents.size()));
+  if (change.key == friction)
+    return words_of_laws(change);
   const auto value = [](const std::string &text) { return text.empty() ? "not given" : text; };
   return fmt::format("{} was {}, is {}", change.key, value(change.then), value(change.now));
 }
@@ -158,25 +172,27 @@ std::map<std::string, std::string> contents_of(const casefile::Case &asked) {
   return digests;
 }
 
-std::string inputs_of(const casefile::Case &asked) {
-  return inputs(casefile::resolved(asked), contents_of(asked));
+std::string inputs_of(const casefile::Case &asked, const std::string &friction_name) {
+  return inputs(casefile::resolved(asked), friction_name, contents_of(asked));
 }
 
-Resumption resumption(const casefile::Case &asked, const fs::path &directory) {
+Resumption resumption(const casefile::Case &asked, const fs::path &directory,
+                      const std::string &friction_name) {
   Resumption found;
   // The summary says that all steps are done, also where a run was killed before it could take its
   // checkpoint away.
   if (fs::exists(directory / "summary.json")) {
     const nlohmann::json summary = summary_in(directory);
-    require_same(inputs(text_in(directory / "resolved.toml"), contents_in(summary)),
-                 inputs_of(asked), directory);
+    const std::string resolved = text_in(directory / "resolved.toml");
+    require_same(inputs(resolved, casefile::friction_name_in(resolved), contents_in(summary)),
+                 inputs_of(asked, friction_name), directory);
     found.has_all_steps = true;
     found.has_report = !asked.output.report || fs::exists(directory / "report.html");
     require_whole(summary, directory, !found.has_report);
   } else if (const fs::path file = directory / output::checkpoint_name; fs::exists(file)) {
     found.checkpoint = output::read_checkpoint(file);
     require_same_program(*found.checkpoint, directory);
-    require_same(found.checkpoint->inputs, inputs_of(asked), directory);
+    require_same(found.checkpoint->inputs, inputs_of(asked, friction_name), directory);
     require_same_ranks(*found.checkpoint, directory);
     output::require_position(directory, found.checkpoint->position);
   }

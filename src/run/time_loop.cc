@@ -7,8 +7,10 @@
 
 #include "case/interval.h"
 #include "case/resolved.h"
+#include "contact/checked_law.h"
 #include "parallel/ranks.h"
 #include "report/page.h"
+#include "run/lone_error.h"
 #include "run/memory.h"
 #include "run/plausibility.h"
 #include "run/resumption.h"
@@ -48,8 +50,9 @@ TimeLoop<dim>::TimeLoop(const casefile::Case &asked, const std::filesystem::path
                         const RunOptions &options, std::optional<output::Checkpoint> checkpoint,
                         std::unique_ptr<output::FolderLock> lock)
     : checkpoint_(std::move(checkpoint)),
-      inputs_(parallel::is_first() ? inputs_of(asked) : ""),
+      inputs_(parallel::is_first() ? inputs_of(asked, options.friction_name) : ""),
       contents_(parallel::is_first() ? contents_of(asked) : decltype(contents_){}),
+      friction_name_(options.friction_name),
       quiet_(options.quiet),
       progress_(asked.time.steps, options.quiet || !parallel::is_first()),
       iterative_(checkpoint_ ? ChosenRoute<dim>::was_iterative(checkpoint_->numbers)
@@ -63,7 +66,7 @@ TimeLoop<dim>::TimeLoop(const casefile::Case &asked, const std::filesystem::path
     model_.friction(
         contact::contact_place(node.point, model_.time(1), Eigen::Matrix<double, dim, 0>{}));
   if (options.friction)
-    model_.friction = options.friction;
+    model_.friction = contact::checked(options.friction, options.friction_name);
   open_folder(directory, std::move(lock));
   recorder_.emplace(model_, *folder_);
   locking_.emplace(model_);
@@ -82,7 +85,7 @@ void TimeLoop<dim>::open_folder(const std::filesystem::path &directory,
   };
   parallel::on_first([&] {
     open();
-    folder_->put_case(casefile::resolved(model_.asked));
+    folder_->put_case(casefile::resolved_with_law(model_.asked, friction_name_));
   });
   if (!folder_)
     open();
@@ -174,11 +177,22 @@ void TimeLoop<dim>::run() {
   tell(done, schedule.received());
 }
 
+// A program's laws are asked on every rank, and may fail on one of them alone.
+template <int dim>
+void TimeLoop<dim>::march_together(int first, Schedule &schedule) {
+  try {
+    march(first, schedule);
+  } catch (const Error &error) {
+    require_error_of_all(error);
+    throw;
+  }
+}
+
 // The error that ends the steps also says where those before it are.
 template <int dim>
 output::Summary TimeLoop<dim>::take_steps(int first, Schedule &schedule) {
   try {
-    march(first, schedule);
+    march_together(first, schedule);
     return close_tables(schedule);
   } catch (const CaseError &error) {
     keep_what_there_is();
@@ -305,6 +319,7 @@ output::Summary TimeLoop<dim>::summary() const {
   const solve::RouteReport report = route_->route().report();
   output::Summary summary;
   summary.title = model_.asked.title;
+  summary.friction_name = friction_name_;
   summary.version = program_version();
   summary.components = component_versions();
   summary.inputs = contents_;

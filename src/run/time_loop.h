@@ -42,6 +42,7 @@ class TimeLoop {
                    std::unique_ptr<output::FolderLock> lock);
   int begin();
   void march(int first, Schedule &schedule);
+  void march_together(int first, Schedule &schedule);
   output::Summary take_steps(int first, Schedule &schedule);
   void prescribe(double time, std::vector<double> &state) const;
   void sum_loads(double time);
@@ -62,6 +63,7 @@ class TimeLoop {
   std::optional<output::Checkpoint> checkpoint_;  // to start from
   std::string inputs_;                            // of the run, for later checkpoints
   std::map<std::string, std::string> contents_;   // of the files it reads: digests
+  std::string friction_name_;                     // of a program's laws; empty: the case's
   bool quiet_;
   output::Progress progress_;
   bool iterative_;  // decided once: what is available changes with what is taken

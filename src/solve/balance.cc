@@ -116,14 +116,14 @@ typename Balance<dim>::Columns Balance<dim>::step(double time, std::span<const d
   const bool balances = std::all_of(judged_.begin(), judged_.end(), [](const auto &imbalance) {
     return std::abs(imbalance.second) <= unquestioned;
   });
+  before_ = std::move(step.now);  // as a run that goes on from here has it
   if (!balances) {
     step = step_from(std::move(step.before), true);
     step.round_off = round_off_of(model_, coupled_, step);
     columns = columns_of(step);
   }
   if (!model_.electrodes.empty())
-    electrode_charges_ = electrode_charges(model_, step.now.charges, step.loads);
-  before_ = std::move(step.now);
+    electrode_charges_ = electrode_charges(model_, before_.charges, step.loads);
   return columns;
 }
 
@@ -170,29 +170,31 @@ void Balance<dim>::add_energy(const Step &step, Columns &columns) {
     }
   }
   const Energies energy = step.now.stored, shift = model_.op.energy_shift(step.now.unknowns);
-  const Energies loss = step.energy_of_change();
-  const double lost = loss.sum(), before = step.before.stored.sum();
+  const Energies loss = step.energy_of_change(), gain = step.change_of_energy();
+  const double lost = loss.sum(), before = step.before.stored.sum(), gained = gain.sum();
   Sum imbalance;
-  for (const double term :
-       {energy.sum(), -before, lost, -load, -electric, -thermal, friction, conduction})
+  for (const double term : {gained, lost, -load, -electric, -thermal, friction, conduction})
     imbalance.add(term);
+  imbalance.size += std::abs(energy.sum()) + std::abs(before);
   const double k = model_.step;
   columns.insert(columns.end(), {{"elastic_energy", energy.elastic + shift.elastic},
                                  {"electric_energy", energy.electric + shift.electric},
                                  {"thermal_energy", energy.thermal + shift.thermal},
                                  {"coupling_energy", energy.coupling + shift.coupling},
-                                 {"stored_energy_rate", (energy.sum() - before) / k},
+                                 {"stored_energy_rate", gained / k},
                                  {"load_power", load / k},
                                  {"electric_power", electric / k},
                                  {"thermal_power", thermal / k},
                                  {"friction_dissipation", friction / k},
                                  {"conduction_loss", conduction / k},
                                  {"time_step_loss", lost / k}});
-  const std::array<double, 3> &round_off = step.round_off.energy;
-  put_imbalance("energy_imbalance", imbalance.value, imbalance.size,
-                round_off[0] + round_off[1] + round_off[2], columns);
+  double round_off = 0;
+  for (const double of_field : step.round_off.energy)
+    if (std::isfinite(of_field))
+      round_off += of_field;
+  put_imbalance("energy_imbalance", imbalance.value, imbalance.size, round_off, columns);
   judged_.back().second =
-      lack_of_energy(step, imbalance.size, by_field(loss),
+      lack_of_energy(step, imbalance.size, by_field(gain), by_field(loss),
                      {{{-load, friction}, {-electric}, {-thermal, conduction}}});
 }
 
@@ -203,19 +205,20 @@ void Balance<dim>::add_energy(const Step &step, Columns &columns) {
 // less.
 template <int dim>
 double Balance<dim>::lack_of_energy(const Step &step, double whole,
+                                    const std::array<double, 3> &gained,
                                     const std::array<double, 3> &lost,
                                     const std::array<std::vector<double>, 3> &works) const {
   constexpr double leaked = 1e-28;
-  const std::array<double, 3> now = by_field(step.now.stored),
-                              before = by_field(step.before.stored);
   double worst = 0;
   for (int f = 0; f < 3; ++f) {
+    if (std::isinf(step.round_off.energy[f]))
+      continue;
     double stored = 0, loss = 0, round_off = 0;
     Sum imbalance;
     for (int g = 0; g < 3; ++g) {
       if (g != f && !coupled_[f][g])
         continue;
-      stored += now[g] - before[g];
+      stored += gained[g];
       loss += lost[g];
       round_off += step.round_off.energy[g];
       for (const double work : works[g])

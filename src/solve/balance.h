@@ -60,7 +60,8 @@ class Balance {
   void add_electrodes(const Step &step, Columns &columns) const;
   void add_heat(const Step &step, Columns &columns);
   void add_energy(const Step &step, Columns &columns);
-  double lack_of_energy(const Step &step, double whole, const std::array<double, 3> &lost,
+  double lack_of_energy(const Step &step, double whole, const std::array<double, 3> &gained,
+                        const std::array<double, 3> &lost,
                         const std::array<std::vector<double>, 3> &works) const;
   std::vector<std::pair<body::Node, double>> exchange_weights(const std::string &boundary) const;
   double smallest_heat() const;

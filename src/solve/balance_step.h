@@ -45,6 +45,9 @@ struct BalanceStep {
   }
   /// W(d), what the Euler step loses (docs/theory.md, section 8).
   body::Energies energy_of_change() const;
+  /// W_n - W_(n-1) as d . K (x_n + x_(n-1)) / 2: the round-off of a difference of the two would be
+  /// that of all that is stored, and of what cells of a thin body carry around.
+  body::Energies change_of_energy() const;
 };
 
 /// Of u, phi and theta. The coupling's part is that of phi, which theta is coupled to where there
@@ -69,7 +72,8 @@ BalanceStep<dim> balance_step(const Model<dim> &model, const std::vector<bool> &
                               bool cell_by_cell);
 
 /// A solution is uncertain by the round-off of the largest scaled unknown of the fields that are
-/// coupled: that is what a field of which there is nothing consists of. Forces, charges and heats
+/// coupled: that is what a field of which there is nothing consists of; fields that consist of what
+/// the solver let through from others may lack anything. Forces, charges and heats
 /// have |K| times that; energies cell by cell have its square, as K annihilates what changes none.
 /// That much a sum may lack.
 template <int dim>

@@ -172,7 +172,7 @@ void BodyEquations<dim>::give_up(double time, std::span<const double> free_resid
   const std::array<double, 3> found = norms<dim>(free_residual), sizes = field_sizes();
   std::string what;
   for (int f = 0; f < 3; ++f)
-    if (found[f] > tolerance * sizes[f])
+    if (!(found[f] <= tolerance * sizes[f]))
       what += fmt::format("{} {} {:.3g}", what.empty() ? "" : ",", names[f],
                           found[f] / (sizes[f] + 1e-300));
   throw SolveError(fmt::format(

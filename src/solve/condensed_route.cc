@@ -288,14 +288,14 @@ StepOutcome CondensedRoute<dim>::solve(double time, std::span<const double> righ
   return outcome;
 }
 
-// The first step that moves anything tells whether refinement helps, and is taken again if so.
+// A step that moves a field as never before tells whether refinement helps, and is taken again if
+// so.
 template <int dim>
 StepOutcome CondensedRoute<dim>::advance(double time, std::span<const double> right_side,
                                          std::span<const double> before, std::span<double> state) {
   const VectorXd start = last_increment_;
   StepOutcome outcome = solve(time, right_side, before, state);
-  const bool moves = std::any_of(state.begin(), state.end(), [](double x) { return x != 0; });
-  if (is_refined() || (!is_forward_error_known() && moves)) {
+  if (is_refined() || outgrew_measured<dim>(state)) {
     measure(right_side, state, outcome);
     if (is_refined() || !(so_far_.forward_error > worth_refining))
       return outcome;

@@ -271,7 +271,8 @@ double IterativeRoute<dim>::forward_error() {
   return body_.forward_error(freed(body_.residual_by_cells()));
 }
 
-// The first step that moves anything tells whether refinement helps, and goes on with it if so.
+// A step that moves a field as never before tells whether refinement helps, and goes on with it if
+// so.
 template <int dim>
 void IterativeRoute<dim>::measure() {
   double error = is_refined() ? body_.last_correction() : forward_error();
@@ -290,8 +291,7 @@ StepOutcome IterativeRoute<dim>::advance(double time, std::span<const double> ri
                                          std::span<const double> before, std::span<double> state) {
   begin_step(time, right_side, before, state);
   settle();
-  const bool moves = std::any_of(state.begin(), state.end(), [](double x) { return x != 0; });
-  if (is_refined() || (!is_forward_error_known() && moves))
+  if (is_refined() || outgrew_measured<dim>(state))
     measure();
   see_backward_error(body_.backward_error(free_residual()));
   StepOutcome outcome = contact_.outcome(body_.residual());

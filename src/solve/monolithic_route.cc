@@ -131,8 +131,7 @@ StepOutcome MonolithicRoute<dim>::advance(double time, std::span<const double> r
     settle(data, outcome.status);
   share_forces(data, outcome);
   std::copy(x_.body.begin(), x_.body.end(), state.begin());
-  if (!is_forward_error_known() &&
-      std::any_of(state.begin(), state.end(), [](double x) { return x != 0; }))
+  if (outgrew_measured<dim>(state))
     see_forward_error(accuracy(right_side, state, outcome).forward_error);
   return outcome;
 }

@@ -1,8 +1,10 @@
 #include "solve/route.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "body/fields.h"
 #include "condensation/factorisation.h"
 #include "larger.h"
 
@@ -24,9 +26,23 @@ void Route::see_forward_error(double error) {
   so_far_.forward_error = largest_so_far(so_far_.forward_error, error);
 }
 
-bool Route::is_forward_error_known() const {
-  return !std::isnan(so_far_.forward_error);
+template <int dim>
+bool Route::outgrew_measured(std::span<const double> state) {
+  constexpr double times = 10;
+  std::array<double, 3> size{};
+  for (std::size_t i = 0; i < state.size(); ++i)
+    size[body::field_of<dim>(i)] = larger(size[body::field_of<dim>(i)], std::abs(state[i]));
+  bool outgrew = false;
+  for (std::size_t f = 0; f < size.size(); ++f)
+    if (size[f] > times * measured_[f]) {
+      measured_[f] = size[f];
+      outgrew = true;
+    }
+  return outgrew;
 }
+
+template bool Route::outgrew_measured<2>(std::span<const double>);
+template bool Route::outgrew_measured<3>(std::span<const double>);
 
 void Route::forget_errors() {
   so_far_.backward_error = so_far_.forward_error = std::numeric_limits<double>::quiet_NaN();
@@ -49,15 +65,16 @@ RouteReport Route::report() const {
 
 void Route::save(output::SavedNumbers &numbers) const {
   const RouteReport now = report();
-  numbers.put("route", {now.backward_error, now.forward_error, double(now.is_refined),
-                        double(now.factorisations), now.factorise_seconds, now.substitution_seconds,
-                        now.contact_seconds, double(now.krylov_iterations),
-                        double(now.krylov_largest), double(now.safe_steps)});
+  numbers.put("route",
+              {now.backward_error, now.forward_error, double(now.is_refined),
+               double(now.factorisations), now.factorise_seconds, now.substitution_seconds,
+               now.contact_seconds, double(now.krylov_iterations), double(now.krylov_largest),
+               double(now.safe_steps), measured_[0], measured_[1], measured_[2]});
   save_memory(numbers);
 }
 
 void Route::restore(const output::SavedNumbers &numbers) {
-  const auto before = numbers.get("route", 10);
+  const auto before = numbers.get("route", 13);
   so_far_.backward_error = before[0];
   so_far_.forward_error = before[1];
   if (before[2] != 0 && !is_refined())
@@ -69,6 +86,7 @@ void Route::restore(const output::SavedNumbers &numbers) {
   so_far_.krylov_iterations = static_cast<std::size_t>(before[7]);
   so_far_.krylov_largest = static_cast<int>(before[8]);
   so_far_.safe_steps = static_cast<int>(before[9]);
+  std::copy(before.begin() + 10, before.end(), measured_.begin());
   restore_memory(numbers);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <array>
 #include <limits>
 #include <span>
 #include <vector>
@@ -79,7 +80,11 @@ class Route {
  protected:
   void see_backward_error(double error);
   void see_forward_error(double error);
-  bool is_forward_error_known() const;
+  /// Whether the forward error of this step is to be measured: a field (u, phi, theta) moves for
+  /// the first time, or is ten times as large as when it was measured last. What a thin part does
+  /// not take part in says nothing of it.
+  template <int dim>
+  bool outgrew_measured(std::span<const double> state);
   void forget_errors();
   static void add_factorisation(const condensation::FactorisationStatistics &statistics,
                                 RouteReport &report);
@@ -88,6 +93,8 @@ class Route {
   RouteReport so_far_;
 
  private:
+  std::array<double, 3> measured_{};  // the largest of each field (SI) when measured
+
   /// Adds what is of this process to a report of what was so far.
   virtual void describe(RouteReport &report) const = 0;
   /// Refines a new route as the one was that is to go on; before its memory is restored.

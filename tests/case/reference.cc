@@ -34,5 +34,16 @@ TEST(ReferencePage, SaysUnitRangeAndDefault) {
   EXPECT_THAT(page, HasSubstr("| `end` | number | s | required |"));
 }
 
+// A region's are those of [material].
+TEST(ReferencePage, ListsTheKeysOfAMaterialOnce) {
+  const std::string page = reference_page();
+  const auto first = page.find("| `c11` |");
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_EQ(page.find("| `c11` |", first + 1), std::string::npos);
+  EXPECT_LT(page.find("## [material]\n"), first);
+  EXPECT_THAT(page, HasSubstr("### [region.material]\n\nWhat the region is made of; the keys are "
+                              "those of [material]. Required.\n\n## [material]\n"));
+}
+
 }  // namespace
 }  // namespace tourmaline::casefile

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -69,7 +70,37 @@ TEST_P(Thickness, WithoutRefinementNoWrongNumberPassesInSilence) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfABeamOfOneMetre, Thickness,
-                         ::testing::Values(1. / 300, 1e-3, 3e-4, 1e-4));
+                         ::testing::Values(1. / 300, 1e-3, 3e-4, 1e-4, 1e-5));
+
+const std::string held_beam = "tests/cases/ill_conditioned/held_beam.toml";
+
+double largest_tip(const RunCase &run) {
+  const std::vector<double> all = run.nodes().numbers("u_y");
+  return *std::max_element(all.begin(), all.end());
+}
+
+// What is warm first says nothing of what bends later.
+TEST(LateLoad, BendsARefinedBeamAsItDoesFromTheStart) {
+  const RunCase first(held_beam, {"time.steps=1"});
+  const RunCase late(held_beam, {"time.steps=2", "boundary[0].temperature=\"t\"",
+                                 "boundary[1].traction=[0, \"if(t > 0.6, 1, 0)\"]"});
+  EXPECT_TRUE(late.summary()["refined"]);
+  EXPECT_THAT(late.summary()["warnings"], ::testing::IsEmpty());
+  EXPECT_NEAR(largest_tip(late) / largest_tip(first), 1, 1e-9);
+}
+
+class HeldLoad : public ::testing::TestWithParam<const char *> {};
+
+// From the second step on nothing moves but round-off.
+TEST_P(HeldLoad, LacksNoEnergyOnAThinBeam) {
+  const std::string thickness = std::string("mesh.box.max=[1, ") + GetParam() + "]";
+  const RunCase once(held_beam, {thickness, "time.steps=1"}), held(held_beam, {thickness});
+  EXPECT_THAT(held.summary()["warnings"], ::testing::IsEmpty());
+  EXPECT_NEAR(largest_tip(held) / largest_tip(once), 1, 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfManyThicknesses, HeldLoad,
+                         ::testing::Values("2e-3", "1.3e-3", "1e-3", "7e-4", "3e-4", "1e-4"));
 
 TEST(WellConditioned, BodyThatOnlyMovesLacksNothing) {
   for (const char *method : {"solver.method=\"condensed\"", "solver.method=\"monolithic\""})
@@ -104,6 +135,54 @@ boundary = [
                                  part("x > 2", "1e11"),
                              "bar.toml", overrides);
 }
+
+/// A plane bar of three equal squares, the middle one stiffer or more permittive by a factor,
+/// pulled or under a voltage. There is nothing of the other fields.
+casefile::Case uneven_bar(const std::string &factors, const std::string &right) {
+  const auto part = [](const std::string &where, const std::string &constants) {
+    return "[[region]]\nwhere = \"" + where + "\"\nmaterial = { symmetry = \"isotropic\", " +
+           constants +
+           ", poisson = 0, k11 = 1, density = 1000, specific_heat = 1000, reference_temperature = "
+           "293 }\n";
+  };
+  return casefile::read_text(
+      "mesh.box = { min = [0, 0], max = [3, 1], cells = [6, 2], cell = \"quadrilateral\" }\n"
+      "time = { end = 1, steps = 1 }\noutput = { fields = false, report = false }\nboundary = [\n"
+      "  { on = \"left\", displacement = [0, 0], potential = 0, temperature = 0 },\n"
+      "  { on = \"right\", " +
+          right + " },\n]\n" + part("x < 1", "young = 1e3, beta11 = 1e-10") +
+          part("x > 1 && x < 2", factors) + part("x > 2", "young = 1e3, beta11 = 1e-10"),
+      "bar.toml", {});
+}
+
+std::vector<std::string> warnings_of_accuracy(const RunCase &run) {
+  std::vector<std::string> found;
+  const nlohmann::json summary = run.summary();
+  for (const auto &text : summary["warnings"].get<std::vector<std::string>>())
+    if (text.find("certain") != std::string::npos)
+      found.push_back(text);
+  return found;
+}
+
+class PowerOfTen : public ::testing::TestWithParam<int> {};
+
+TEST_P(PowerOfTen, StiffThirdOfABarIsRefinedAndItsMissingChargesLackNothing) {
+  const std::string young = "young = 1e" + std::to_string(3 + GetParam());
+  const RunCase run(uneven_bar(young + ", beta11 = 1e-10", "traction = [\"1e-6*t\", 0]"));
+  EXPECT_NEAR(run.nodes().numbers("u_x").back() / (1e-9 * (2 + std::pow(10., -GetParam()))), 1,
+              1e-12);
+  EXPECT_THAT(warnings_of_accuracy(run), ::testing::IsEmpty());
+}
+
+TEST_P(PowerOfTen, PermittiveThirdOfABarIsRefinedAndItsMissingForcesLackNothing) {
+  const std::string beta = "beta11 = 1e" + std::to_string(-10 + GetParam());
+  const RunCase run(uneven_bar("young = 1e3, " + beta, "potential = 1"));
+  const double charge = std::abs(run.history().numbers("charge_right").back());
+  EXPECT_NEAR(charge / (1e-10 / (2 + std::pow(10., -GetParam()))), 1, 1e-12);
+  EXPECT_THAT(warnings_of_accuracy(run), ::testing::IsEmpty());
+}
+
+INSTANTIATE_TEST_SUITE_P(OfUnevenBars, PowerOfTen, ::testing::Values(8, 10, 12, 14, 15));
 
 TEST(IllConditioned, SoftThirdOfAHotBarIsRefinedIteratively) {
   const RunCase run(hot_bar({"solver.body=\"iterative\""}));

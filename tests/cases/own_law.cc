@@ -1,7 +1,11 @@
 // Friction laws that a caller brings along.
+#include <gmock/gmock.h>
+
 #include <algorithm>
 
 #include "run_case.h"
+#include "tourmaline/case/case.h"
+#include "tourmaline/error.h"
 #include "tourmaline/run/simulation.h"
 
 namespace tourmaline::testing {
@@ -70,9 +74,13 @@ TEST_P(OwnLaw, ThatIsTrescasGivesWhatTrescasGives) {
   const casefile::Case asked =
       asked_for("cases/block-3d/twisted.toml", with({"mesh.box.cells=[4,4,4]", "time.steps=4"}));
   run::simulate(asked, shipped.path(), {.quiet = true});
-  run::simulate(asked, own.path(), {.quiet = true, .friction = [](const contact::ContactPlace &) {
-                                      return contact::OwnLaw{std::make_shared<Borrowed>(15.)};
-                                    }});
+  run::simulate(asked, own.path(),
+                {.quiet = true,
+                 .friction =
+                     [](const contact::ContactPlace &) {
+                       return contact::OwnLaw{std::make_shared<Borrowed>(15.)};
+                     },
+                 .friction_name = "Tresca's, 15 N/m^2"});
   EXPECT_EQ(output::content_of(own / "contact.csv"), output::content_of(shipped / "contact.csv"));
 }
 
@@ -82,11 +90,14 @@ TEST_P(OwnLaw, MayHaveOtherBoundsForTheTwoSenses) {
   const output::TemporaryFolder folder;
   run::simulate(asked_for("cases/devices/friction-sensor.toml", with({"output.fields=false"})),
                 folder.path(),
-                {.quiet = true, .friction = [=](const contact::ContactPlace &place) {
-                   const bool along = place.directions(0, 0) > 0;
-                   return contact::OwnLaw{along ? std::make_shared<OneWay>(right, left)
-                                                : std::make_shared<OneWay>(left, right)};
-                 }});
+                {.quiet = true,
+                 .friction =
+                     [=](const contact::ContactPlace &place) {
+                       const bool along = place.directions(0, 0) > 0;
+                       return contact::OwnLaw{along ? std::make_shared<OneWay>(right, left)
+                                                    : std::make_shared<OneWay>(left, right)};
+                     },
+                 .friction_name = "one way"});
   const std::vector<double> traction =
       read_table(folder / "contact.csv").numbers("tangential_traction_x");
   const auto [least, greatest] = std::minmax_element(traction.begin(), traction.end());
@@ -95,7 +106,29 @@ TEST_P(OwnLaw, MayHaveOtherBoundsForTheTwoSenses) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Routes, OwnLaw,
-                         ::testing::Values("solver.method=condensed", "solver.method=monolithic"));
+                         ::testing::Values("solver.body=direct", "solver.body=iterative",
+                                           "solver.method=monolithic"));
+
+TEST(OwnLaws, NeedANameOfOneLineAndAContact) {
+  using ::testing::HasSubstr;
+  using ::testing::ThrowsMessage;
+  const output::TemporaryFolder folder;
+  casefile::Case asked = asked_for("cases/ouafik-2020/conductive.toml", {});
+  run::RunOptions options{.quiet = true, .friction = [](const contact::ContactPlace &) {
+                            return contact::OwnLaw{std::make_shared<Borrowed>(15.)};
+                          }};
+  const auto run = [&] { run::simulate(asked, folder / "run", options); };
+  for (const char *name : {"", " ", "two\nlines"}) {
+    options.friction_name = name;
+    EXPECT_THAT(run, ThrowsMessage<CaseError>(HasSubstr("without a name")));
+  }
+  options.friction_name = "Tresca's";
+  asked.contact.reset();
+  EXPECT_THAT(run, ThrowsMessage<CaseError>(HasSubstr("has no [contact]")));
+  options.friction = {};
+  EXPECT_THAT(run, ThrowsMessage<CaseError>(HasSubstr("and gives none")));
+  EXPECT_FALSE(std::filesystem::exists(folder / "run"));
+}
 
 }  // namespace
 }  // namespace tourmaline::testing

@@ -1,16 +1,12 @@
 #!/usr/bin/env python3
-"""tutorial.py PROGRAM PAGE [--pictures FOLDER]: saves every file of the tutorial under its name and runs every command,
-in the order of the page, in an empty folder; then checks what the page says of the results. With --pictures its pictures
-are put into FOLDER."""
+"""tutorial.py PROGRAM PAGE [--pictures FOLDER]: does all that the tutorial says in an empty folder, then checks what the
+page says of the results. With --pictures its pictures are put into FOLDER."""
 import argparse
-import csv
-import os
 import pathlib
 import re
 import shutil
-import subprocess
-import sys
-import tempfile
+
+from pages import column, done, texts
 
 parser = argparse.ArgumentParser()
 parser.add_argument("program", type=lambda text: pathlib.Path(text).resolve())
@@ -18,62 +14,59 @@ parser.add_argument("page", type=pathlib.Path)
 parser.add_argument("--pictures", type=lambda text: pathlib.Path(text).resolve())
 arguments = parser.parse_args()
 
-# Where each picture comes from.
-PICTURES = {"tutorial-press.svg": "press-figures/potential.svg", "tutorial-foot.svg": "foot-figures/von_mises.svg",
-            "tutorial-sensor.svg": "sensor-figures/potential.svg", "tutorial-rub.svg": "rub-figures/von_mises.svg",
-            "tutorial-sweep.svg": "resistors/sweep.svg", "tutorial-power.svg": "power.svg"}
+# Where each picture comes from, by the number of its step.
+PICTURES = {1: ("tutorial-press.svg", "press-figures/potential.svg"),
+            2: ("tutorial-foot.svg", "foot-figures/von_mises.svg"),
+            3: ("tutorial-sensor.svg", "sensor-figures/potential.svg"),
+            4: ("tutorial-rub.svg", "rub-figures/von_mises.svg"),
+            5: ("tutorial-sweep.svg", "resistors/sweep.svg"),
+            6: ("tutorial-power.svg", "power.svg")}
 
 
-def blocks(page):
-    """(name or None, language, text) of every fenced block; the name stands as `name`: before the fence."""
-    for match in re.finditer(r"^```(\w*)\n(.*?)^```$", page, re.M | re.S):
-        before = page[:match.start()].rstrip()
-        name = re.search(r"`([\w.]+)`:$", before)
-        yield name and name.group(1), match.group(1), match.group(2)
-
-
-def run_all(page, folder, environment):
-    for name, language, text in blocks(page):
-        if language == "sh":
-            subprocess.run(["bash", "-euc", text], cwd=folder, env=environment, check=True, stdin=subprocess.DEVNULL,
-                           stdout=subprocess.DEVNULL)
-        elif name:
-            (folder / name).write_text(text)
-        else:
-            sys.exit(f"{arguments.page}: a block has no name:\n{text}")
-
-
-def column(file, name):
-    with open(file, newline="") as table:
-        return [float(row[name]) for row in csv.DictReader(table)]
+def check_steps(page):
+    """Six steps, each with a command and its picture, which is there."""
+    steps = re.split(r"^## (?=\d)", page, flags=re.M)[1:]
+    assert [step[0] for step in steps] == list("123456"), [step[:20] for step in steps]
+    for number, step in enumerate(steps, 1):
+        assert "```sh\n" in step, f"step {number} has no command"
+        named = re.findall(r"!\[[^]]+\]\(images/([\w.-]+)\)", step)
+        assert named == [PICTURES[number][0]], f"pictures of step {number}: {named}"
+        assert (arguments.page.parent / "images" / named[0]).stat().st_size > 1000, named
 
 
 def check(folder):
     """What the page claims."""
     potential = max(column(folder / "press/history.csv", "max_potential"))
     assert abs(potential - 3.8) < 0.05, f"3.8 V: {potential}"
+    assert (folder / "press/report.html").stat().st_size > 1e5
+    # The load, -1e5 N/m^2 on 10 mm, is what the sole bears.
+    assert abs(column(folder / "foot/history.csv", "reaction_y")[-1] - 1e3) < 1e-6
     voltage = max(map(abs, column(folder / "sensor/history.csv", "electrode_lid_voltage")[40:]))
     assert abs(voltage - 4.4) < 0.05, f"reaches 4.4 V: {voltage}"
     assert max(column(folder / "rub/history.csv", "slip")) == 51 and max(column(folder / "rub/history.csv", "stick")) == 51
+    assert texts(folder / "resistors/sweep.csv", "status") == ["done"] * 5
     assert "result_" in (folder / "rub/result.pvd").read_text()
     fields = min((folder / "rub").glob("result_*.vtu")).read_bytes()
     for array in (b'"von_mises"', b'"displacement"'):
         assert array in fields, array
-    assert (folder / "press/report.html").stat().st_size > 1e5
 
 
-with tempfile.TemporaryDirectory() as temporary:
-    folder = pathlib.Path(temporary)
-    # The program under its name, and Debian's Python, which has matplotlib.
-    (folder / "bin").mkdir()
-    (folder / "bin/tourmaline").symlink_to(arguments.program)
-    environment = os.environ | {"PATH": f"{folder}/bin:/usr/bin:{os.environ['PATH']}"}
-    page = arguments.page.read_text()
-    run_all(page, folder, environment)
+def check_powers(folder):
+    """The most power goes to a resistor amid those of step 5."""
+    powers = []
+    for resistance in texts(folder / "resistors/sweep.csv", "electrode[1].resistor"):
+        run = folder / "resistors" / f"resistor={resistance}"
+        voltage = column(run / "history.csv", "electrode_lid_voltage")[40:]
+        powers.append(sum(v * v for v in voltage) / float(resistance))
+    assert 0 < powers.index(max(powers)) < len(powers) - 1, powers
+
+
+text = arguments.page.read_text()
+check_steps(text)
+with done(arguments.program, text) as folder:
     check(folder)
-    named = set(re.findall(r"\(images/(tutorial-[\w.-]+)\)", page))
-    assert named == set(PICTURES), named ^ set(PICTURES)
-    for picture, source in PICTURES.items():
-        assert (folder / source).stat().st_size > 0
+    check_powers(folder)
+    for picture, source in PICTURES.values():
+        assert (folder / source).stat().st_size > 1000, source
         if arguments.pictures:
             shutil.copy(folder / source, arguments.pictures / picture)

@@ -182,7 +182,7 @@ TEST(Completeness, AConductorNeedsNoElectricConstants) {
   casefile::MaterialCase metal = film_without({"d31", "d33", "d15", "eps11_T", "eps33_T", "p3"});
   metal.conductor = true;
   EXPECT_THAT(missing_constants(metal), IsEmpty());
-  EXPECT_EQ(couplings(constants_of(metal)), "with thermal expansion");
+  EXPECT_EQ(couplings(constants_of(metal)), "a conductor, with thermal expansion");
 }
 
 TEST(MaterialsCommand, SaysOfEveryEntryWhetherACaseCanUseItAsItIs) {

@@ -404,5 +404,31 @@ material.library = "silicon"
   }
 }
 
+// Ranks without cells write field files without points, which the page reads back.
+TEST(MoreRanksThanCells, GiveTheSameFieldsAndAPage) {
+  const output::TemporaryFolder folder;
+  const fs::path file = folder / "case.toml";
+  std::ofstream(file) << R"(
+mesh.box = { min = [0, 0], max = [1, 1], cells = [1, 1], cell = "quadrilateral" }
+material.library = "BaTiO3-Liu2014"
+time = { end = 1, steps = 1 }
+boundary = [ { on = "right", displacement = [0, 0], potential = 0, temperature = 0 },
+             { on = "top", traction = [0, -50] } ]
+contact = { on = "left", friction = { law = "tresca", bound = 15 } }
+)";
+  for (const int ranks : {1, 2, 4}) {
+    const fs::path out = folder / ("on" + std::to_string(ranks));
+    const Outcome outcome = run(ranks, "'" + file.string() + "'", out);
+    EXPECT_EQ(outcome.status, 0) << outcome.said;
+    EXPECT_TRUE(fs::exists(out / "report.html"));
+    const report::FieldFile fields =
+        report::read_field_file(out / (ranks == 1 ? "result_0001.vtu" : "result_0001.pvtu"));
+    EXPECT_EQ(fields.grid.points.size(), 4U);
+    EXPECT_EQ(fields.grid.n_cells(), 1U);
+  }
+  expect_equal_tables(read_table(folder / "on1" / "nodes.csv"),
+                      read_table(folder / "on4" / "nodes.csv"));
+}
+
 }  // namespace
 }  // namespace tourmaline::testing

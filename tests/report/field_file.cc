@@ -120,6 +120,32 @@ TEST_F(FieldFiles, PiecesOfSeveralRanksMakeOneBodyWithEachPointOnce) {
   EXPECT_NEAR(area, 1, 1e-14);
 }
 
+TEST_F(FieldFiles, PiecesOfRanksWithoutCellsAreNone) {
+  const Grid grid = output::square(2);
+  write("whole.vtu", grid, output::point_fields(9), output::cell_fields(8));
+  Grid none = grid;
+  none.points.clear();
+  none.connectivity.clear();
+  write("none.vtu", none, output::point_fields(0), output::cell_fields(0));
+  const auto pieces =
+      [&](const std::string &name, const std::string &list) {
+        std::ofstream(folder / name)
+            << "<VTKFile type=\"PUnstructuredGrid\"><PUnstructuredGrid GhostLevel=\"0\">\n"
+            << list << "</PUnstructuredGrid></VTKFile>\n";
+        return folder / name;
+      };
+  const std::string empty = "<Piece Source=\"none.vtu\"/>\n",
+                    whole = "<Piece Source=\"whole.vtu\"/>\n";
+  for (const std::string &list : {empty + whole, whole + empty, empty + empty + whole + empty}) {
+    const FieldFile file = read_field_file(pieces("some.pvtu", list));
+    EXPECT_EQ(file.grid.points.size(), 9U);
+    EXPECT_EQ(file.grid.n_cells(), 8U);
+  }
+  const auto all_empty = pieces("all.pvtu", empty + empty);
+  EXPECT_THAT([&] { read_field_file(all_empty); },
+              ThrowsMessage<CaseError>(HasSubstr("none of its pieces holds points")));
+}
+
 TEST_F(FieldFiles, ADamagedFileIsNamed) {
   const Grid grid = output::square(2);
   const auto path = write("result_0001.vtu", grid, output::point_fields(9), output::cell_fields(8));

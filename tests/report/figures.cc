@@ -156,6 +156,32 @@ TEST(Setting, BoundariesWithTheSameConditionsShareAColourAndContactComesFirst) {
       EXPECT_NE(groups[i].colour, groups[j].colour);
 }
 
+TEST(Setting, FacetsWithoutANameAreToldOfUnlessAllHaveOne) {
+  Result result = square(0, 0);
+  result.skin.n_facets = 4;
+  EXPECT_FALSE(has_unnamed_facets(result));  // nothing is known of the boundary
+  result.boundaries = {{"a", {"free", {}}, {{0, 1}, {1, 3}}},
+                       {"b", {"free", {}}, {{3, 1}, {2, 3}}}};
+  EXPECT_TRUE(has_unnamed_facets(result));
+  result.boundaries[1].facets.push_back({0, 2});
+  EXPECT_FALSE(has_unnamed_facets(result));
+  EXPECT_EQ(name_of_unnamed(result), "other sides");
+}
+
+TEST(Raster, WithSomeSlackTheLastOfWhatIsAtOnePlaceIsSeen) {
+  for (const double slack : {0., 1e-6}) {
+    Raster raster(view_of(square(0, 0), 0), 10);
+    for (const std::uint8_t red : {1, 2})
+      raster.triangle(
+          {0, 0, 1}, {2, 0, 1}, {0, 2, 1},
+          [&](double, double, double) {
+            return Colour{red, 0, 0};
+          },
+          slack);
+    EXPECT_EQ(raster.pixels()[15 * 20 + 2], slack > 0 ? 0xff020000U : 0xff010000U);
+  }
+}
+
 TEST(Raster, WhatIsNearerHidesWhatIsBehindInEitherOrder) {
   const View view = view_of(square(0, 0), 0);
   const Colour near{255, 0, 0}, far{0, 0, 255};

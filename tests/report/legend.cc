@@ -44,6 +44,15 @@ TEST(Legend, ContactNamesItsLawsAndStaysContactBesideAPotential) {
                                             "insulated, q·ν = 0", "φ = 0 V"));
 }
 
+TEST(Legend, LawsOfAProgramStandInstead) {
+  casefile::Case asked;
+  asked.contact.emplace();
+  asked.contact->on = {"left"};
+  asked.contact->friction = {"tresca", Formula(15.)};
+  EXPECT_THAT(conditions_on(asked, "left", "nap").texts,
+              ElementsAre("bilateral contact", "friction of a program: nap", "insulated, q·ν = 0"));
+}
+
 TEST(Legend, AnElectrodeIsNamedWithItsCircuit) {
   casefile::Case asked;
   casefile::ElectrodeCase electrode;

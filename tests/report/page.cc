@@ -122,6 +122,21 @@ TEST(Page, TwoFoldersStandSideBySideAndThreeDoNot) {
   EXPECT_THROW(write_page({first.path(), first.path(), first.path()}, both), CaseError);
 }
 
+TEST(Page, FoldersOfOneNameAreToldApartByThoseInWhichTheyStand) {
+  const ResultFolder run({"time.steps=1"});
+  const output::TemporaryFolder elsewhere;
+  for (const char *name : {"one", "other"}) {
+    std::filesystem::create_directories(elsewhere / name);
+    std::filesystem::copy(run.path(), elsewhere / name / "results",
+                          std::filesystem::copy_options::recursive);
+  }
+  const auto page = elsewhere / "both.html";
+  write_page({elsewhere / "one/results", elsewhere / "other/results/"}, page);
+  const auto results = results_in(output::content_of(page));
+  EXPECT_EQ(results[0]["name"], "one/results");
+  EXPECT_EQ(results[1]["name"], "other/results");
+}
+
 TEST(Page, AFolderThatIsNoneOfOursIsRefusedAndNothingWritten) {
   const output::TemporaryFolder folder;
   EXPECT_THAT([&] { write_page({folder.path()}, folder / "report.html"); },

@@ -102,6 +102,39 @@ TEST(PolingArrows, TellPartsApartAndLeaveOutWhatIsNotPoled) {
   EXPECT_GE(down, 6U);
 }
 
+TEST(PolingArrows, ShowBothDirectionsWhereAFormulaTurnsThePolingOver) {
+  // One region: the lower fifth is poled down, all else up.
+  const auto arrows = poling_arrows(result_of(output::square(40), [](const Vector3 &centre) {
+    return Cell{0, {0, centre[1] > 0.2 ? 1.F : -1.F, 0}};
+  }));
+  std::size_t up = 0, down = 0;
+  for (const PolingArrow &arrow : arrows) {
+    const bool is_up = arrow.tip[1] > arrow.tail[1];
+    ++(is_up ? up : down);
+    for (const Vector3 &end : {arrow.tail, arrow.tip})
+      EXPECT_TRUE(is_up ? end[1] > 0.2 : end[1] < 0.2) << end[1];
+  }
+  EXPECT_GE(up, 20U);
+  EXPECT_GE(down, 6U);
+}
+
+TEST(PolingArrows, FollowAPolingThatTurnsSmoothlyAsOnePart) {
+  // Around the middle of the square, through all directions; the middle itself is not poled.
+  const auto arrows = poling_arrows(result_of(output::square(40), [](const Vector3 &centre) {
+    const double x = centre[0] - 0.5, y = centre[1] - 0.5, r = std::hypot(x, y);
+    return r < 0.1 ? Cell{} : Cell{0, {static_cast<float>(-y / r), static_cast<float>(x / r), 0}};
+  }));
+  EXPECT_THAT(arrows.size(), testing::AllOf(testing::Ge(30U), testing::Le(58U)));
+}
+
+TEST(PolingArrows, StayFewWhereThePolingChangesFromCellToCell) {
+  const auto arrows = poling_arrows(result_of(output::square(40), [](const Vector3 &centre) {
+    const int checks = static_cast<int>(centre[0] * 40) + static_cast<int>(centre[1] * 40);
+    return Cell{0, {checks % 2 == 0 ? 1.F : -1.F, 0, 0}};
+  }));
+  EXPECT_THAT(arrows.size(), testing::AllOf(testing::Ge(10U), testing::Le(120U)));
+}
+
 TEST(PolingArrows, BeginInTheirPartWhereItIsTooThinForThem) {
   output::Grid strip = output::square(40);
   for (Vector3 &point : strip.points)

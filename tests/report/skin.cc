@@ -69,5 +69,15 @@ TEST(Skin, EverySideOfACellIsDrawnOnce) {
   EXPECT_EQ(skin_of(output::square(3)).edges.size(), 12U + 12 + 9);
 }
 
+TEST(Skin, CountsTheFacetsOfTheWholeBoundary) {
+  EXPECT_EQ(skin_of(output::square(5)).n_facets, 20U);
+  casefile::MeshCase mesh;
+  mesh.box = casefile::Box{{0, 0, 0}, {1, 1, 1}, {2, 3, 4}, casefile::CellShape::hexahedron};
+  for (const int degree : {1, 2}) {
+    const body::Discretisation<3> body(mesh::build<3>(mesh), degree);
+    EXPECT_EQ(skin_of(body.grid()).n_facets, 2U * (2 * 3 + 3 * 4 + 4 * 2)) << degree;
+  }
+}
+
 }  // namespace
 }  // namespace tourmaline::report

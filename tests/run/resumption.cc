@@ -67,6 +67,22 @@ TEST_F(Resuming, AFolderWithoutCheckpointAndSummaryHoldsNothing) {
   EXPECT_FALSE(found.is_complete());
 }
 
+TEST_F(Resuming, FrictionLawsOfAProgramGoOnUnderTheirNameOnly) {
+  output::Checkpoint checkpoint;
+  checkpoint.program = program_version();
+  checkpoint.inputs = inputs_of(asked_, "nap, along = 5");
+  output::write_checkpoint(folder_ / output::checkpoint_name, checkpoint);
+  EXPECT_NO_THROW(resumption(asked_, folder_, "nap, along = 5"));
+  EXPECT_THAT(asking(), ThrowsMessage<CaseError>(HasSubstr(
+                            "the friction law was \"nap, along = 5\" of a program, is that of the "
+                            "case")));
+  EXPECT_THAT([&] { resumption(asked_, folder_, "nap, along = 6"); },
+              ThrowsMessage<CaseError>(HasSubstr("is \"nap, along = 6\" of a program")));
+  save();
+  EXPECT_THAT([&] { resumption(asked_, folder_, "nap, along = 5"); },
+              ThrowsMessage<CaseError>(HasSubstr("the friction law was that of the case, is")));
+}
+
 TEST_F(Resuming, AMeshThatHasChangedBehindItsNameIsAnotherCase) {
   const auto refused = ThrowsMessage<CaseError>(
       AllOf(HasSubstr("the content of /body.msh has changed"), Not(HasSubstr("materials"))));
@@ -134,6 +150,13 @@ TEST_F(Complete, ItsFilesAreComparedToo) {
   EXPECT_THAT(asking(), ThrowsMessage<CaseError>(HasSubstr("materials.toml has changed")));
   put("materials.toml", "[one]\n");
   EXPECT_TRUE(resumption(asked_, folder_).is_complete());
+}
+
+TEST_F(Complete, WithFrictionLawsOfAProgramItIsOneOfTheirs) {
+  put("resolved.toml", casefile::resolved_with_law(asked_, "nap, along = 5"));
+  EXPECT_TRUE(resumption(asked_, folder_, "nap, along = 5").is_complete());
+  EXPECT_THAT(asking(),
+              ThrowsMessage<CaseError>(HasSubstr("the friction law was \"nap, along = 5\"")));
 }
 
 TEST_F(Complete, WithoutItsPageTheStepsAreDone) {

@@ -50,9 +50,10 @@ void expect_turned(const Table &original, const Table &image, const std::string 
     for (std::size_t k = 0; k < partner.size(); ++k)
       EXPECT_NEAR(b[partner[k]], a[from.row[k]], 1e-9 * largest(a)) << name;
   }
-  if (const auto status = original.columns.find("status"); status != original.columns.end())
+  if (const auto status = original.columns.find("status"); status != original.columns.end()) {
     for (std::size_t k = 0; k < partner.size(); ++k)
       EXPECT_EQ(image.columns.at("status")[partner[k]], status->second[from.row[k]]);
+  }
   for (const std::string &name : vectors) {
     const std::vector<double> ax = original.numbers(name + "x"), ay = original.numbers(name + "y"),
                               bx = image.numbers(name + "x"), by = image.numbers(name + "y");

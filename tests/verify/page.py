@@ -1,5 +1,28 @@
 """Markdown and numbers."""
 import math
+import re
+
+
+class Page:
+    """A page whose tables say on which state they were measured and how far their numbers may move."""
+
+    def __init__(self, commit):
+        self.commit, self.parts, self.heading, self.count, self.tables = commit, [], "", 0, {}
+
+    def add(self, *parts):
+        """Paragraphs and headings (texts), tables as (header, rows, Tolerance)."""
+        for part in parts:
+            if isinstance(part, str):
+                for heading in re.findall(r"^#+ (.*)$", part, re.M):
+                    self.heading, self.count = heading, 0
+                self.parts.append(part.strip("\n"))
+            else:
+                self.count += 1
+                self.tables[self.heading, self.count] = part
+                self.parts += [table(*part[:2]), f"*State {self.commit}. May move: {part[2].words}.*"]
+
+    def text(self):
+        return "\n\n".join(self.parts) + "\n"
 
 
 def table(header, rows):

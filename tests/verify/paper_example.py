@@ -4,6 +4,7 @@ import math
 import corner
 import extrapolation
 import page
+from tolerance import Absolute, Bar, Relative, Same, Tolerance
 
 FAMILIES = {"uniform": 1, "graded 16": 16, "graded 64": 64}
 FOUNDATIONS = ["insulated", "conductive"]
@@ -41,6 +42,13 @@ TRACTIONS = {
     "normal, (0, 0.1)": lambda run: last_contact(run).numbers("normal_traction")[-1],
     "tangential, (0, 0.1)": lambda run: last_contact(run).numbers("tangential_traction_y")[-1],
 }
+
+
+# Tables are printed with seven digits, tractions with five.
+FROM_THE_FINEST = ["converged", "order", "s from values", "s from differences", "error bar of the mesh"]
+SEVEN_DIGITS = Tolerance(Relative(2e-6), rows={"converged": Bar(), "order": Absolute(0.05)}, finest=FROM_THE_FINEST)
+FIVE_DIGITS = Tolerance(Relative(2e-4), rows={"s from values": Absolute(0.005), "s from differences": Absolute(0.005)},
+                        finest=FROM_THE_FINEST)
 
 
 class Values:
@@ -96,7 +104,8 @@ def summary(values):
             row += [page.with_error_bar(limit.value, limit.bar),
                     best + (f"; not within the bars: {', '.join(against)}" if against else "")]
         rows.append(row)
-    return page.table(["quantity at t = 0.2 s", "insulated", "from", "conductive", "from"], rows)
+    return ["quantity at t = 0.2 s", "insulated", "insulated, from", "conductive", "conductive, from"], rows, Tolerance(
+        Bar(), {"insulated, from": Same(), "conductive, from": Same()}, finest=["all"])
 
 
 def family_table(values, foundation, family):
@@ -106,11 +115,11 @@ def family_table(values, foundation, family):
     limits = [extrapolation.limit(kept[name]) for name in names]
     rows.append(["converged", *(page.with_error_bar(limit.value, limit.bar) for limit in limits)])
     rows.append(["order", *(page.number(limit.order, 3) or "none" for limit in limits)])
-    return page.table(["n", *names], rows)
+    return ["n", *names], rows, SEVEN_DIGITS
 
 
-def mesh_section(values):
-    parts = [f"""## Mesh convergence of the paper's example
+def add_meshes(document, values):
+    document.add(f"""## Mesh convergence of the paper's example
 
 Label: regression. No other source has these numbers; the agreement of three families of meshes is what
 supports them. Cases `cases/ouafik-2020/`, n × n squares of two triangles, 20 steps, t = 0.2 s. "graded 16"
@@ -123,23 +132,22 @@ Where the last two differences do not shrink with one sign there is no extrapola
 the finest mesh with the larger of the two differences, and the order reads "none". An order far from those
 of the theory (2, and less where corners rule) says that the last differences are not those of one power; the
 value then rests on the agreement of the families. The bars are for the error of the mesh only; for that of
-the time step see below.
-
-{summary(values)}
-
+the time step see below.""", summary(values), """
 The value of the family with the smallest bar is given; "not within the bars" names families whose interval
-does not meet its interval.
-"""]
+does not meet its interval.""")
     for foundation in FOUNDATIONS:
         for family in FAMILIES:
-            parts.append(f"### {foundation}, {family}\n\n{family_table(values, foundation, family)}\n")
-    return "\n".join(parts)
+            document.add(f"### {foundation}, {family}", family_table(values, foundation, family))
 
 
 def smallest_share(ratio):
     """Cell at a side over the uniform one, for many cells, both ends graded alike."""
     a = math.sqrt(math.log(ratio))
     return 2 * a / math.sqrt(math.pi) / (ratio * math.erf(a))
+
+
+def traction_table(values, foundation, family):
+    return ["n", *TRACTIONS], traction_rows(values, foundation, family), FIVE_DIGITS
 
 
 def traction_rows(values, foundation, family):
@@ -152,7 +160,7 @@ def growing_table(values, foundation, family):
     rows = traction_rows(values, foundation, family)
     rows.append(["s from values", *(page.number(fit[0], 3) for fit in fits)])
     rows.append(["s from differences", *(page.number(fit[1], 3) or "none" for fit in fits)])
-    return page.table(["n", *TRACTIONS], rows)
+    return ["n", *TRACTIONS], rows, FIVE_DIGITS
 
 
 def range_of_fits(values, foundation):
@@ -170,7 +178,7 @@ def corner_exponents():
         found = corner.exponents([(corner.BOTTOM, corner.FREE), (corner.CONTACT, kind)])
         rows.append([name, page.number(found[0], 5) if found else "none below 1",
                      f"r^−{1 - found[0]:.4f}" if found else "logarithmic, see below"])
-    return page.table(["free side meets", "displacement ~ r^λ, λ", "stress"], rows)
+    return ["free side meets", "displacement ~ r^λ, λ", "stress"], rows, Tolerance(Absolute(2e-5))
 
 
 SLIDING_BOUND = 0.02
@@ -190,31 +198,22 @@ def sliding_rows(values):
     return rows
 
 
-def corner_section(values):
+def add_corners(document, values):
     sticking, clamped = (corner.exponents([(corner.BOTTOM, corner.FREE), (corner.CONTACT, kind)])[0]
                          for kind in (corner.CLAMPED, corner.CLAMPED_GROUNDED))
     doubling = corner.logarithm() * math.log(2)
-    return f"""## What does not converge: stresses at corners
+    document.add(f"""## What does not converge: stresses at corners
 
 Where a free side meets one that is held, the conditions change at a corner and the stress is infinite there.
 `tests/verify/corner.py` computes how it grows with the distance r from the corner, from (1), (2), (4), (5)
-alone, with the constants of the case; label: analytic.
-
-{corner_exponents()}
-
+alone, with the constants of the case; label: analytic.""", corner_exponents(), f"""
 **Sticking contact.** A nodal traction is a mean over half a cell, so at such a corner it grows like h^-s with
 s = 1 − λ = {1 - sticking:.4f}, without end. Tractions σν in N/m² at the ends of Γ_C at t = 0.2 s, with s from the last
 two values and from the last two differences (a constant beside the power disturbs the first, not the second;
 other powers disturb both):
 
-Insulated, every node sticks, uniform meshes:
-
-{growing_table(values, "insulated", "uniform")}
-
-Insulated, graded 64:
-
-{growing_table(values, "insulated", "graded 64")}
-
+Insulated, every node sticks, uniform meshes:""", growing_table(values, "insulated", "uniform"),
+                 "Insulated, graded 64:", growing_table(values, "insulated", "graded 64"), f"""
 All estimates on all three families of meshes lie between {range_of_fits(values, "insulated")}. No mesh makes these four
 numbers converge; nor do the stresses of the cells at any corner of the body. What converges are fields
 away from the corners, the potential, energies and integrals. The exponents also explain how slowly: on
@@ -225,25 +224,17 @@ end of Γ_C like h^{sticking:.2f}; compare the orders above.
 corner, and that alone gives a normal traction of {corner.logarithm():.4f} σ_τ ln r at (0, 0), mirrored at (0, 0.1). Each
 doubling of n then changes it by {doubling:.4f} times the bound. To see it alone: insulated, the bound {SLIDING_BOUND} N/m² and
 ten times the load, so that every node slips; then the change should tend to {doubling * SLIDING_BOUND:.5f} N/m², downwards
-at (0, 0) and upwards at (0, 0.1). Graded 64:
-
-{page.table(["n", "normal, (0, 0)", "normal, (0, 0.1)", "change", "change"], sliding_rows(values))}
-
-Conductive, uniform meshes:
-
-{page.table(["n", *TRACTIONS], traction_rows(values, "conductive", "uniform"))}
-
-Conductive, graded 64:
-
-{page.table(["n", *TRACTIONS], traction_rows(values, "conductive", "graded 64"))}
-
+at (0, 0) and upwards at (0, 0.1). Graded 64:""",
+                 (["n", "normal, (0, 0)", "normal, (0, 0.1)", "change, (0, 0)", "change, (0, 0.1)"], sliding_rows(values),
+                  Tolerance(Relative(2e-4), {"change, (0, 0)": Relative(2e-3), "change, (0, 0.1)": Relative(2e-3)})),
+                 "Conductive, uniform meshes:", traction_table(values, "conductive", "uniform"),
+                 "Conductive, graded 64:", traction_table(values, "conductive", "graded 64"), f"""
 The normal traction is mostly that of the cold layer, which ends in the corners; uniform meshes do not resolve
 it. With both ends pulled outwards by 15 N/m² the logarithm drives both normal tractions up by
-{15 * doubling:.1f} N/m² for each doubling, about one part in a hundred: they look converged, but are not.
-"""
+{15 * doubling:.1f} N/m² for each doubling, about one part in a hundred: they look converged, but are not.""")
 
 
-def step_section(values, n=128, ratio=16):
+def add_steps(document, values, n=128, ratio=16):
     steps = [5, 10, 20, 40, 80]
     kept = {name: [] for name in QUANTITIES}
     for count in steps:
@@ -259,16 +250,15 @@ def step_section(values, n=128, ratio=16):
     mesh_errors = [abs(limit.bar / limit.value) for limit in mesh]
     rows.append(["20 steps off by", *map(percent, time_errors)])
     rows.append(["error bar of the mesh", *map(percent, mesh_errors)])
-    return f"""## Convergence in the time step
+    document.add(f"""## Convergence in the time step
 
 Label: regression. Conductive, n = {n} graded {ratio}, t = 0.2 s. Converged values and error bars by the same rule
 as above. The last two rows compare the error of 20 steps with the error bars of the converged values of the
-mesh. The insulated case follows its load, which is linear in time, and has next to no memory; it is left out.
-
-{page.table(["steps", *QUANTITIES], rows)}
-
-Backward Euler is of first order. {verdict(time_errors, mesh_errors)}
-"""
+mesh. The insulated case follows its load, which is linear in time, and has next to no memory; it is left out.""",
+                 (["steps", *QUANTITIES], rows, Tolerance(
+                     Relative(2e-6), rows={"converged": Bar(), "order": Absolute(0.05), "20 steps off by": Relative(0.5),
+                                           "error bar of the mesh": Relative(0.5)}, finest=["error bar of the mesh"])),
+                 f"Backward Euler is of first order. {verdict(time_errors, mesh_errors)}")
 
 
 def verdict(time_errors, mesh_errors):

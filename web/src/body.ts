@@ -204,6 +204,7 @@ export class Body {
       geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(positions), 3));
       const colour = new THREE.Color(colours.get(boundary.name));
       const material = this.material.clone();
+      material.polygonOffset = false;  // in front of the body, whose faces without a name stay bare
       material.uniforms.plain = { value: new THREE.Vector3(colour.r, colour.g, colour.b) };
       material.uniforms.coloured = { value: 0 };
       material.uniforms.shade = { value: 1 };
@@ -212,11 +213,8 @@ export class Body {
     }
   }
 
-  /** Shows the coloured facets instead of a field. */
-  showSetting(on: boolean) {
-    this.settingObject.visible = on;
-    this.triangleObject.visible = !on;
-  }
+  /** Shows the coloured facets upon the bare body. */
+  showSetting(on: boolean) { this.settingObject.visible = on; }
 
   /** A triangle under a place in normalised device coordinates, the one in front. */
   pick(x: number, y: number, camera: THREE.Camera): Hit | undefined {

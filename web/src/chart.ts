@@ -15,6 +15,8 @@ export interface Curve {
 
 export interface ChartOptions {
   title: string;
+  /** below the title */
+  note?: string;
   xLabel: string;
   /** of the values as given; the chart may show a power of ten of it */
   unit: string;
@@ -42,7 +44,8 @@ export class Chart {
   private power = 0;
 
   constructor(private readonly options: ChartOptions, private x: number[], private curves: Curve[]) {
-    this.box = element('figure', { class: 'chart', 'data-unit': options.unit }, element('figcaption', {}, options.title), this.place);
+    this.box = element('figure', { class: 'chart', 'data-unit': options.unit }, element('figcaption', {}, options.title),
+      !!options.note && element('p', { class: 'note' }, options.note), this.place);
     charts.push(this);
     new ResizeObserver(() => this.resize()).observe(this.place);
   }

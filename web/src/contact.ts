@@ -3,11 +3,16 @@
 import { allZero, Chart, Curve } from './chart';
 import { ContactLine, contactLines, contactNodes } from './contact_line';
 import { lineColours } from './colours';
+import { contactRoundOff } from './contact_round_off';
 import { element } from './dom';
 import { shown } from './numbers';
 import { Result } from './results';
 import { StatusMap } from './status_map';
 import { Timeline } from './timeline';
+
+/** What tangential components on the line mean. */
+const direction = (line: ContactLine) =>
+  `positive ${line.label === 'x [m]' ? 'towards growing x' : line.label === 'y [m]' ? 'towards growing y' : 'along the curve'}`;
 
 type Series = { label: string; values: (row: number, at: number) => number; colour: string; dashed?: boolean };
 
@@ -30,16 +35,17 @@ export class Contact {
 
   private piece(line: ContactLine, number: number, several: boolean): HTMLElement {
     const charts: HTMLElement[] = [];
-    const add = (title: string, unit: string, series: Series[], noise = false) =>
-      charts.push(this.chart(line, `${number} ${this.sync}`, title, unit, series, noise));
+    const add = (title: string, unit: string, series: Series[], noise = false, note = '') =>
+      charts.push(this.chart(line, `${number} ${this.sync}`, title, unit, series, noise, note));
+    const { normal, tangential, slip } = contactRoundOff(this.result);
     const theta = !!this.result.field('temperature')?.belowRoundOff;
     add('Normal traction on the body', 'N/m²', [
-      { label: 'σν·ν', values: this.of('normal_traction'), colour: lineColours[0] }]);
+      { label: 'σν·ν', values: this.of('normal_traction'), colour: lineColours[0] }], normal);
     add(this.result.frictionBound ? 'Tangential traction and the bound ±S' : 'Tangential traction on the body', 'N/m²', [
       { label: 'tangential', values: this.tangential('tangential_traction_', line), colour: lineColours[1] },
       ...this.bounds(),
-    ]);
-    add('Slip', 'm', [{ label: 'slip', values: this.tangential('slip_', line), colour: lineColours[1] }]);
+    ], tangential, direction(line));
+    add('Slip', 'm', [{ label: 'slip', values: this.tangential('slip_', line), colour: lineColours[1] }], slip, direction(line));
     add('Temperature', 'K', [{ label: 'θ', values: this.of('temperature'), colour: lineColours[3] }], theta);
     if (this.result.contact!.column('heat_flux')!.some((v) => v !== 0))
       add('Heat flux out of the body', 'W/m²', [{ label: 'q·ν', values: this.of('heat_flux'), colour: lineColours[3] }], theta);
@@ -52,7 +58,8 @@ export class Contact {
       element('div', { class: 'charts' }, ...charts));
   }
 
-  private chart(line: ContactLine, sync: string, title: string, unit: string, series: Series[], noise: boolean): HTMLElement {
+  private chart(line: ContactLine, sync: string, title: string, unit: string, series: Series[], noise: boolean,
+    note: string): HTMLElement {
     const at = (k: number, s: Series) => line.order.map((row, j) => s.values(k * this.nodes + row, j));
     const all = series.filter((s) => !s.dashed).flatMap((s) => this.ends.flatMap((_, k) => at(k, s)));
     if (allZero(all)) return said(title, `0 everywhere, at all moments`);
@@ -66,7 +73,7 @@ export class Contact {
       return series.map((s) => ({ ...s, points: line.order.length < 3 && !s.dashed,
         values: k < 0 ? line.order.map(() => null) : at(k, s) }));
     };
-    const chart = new Chart({ title, xLabel: line.label, unit, sync: 'place' + sync, least, greatest }, line.along, curves());
+    const chart = new Chart({ title, note, xLabel: line.label, unit, sync: 'place' + sync, least, greatest }, line.along, curves());
     this.updates.push(() => chart.update(curves()));
     return chart.box;
   }

@@ -3,6 +3,7 @@
 import { colourRange, mapBytes, Range } from './colours';
 import { ColourBar } from './colour_bar';
 import { contactNodes } from './contact_line';
+import { contactRoundOff } from './contact_round_off';
 import { element } from './dom';
 import { shown } from './numbers';
 import { Result } from './results';
@@ -39,9 +40,10 @@ export class ContactFace {
     const time = result.contact!.column('time')!;
     this.ends = Array.from({ length: time.length / this.nodes }, (_, k) => time[k * this.nodes]);
     this.addStatus();
-    this.add('Normal traction on the body', 'N/m²', this.column('normal_traction'));
-    this.add('Tangential traction, size', 'N/m²', this.size('tangential_traction_'));
-    this.add('Slip, size', 'm', this.size('slip_'));
+    const { normal, tangential, slip } = contactRoundOff(result);
+    this.add('Normal traction on the body', 'N/m²', this.column('normal_traction'), normal);
+    this.add('Tangential traction, size', 'N/m²', this.size('tangential_traction_'), tangential);
+    this.add('Slip, size', 'm', this.size('slip_'), slip);
     this.add('Temperature', 'K', this.column('temperature'), !!result.field('temperature')?.belowRoundOff);
     this.groups = [element('div', { class: 'charts' }, ...this.charts)];
     onTheme(() => this.update());

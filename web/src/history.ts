@@ -74,7 +74,8 @@ export class History {
   constructor(result: Result, private readonly timeline: Timeline, private readonly sync: string) {
     const history = result.history!;
     const time = [...(history.column('time') ?? [])];
-    const all = groups(history, result.dimension);
+    const all = groups(history, result.dimension)
+      .filter((g) => !g.bars || !!result.contact?.rows || !g.columns.every(([n]) => greatest(history, n) === 0));
     const parts = all.map((group) => ({ group, curves: curvesOf(group, history) })).filter(({ curves }) => curves.length > 0);
     const silent = all.filter((g) => g.columns.some(([n]) => isRoundOff(g, history, n)) && !parts.some((p) => p.group === g));
     const notes = silent.length > 0 && element('p', { class: 'note' }, `Below round-off: ${silent.map((g) => g.title).join(', ')}.`);

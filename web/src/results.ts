@@ -17,6 +17,7 @@ interface PackedResult {
   boundaries: { name: string; kind: string; conditions: string[]; sizes: Packed; nodes: Packed }[];
   contactPieces: { name: string; abscissa: string; origin: string; rows: Packed; along: Packed }[];
   parts: { name: string; material: string }[];
+  unnamed: string;
   poling: Packed | null;
   grid?: Record<'points' | 'nodes' | 'cells' | 'triangles' | 'triangleCells' | 'edges', Packed>;
   history?: PackedTable;
@@ -165,7 +166,8 @@ export class Result {
   readonly contact?: Table;
   readonly frictionBound?: Float32Array;
 
-  constructor(private readonly packed: PackedResult) {
+  /** `ambiguous`: another result on the page has the same title. */
+  constructor(private readonly packed: PackedResult, private readonly ambiguous = false) {
     this.fields = packed.fields.map((f) => new Field(f));
     if (packed.grid)
       this.grid = {
@@ -185,12 +187,18 @@ export class Result {
   }
 
   get name(): string { return this.packed.name; }
-  get title(): string { return this.packed.title || this.packed.name; }
+  /** Of two results with one title the folders' names tell which is which. */
+  get title(): string {
+    const title = this.packed.title || this.packed.name;
+    return this.ambiguous && title !== this.packed.name ? `${title} (${this.packed.name})` : title;
+  }
   get dimension(): 2 | 3 { return this.packed.dimension; }
   get caseText(): string { return this.packed.case; }
   get summary(): any | null { return this.packed.summary; }
   /** Regions and what they consist of; empty where the body is one. */
   get parts(): { name: string; material: string }[] { return this.packed.parts; }
+  /** What a legend calls the facets that have no name; empty: all have one. */
+  get unnamed(): string { return this.packed.unnamed; }
   get remarks(): string[] { return this.packed.remarks; }
   get steps(): number[] { return this.packed.steps; }
 
@@ -224,5 +232,8 @@ export interface PageData {
 
 export function load(): PageData {
   const page = JSON.parse(document.getElementById('results')!.textContent!);
-  return { results: page.results.map((r: PackedResult) => new Result(r)), colourMaps: page.colourMaps };
+  const title = (r: PackedResult) => r.title || r.name;
+  const results = page.results.map((r: PackedResult) =>
+    new Result(r, page.results.some((other: PackedResult) => other !== r && title(other) === title(r))));
+  return { results, colourMaps: page.colourMaps };
 }

@@ -39,13 +39,14 @@ export function coloursOf(groups: Group[]): Map<string, string> {
   return new Map(groups.flatMap((g) => g.names.map((name): [string, string] => [name, g.colour])));
 }
 
-/** Boundaries, the arrows if there are any, regions if there are several. */
+/** Boundaries, what of the body's has no name, the arrows if there are any, regions if there are several. */
 export function legend(groups: Group[], result: Result): HTMLElement {
   const line = (mark: HTMLElement, name: string, said: string) =>
     element('li', {}, mark, element('span', {}, element('b', {}, name), ' ', said));
   return element('ul', { class: 'legend' },
     ...groups.map((g) => line(element('span', { class: 'swatch', style: `background:${g.colour}` }),
       g.names.join(', '), g.conditions.join('; ') || 'no condition')),
+    result.unnamed !== '' && line(element('span', { class: 'swatch bare' }), result.unnamed, 'no condition'),
     result.poling && line(arrowMark(), 'poling', 'direction of the crystal axis 3'),
     ...result.parts.map((part) => line(element('span', { class: 'mark' }), part.name, part.material)));
 }

@@ -1,7 +1,7 @@
 // node tests/report.mjs TOURMALINE: runs the paper's case and looks at its page in Chromium, as a reader would.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { cpSync, mkdirSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { inBrowser } from './browser.mjs';
@@ -538,6 +538,113 @@ await test('a case of one step has a table instead of curves', async () => {
       assert.ok(Math.abs(value - row[column]) <= 1e-6 * Math.abs(row[column]), `${name}: ${value}, history.csv has ${row[column]}`);
       assert.ok(text.endsWith(` ${unit}`), text);
     }
+  });
+});
+
+await inBrowser(desktop, async (context) => {
+  const { tab, complaints } = await open(context, join(two, 'report.html'));
+  await test('the page says which way tangential traction and slip are positive', async () => {
+    for (const title of ['Tangential traction', 'Slip'])
+      assert.match(await tab.locator('#contact .chart', { hasText: title }).first().textContent(), /positive towards growing x/);
+    assert.doesNotMatch(await tab.locator('#contact .chart', { hasText: 'Normal traction' }).first().textContent(), /positive/);
+    assert.deepEqual(complaints, []);
+  });
+});
+
+const ring = (on, displacement) => `mesh.annulus = { inner = 0.02, outer = 0.04, cells = [4, 32], cell = "quadrilateral" }
+mesh.degree = 2
+material.library = "steel"
+time = { end = 1, steps = 4 }
+boundary = [ { on = "outer", displacement = ${displacement}, potential = 0 } ]
+[contact]
+on = "${on}"
+friction = { law = "tresca", bound = 3e6 }
+`;
+const turned = runText('turned', ring('inner', '["-1e-6*t*y/0.04", "1e-6*t*x/0.04"]'));
+const pressed = runText('pressed', ring('inner', '["-1e-6*t*x/0.04", "-1e-6*t*y/0.04"]'));
+for (const [out, what, silent, drawn] of [[turned, 'turned', 'Normal traction', 'Tangential traction'],
+  [pressed, 'pressed', 'Tangential traction', 'Normal traction']])
+  await inBrowser(desktop, async (context) => {
+    const { tab, complaints } = await open(context, join(out, 'report.html'));
+    await test(`of a ring that is only ${what} round-off is no curve`, async () => {
+      const chart = (title) => tab.locator('#contact .chart', { hasText: title }).first();
+      assert.match(await chart(silent).textContent(), /below round-off, at most|0 everywhere/);
+      assert.equal(await chart(silent).locator('canvas').count(), 0);
+      assert.equal(await chart(drawn).locator('canvas').count(), 1);
+      if (what === 'turned') {
+        assert.match(await chart(silent).textContent(), /below round-off, at most/);
+        assert.match(await chart(drawn).textContent(), /positive along the curve/);
+      }
+      assert.deepEqual(complaints, []);
+    });
+  });
+
+const alone = runText('alone', plate('"bottom"').replace(/\[contact\][^]*/, '').replace('"free"', '0'));
+await inBrowser(desktop, async (context) => {
+  const titles = async (out) => {
+    const { tab } = await open(context, join(out, 'report.html'));
+    return tab.locator('#history figcaption').allTextContents();
+  };
+  await test('without contact there is no chart of iterations', async () => {
+    assert.ok(!(await titles(alone)).includes('Newton iterations'));
+    assert.ok((await titles(alone)).includes('Energies'));
+    assert.ok((await titles(two)).includes('Newton iterations'));
+  });
+});
+
+await test('two runs of one title are told apart, also in folders of one name', async () => {
+  const title = 'The same case';
+  for (const [one, other, names] of [['twins/a', 'twins/b', ['a', 'b']], ['twins/x/run', 'twins/y/run', ['x/run', 'y/run']]]) {
+    for (const name of [one, other]) {
+      mkdirSync(join(folder, name, '..'), { recursive: true });
+      cpSync(two, join(folder, name), { recursive: true });
+      const resolved = join(folder, name, 'resolved.toml');
+      writeFileSync(resolved, readFileSync(resolved, 'utf8').replace(/^title = .*$/m, `title = "${title}"`));
+    }
+    const page = join(folder, 'twins.html');
+    execFileSync(program, ['report', join(folder, one), join(folder, other), '-o', page]);
+    await inBrowser(desktop, async (context) => {
+      const { tab } = await open(context, page);
+      const wanted = names.map((name) => `${title} (${name})`);
+      assert.deepEqual(await tab.locator('h1').allTextContents(), wanted);
+      for (const section of ['#contact', '#history', '#run'])
+        assert.deepEqual(await tab.locator(`${section} h3.whose`).allTextContents(), wanted);
+      assert.equal(await tab.title(), wanted.join(' | '));
+    });
+  }
+});
+
+writeFileSync(join(folder, 'post.geo'), `SetFactory("Built-in");
+Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {1, 1, 0}; Point(4) = {0, 1, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Line Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
+Transfinite Line {1, 2, 3, 4} = 4; Transfinite Surface {1};
+out[] = Extrude {0, 0, 2} { Surface{1}; Layers{4}; };
+Physical Surface("foot") = {1}; Physical Surface("head") = {out[0]}; Physical Volume("post") = {out[1]};
+`);
+const post = runText('post', `mesh = { file = "post.geo", scale = 1e-2, unnamed = "natural" }
+material.library = "BaTiO3-Liu2014"
+time = { end = 1, steps = 1 }
+boundary = [ { on = "foot", displacement = [0, 0, 0], potential = 0 }, { on = "head", potential = 1 } ]
+`);
+const opaque = (tab, which) => tab.locator('.card canvas').nth(which).evaluate((canvas) => {
+  const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d', { willReadFrequently: true });
+  copy.drawImage(canvas, 0, 0);
+  return copy.getImageData(0, 0, canvas.width, canvas.height).data.filter((v, i) => i % 4 === 3 && v > 0).length / (canvas.width * canvas.height);
+});
+await inBrowser(desktop, async (context) => {
+  const { tab, complaints } = await open(context, join(post, 'report.html'));
+  await test('the setting of a solid body shows its faces without a name, and the legend says so', async () => {
+    const [setting, deformed] = [await opaque(tab, 0), await opaque(tab, 1)];
+    assert.ok(setting > 0.7 * deformed, `${setting} of the picture, the deformed body ${deformed}`);
+    assert.match(await tab.locator('.card.setting .legend').textContent(), /other faces no condition/);
+    assert.deepEqual(complaints, []);
+  });
+});
+await test('a body all of whose sides have names has no others', async () => {
+  await inBrowser(desktop, async (context) => {
+    const { tab } = await open(context, join(two, 'report.html'));
+    assert.doesNotMatch(await tab.locator('.card.setting .legend').textContent(), /other sides/);
   });
 });
 

@@ -14,7 +14,7 @@ namespace tourmaline::contact {
 ///
 /// or lambda in the subdifferential of the dissipation S |d|.
 struct Tresca {
-  double bound = 0;  ///< S >= 0 [N/m^2]
+  double bound = 0;  ///< S >= 0, finite [N/m^2]
 
   /// Dissipation per area over an increment d [m]: S |d| [J/m^2].
   double dissipation(const Tangent &d) const;

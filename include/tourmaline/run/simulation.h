@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "tourmaline/contact/friction.h"
 
@@ -22,11 +23,19 @@ enum class Start { beginning, checkpoint };
 struct RunOptions {
   bool quiet = false;  ///< no progress on a terminal
   Start start = Start::beginning;
-  contact::FrictionAt friction = {};  ///< instead of the case's law; asked for again in every step
+  /// Laws instead of the case's, asked for again in every step. What the case says of friction is
+  /// still read and checked (`bound` stays mandatory), and counts for nothing else.
+  contact::FrictionAt friction = {};
+  /// What they are called, one line with all parameters that results depend on: "nap, 5 and 15
+  /// N/m^2". Mandatory with `friction`. It stands in resolved.toml, summary.json and the page, and
+  /// a run goes on from its checkpoint only under the same name.
+  std::string friction_name = {};
 };
 
 /// Runs a case and leaves its results in `directory`. Progress goes to stderr. Throws CaseError,
-/// SolveError, MachineError, Stopped; the results of the steps before are kept.
+/// SolveError, MachineError, Stopped, and nothing else; the results of the steps before are kept.
+/// A program may call it again and again. MPI, which it starts unless it runs, runs until the
+/// process ends, as it can be started only once; a program that ends MPI itself starts it itself.
 void simulate(const casefile::Case &asked, const std::filesystem::path &directory,
               const RunOptions &options = {});
 

@@ -1,0 +1,33 @@
+// Whether tractions and slips at the contact are more than round-off.
+import { Result } from './results';
+
+/** Sizes below this share of what they are computed from are what is left of the linear solve. */
+const roundOff = 1e-11;
+
+export interface ContactRoundOff { normal: boolean; tangential: boolean; slip: boolean }
+
+/** The greatest size in columns of contact.csv whose names begin so. */
+function greatest(result: Result, begin: string): number {
+  let most = 0;
+  for (const name of result.contact!.names.filter((n) => n.startsWith(begin)))
+    for (const v of result.contact!.column(name)!) most = Math.max(most, Math.abs(v));
+  return most;
+}
+
+function greatestStress(result: Result): number {
+  const stress = result.field('recovered_stress') ?? result.field('stress');
+  return Math.max(0, ...(stress?.components ?? []).map((c) => {
+    const { least, greatest } = stress!.values(c);
+    return Math.max(-least, greatest);
+  }));
+}
+
+/** Over all moments; tractions beside each other and the stresses in the body, slips beside its displacements. */
+export function contactRoundOff(result: Result): ContactRoundOff {
+  const normal = greatest(result, 'normal_traction'), tangential = greatest(result, 'tangential_traction_');
+  const slip = greatest(result, 'slip_');
+  const force = roundOff * Math.max(normal, tangential, greatestStress(result));
+  const displacement = result.history?.column('max_displacement') ?? new Float32Array();
+  const move = roundOff * displacement.reduce((most, v) => Math.max(most, v), 0);
+  return { normal: normal <= force, tangential: tangential <= force, slip: slip <= move };
+}
