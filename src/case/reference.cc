@@ -56,7 +56,8 @@ std::string code_list(const std::vector<std::string> &names) {
 std::string formulas() {
   const FormulaNames &names = formula_names();
   return fmt::format(
-      "- variables: {} (place [m] and time [s])\n- constants: {}\n- functions: {}\n\n"
+      "- variables: {} (place [m] and time [s]; no `z` in two dimensions)\n- constants: {}\n- "
+      "functions: {}\n\n"
       "`if(c, a, b)` is `c ? a : b`, `log` and `ln` are the natural logarithm, `mod(a, b)` has the "
       "sign of b.\nOf `if`, `?:`, `&&` and `||` only what decides is evaluated. A formula in which "
       "any "

@@ -68,6 +68,16 @@ TEST_F(Figures, AFieldAComponentAndAMomentCanBeChosen) {
   EXPECT_FALSE(png(0.07) == png(0.2));
 }
 
+TEST_F(Figures, AFieldWithComponentsIsAnsweredWithThese) {
+  EXPECT_THAT(
+      [&] {
+        write_figures(run.path(), out.path(), {FigureFormat::svg, {"displacement"}, {}});
+      },
+      ThrowsMessage<CaseError>(HasSubstr("the field \"displacement\" has components, and a figure "
+                                         "shows one number at each place; give one of "
+                                         "displacement.")));
+}
+
 TEST_F(Figures, AnUnknownFieldIsAnsweredWithTheKnownOnes) {
   EXPECT_THAT(
       [&] {
