@@ -171,13 +171,9 @@ TEST(Setting, FacetsWithoutANameAreToldOfUnlessAllHaveOne) {
 TEST(Raster, WithSomeSlackTheLastOfWhatIsAtOnePlaceIsSeen) {
   for (const double slack : {0., 1e-6}) {
     Raster raster(view_of(square(0, 0), 0), 10);
-    for (const std::uint8_t red : {1, 2})
+    for (const Colour &colour : {Colour{1, 0, 0}, Colour{2, 0, 0}})
       raster.triangle(
-          {0, 0, 1}, {2, 0, 1}, {0, 2, 1},
-          [&](double, double, double) {
-            return Colour{red, 0, 0};
-          },
-          slack);
+          {0, 0, 1}, {2, 0, 1}, {0, 2, 1}, [&](double, double, double) { return colour; }, slack);
     EXPECT_EQ(raster.pixels()[15 * 20 + 2], slack > 0 ? 0xff020000U : 0xff010000U);
   }
 }
