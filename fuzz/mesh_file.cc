@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 #include "tourmaline/mesh/gmsh.h"
 

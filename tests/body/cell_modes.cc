@@ -7,6 +7,7 @@
 #include "body/operator.h"
 #include "material/orientation.h"
 #include "mesh/mesh.h"
+#include "tourmaline/case/case.h"
 
 namespace tourmaline::body {
 namespace {

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "mesh/mesh.h"
+#include "tourmaline/case/case.h"
 
 namespace tourmaline::body {
 namespace {

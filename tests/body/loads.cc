@@ -11,6 +11,7 @@
 
 #include "body/fields.h"
 #include "mesh/mesh.h"
+#include "tourmaline/case/case.h"
 
 namespace tourmaline::body {
 namespace {

@@ -10,6 +10,7 @@
 #include "body/prescribed.h"
 #include "material/orientation.h"
 #include "mesh/mesh.h"
+#include "tourmaline/case/case.h"
 
 namespace tourmaline::body {
 namespace {

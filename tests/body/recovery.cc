@@ -11,6 +11,7 @@
 #include "body/derived.h"
 #include "body/operator.h"
 #include "mesh/mesh.h"
+#include "tourmaline/case/case.h"
 
 namespace tourmaline::body {
 namespace {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "case/schema.h"
+#include "tourmaline/case/case.h"
 
 namespace tourmaline::casefile {
 namespace {

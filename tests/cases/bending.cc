@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "run_case.h"
+#include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::testing {

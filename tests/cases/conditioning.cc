@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "run_case.h"
+#include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::testing {

@@ -1,5 +1,6 @@
 // The cases of cases/devices: closed forms where there are any, facts of mechanics otherwise.
 #include "run_case.h"
+#include "tourmaline/case/case.h"
 
 namespace tourmaline::testing {
 namespace {

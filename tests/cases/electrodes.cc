@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "run_case.h"
+#include "tourmaline/case/case.h"
 
 namespace tourmaline::testing {
 namespace {

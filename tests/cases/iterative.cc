@@ -5,6 +5,7 @@
 
 #include "partly_held.h"
 #include "run_case.h"
+#include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::testing {

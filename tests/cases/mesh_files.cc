@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "run_case.h"
+#include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::testing {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "run_case.h"
+#include "tourmaline/case/case.h"
 
 namespace tourmaline::testing {
 namespace {

@@ -6,6 +6,7 @@
 #include "body/derived.h"
 #include "run_case.h"
 #include "solve/model.h"
+#include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::testing {

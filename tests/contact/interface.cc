@@ -6,6 +6,7 @@
 #include <map>
 
 #include "mesh/mesh.h"
+#include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::contact {

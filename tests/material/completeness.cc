@@ -11,6 +11,7 @@
 #include "material/constants.h"
 #include "material/description.h"
 #include "material/library.h"
+#include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::material {

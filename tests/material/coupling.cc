@@ -10,6 +10,7 @@
 #include "tourmaline/error.h"
 
 #include "ceramic.h"
+#include "tourmaline/case/case.h"
 
 namespace tourmaline::material {
 namespace {

@@ -14,6 +14,7 @@
 #include "material/constants.h"
 #include "material/description.h"
 #include "material/orientation.h"
+#include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::material {

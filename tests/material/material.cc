@@ -5,6 +5,7 @@
 #include "material/library.h"
 #include "material/orientation.h"
 #include "material/plane.h"
+#include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::material {

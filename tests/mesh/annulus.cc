@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "mesh/mesh.h"
+#include "tourmaline/case/case.h"
 
 namespace tourmaline::mesh {
 namespace {

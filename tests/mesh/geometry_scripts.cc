@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "../output/temporary_folder.h"
+#include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 #include "tourmaline/mesh/gmsh.h"
 

@@ -11,6 +11,7 @@
 #include "../output/temporary_folder.h"
 #include "body/discretisation.h"
 #include "mesh/shapes.h"
+#include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::mesh {

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "mesh/mesh.h"
+#include "tourmaline/case/case.h"
 
 namespace tourmaline::mesh {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "material/library.h"
 #include "random_mesh.h"
+#include "tourmaline/case/case.h"
 
 namespace tourmaline::testing {
 namespace {

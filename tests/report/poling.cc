@@ -9,6 +9,7 @@
 #include "body/discretisation.h"
 #include "mesh/mesh.h"
 #include "report/setting.h"
+#include "tourmaline/case/case.h"
 
 namespace tourmaline::report {
 namespace {

@@ -7,6 +7,7 @@
 #include "../output/small_body.h"
 #include "body/discretisation.h"
 #include "mesh/mesh.h"
+#include "tourmaline/case/case.h"
 
 namespace tourmaline::report {
 namespace {

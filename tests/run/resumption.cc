@@ -8,6 +8,7 @@
 #include "case/resolved.h"
 #include "output/summary.h"
 #include "run/versions.h"
+#include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::run {

@@ -7,6 +7,7 @@
 #include "../cases/run_case.h"
 #include "../contact/ellipse.h"
 #include "solve/model.h"
+#include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::solve {

@@ -8,6 +8,7 @@
 #include "../cases/partly_held.h"
 #include "../cases/run_case.h"
 #include "solve/saddle_system.h"
+#include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::solve {

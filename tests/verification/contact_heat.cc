@@ -2,6 +2,7 @@
 
 #include "march.h"
 #include "richer_paper.h"
+#include "tourmaline/case/case.h"
 
 namespace tourmaline::testing {
 namespace {

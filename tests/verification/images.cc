@@ -6,6 +6,7 @@
 #include "image.h"
 #include "march.h"
 #include "mesh/mesh.h"
+#include "tourmaline/case/case.h"
 
 namespace tourmaline::testing {
 namespace {

@@ -2,6 +2,7 @@
 // Euler is exact and only the error of the mesh remains.
 
 #include "study.h"
+#include "tourmaline/case/case.h"
 
 namespace tourmaline::testing {
 namespace {

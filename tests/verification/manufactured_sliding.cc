@@ -2,6 +2,7 @@
 // exchanges heat with it. It is linear in time, so only the error of the mesh remains.
 
 #include "study.h"
+#include "tourmaline/case/case.h"
 
 namespace tourmaline::testing {
 namespace {

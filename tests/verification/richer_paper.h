@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "../cases/run_case.h"
+#include "tourmaline/case/case.h"
 
 /// The paper's conductive case, made richer: both components of traction, a pyroelectric vector
 /// with a part across the poling axis, a bound at which some nodes stick and others slip.

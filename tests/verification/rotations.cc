@@ -9,6 +9,7 @@
 #include "march.h"
 #include "mesh/mesh.h"
 #include "richer_paper.h"
+#include "tourmaline/case/case.h"
 
 namespace tourmaline::testing {
 namespace {
