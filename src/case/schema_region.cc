@@ -21,7 +21,7 @@ std::string all_regions(const MeshCase &mesh) {
 
 Key key_of_names(const MeshCase &mesh) {
   Key key{.name = "on", .description = "region, or list of regions, of a mesh file"};
-  if (mesh.content) {
+  if (mesh.content && !mesh.content->cells.empty()) {  // that of a finished run has facets alone
     key.choices = mesh.content->regions.names;
     key.no_choices = "the mesh file names no region: put its " +
                      std::string(mesh.content->dimension == 2 ? "surfaces" : "volumes") +

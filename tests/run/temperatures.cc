@@ -59,7 +59,7 @@ TEST(Temperatures, NoneIsBelowAbsoluteZero) {
 TEST(Temperatures, AFormulaThatFallsBelowAbsoluteZeroEndsTheRunThere) {
   EXPECT_THAT(error_of("boundary[0].temperature=\"-400*t\""),
               AllOf(HasSubstr("temperature = \"-400*t\": is -300"), HasSubstr("t = 0.75 s"),
-                    HasSubstr("steps 1 to 2 are in")));
+                    HasSubstr("steps 1 to 2 of 4 are in")));
 }
 
 TEST(Temperatures, AnAbsoluteOneIsWarnedOf) {
@@ -69,7 +69,7 @@ TEST(Temperatures, AnAbsoluteOneIsWarnedOf) {
                 ElementsAre(HasSubstr("is an absolute one meant?")));
     EXPECT_THAT(temperature_warnings(square({key + "=146"})), IsEmpty());
   }
-  EXPECT_THAT(survey(square({"boundary[0].temperature=293"})), HasSubstr("# warning: case.toml"));
+  EXPECT_THAT(survey(square({"boundary[0].temperature=293"})), HasSubstr("# warning: --set boundary[0].temperature=293"));
 }
 
 TEST(Temperatures, OnesInTheBodyAreWarnedOfAtTheEnd) {
