@@ -69,7 +69,8 @@ TEST(Temperatures, AnAbsoluteOneIsWarnedOf) {
                 ElementsAre(HasSubstr("is an absolute one meant?")));
     EXPECT_THAT(temperature_warnings(square({key + "=146"})), IsEmpty());
   }
-  EXPECT_THAT(survey(square({"boundary[0].temperature=293"})), HasSubstr("# warning: --set boundary[0].temperature=293"));
+  EXPECT_THAT(survey(square({"boundary[0].temperature=293"})),
+              HasSubstr("# warning: --set boundary[0].temperature=293"));
 }
 
 TEST(Temperatures, OnesInTheBodyAreWarnedOfAtTheEnd) {
