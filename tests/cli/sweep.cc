@@ -267,7 +267,7 @@ TEST_F(Sweep, AMemberWhoseResultsAnotherRunReplacedIsRunAgain) {
   const std::string table = content_of(here() / "study/sweep.csv"),
                     nodes = content_of(here() / "study/bound=15/nodes.csv");
   ASSERT_EQ(run("run small.toml --set contact.friction.bound=15 "
-                "--set boundary[1].traction=[0,\"-70*t\"] -q -o study/bound=15"),
+                "--set 'boundary[1].traction=[0,\"-70*t\"]' -q -o study/bound=15"),
             0);
   ASSERT_NE(content_of(here() / "study/bound=15/nodes.csv"), nodes);
   ASSERT_EQ(run(study), 0);
