@@ -12,7 +12,6 @@
 #include "run/memory.h"
 #include "run/process.h"
 #include "run/resumption.h"
-#include "run/temperatures.h"
 #include "run/time_loop.h"
 #include "tourmaline/error.h"
 
@@ -23,7 +22,6 @@ void check(const casefile::Case &asked) {
     material::Composition<2>{asked};
   else
     material::Composition<3>{asked};
-  check_temperatures(asked);
   parallel::together([&] { require_memory(asked); });
 }
 
@@ -121,11 +119,10 @@ void run_in(const casefile::Case &asked, const std::filesystem::path &directory,
       std::cout << places_text(directory) << std::flush;
     return;
   }
-  const casefile::Case limited = above_absolute_zero(asked);
   if (asked.dimension == 2)
-    TimeLoop<2>(limited, directory, options, std::move(from.checkpoint), std::move(lock)).run();
+    TimeLoop<2>(asked, directory, options, std::move(from.checkpoint), std::move(lock)).run();
   else
-    TimeLoop<3>(limited, directory, options, std::move(from.checkpoint), std::move(lock)).run();
+    TimeLoop<3>(asked, directory, options, std::move(from.checkpoint), std::move(lock)).run();
 }
 
 // What is no error of this library, on this rank and maybe no other.

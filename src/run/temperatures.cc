@@ -5,9 +5,7 @@
 #include <cmath>
 
 #include "body/fields.h"
-#include "case/sense.h"
 #include "material/constants.h"
-#include "tourmaline/error.h"
 
 namespace tourmaline::run {
 
@@ -40,36 +38,15 @@ std::string reference_words(double reference) {
 
 }  // namespace
 
-void check_temperatures(const casefile::Case &asked) {
-  const double reference = reference_of(asked);
-  for_each_temperature(asked, [&](const Formula &temperature) {
-    if (temperature.is_number() && temperature.value({}, 0) <= -reference)
-      throw CaseError(fmt::format(
-          "{} = {}: is not above absolute zero; {}, so that it must be > {}", temperature.where(),
-          temperature.text(), reference_words(reference), -reference));
-  });
-}
-
-casefile::Case above_absolute_zero(const casefile::Case &asked) {
-  casefile::Case limited = asked;
-  const double reference = reference_of(asked);
-  const casefile::Range range{
-      .low = -reference, .low_allowed = false, .sense = casefile::sense::temperature};
-  for_each_temperature(limited, [&](Formula &temperature) {
-    if (!temperature.is_number())
-      temperature = Formula(temperature.text(), temperature.where(), range,
-                            "K, absolute zero, as " + reference_words(reference));
-  });
-  return limited;
-}
-
 std::vector<std::string> temperature_warnings(const casefile::Case &asked) {
   const double reference = reference_of(asked);
   std::vector<std::string> all;
   for_each_temperature(asked, [&](const Formula &temperature) {
-    if (temperature.is_number() && std::abs(temperature.value({}, 0)) > reference / 2)
-      all.push_back(fmt::format("{} = {} K: {}; is an absolute one meant?", temperature.where(),
-                                temperature.text(), reference_words(reference)));
+    const double value = temperature.is_number() ? temperature.value({}, 0) : 0;
+    if (std::abs(value) > reference / 2)
+      all.push_back(fmt::format(
+          "{} = {} K: {}; {}", temperature.where(), temperature.text(), reference_words(reference),
+          value <= -reference ? "this is below absolute zero" : "is an absolute one meant?"));
   });
   return all;
 }
