@@ -587,7 +587,7 @@ await inBrowser(desktop, async (context) => {
   };
   await test('without contact there is no chart of iterations', async () => {
     assert.ok(!(await titles(alone)).includes('Newton iterations'));
-    assert.ok((await titles(alone)).includes('Energies'));
+    assert.ok((await titles(alone)).includes('Largest displacement'));
     assert.ok((await titles(two)).includes('Newton iterations'));
   });
 });
