@@ -26,7 +26,7 @@ struct MachineError : Error {
   using Error::Error;
 };
 
-/// SIGINT or SIGTERM ended a run between two steps: exit status 128 + the signal's number.
+/// SIGHUP, SIGINT or SIGTERM ended a run between two steps: exit status 128 + the signal's number.
 struct Stopped : Error {
   Stopped(const std::string &text, int by) : Error(text), signal(by) {}
   int signal;

@@ -22,8 +22,9 @@ constexpr double tolerance = 1e-9;
 Eigen::Index rank(const MatrixXd &matrix) {
   if (matrix.rows() == 0)
     return 0;
-  Eigen::JacobiSVD<MatrixXd> svd(matrix);
-  return (svd.singularValues().array() > tolerance).count();
+  Eigen::CompleteOrthogonalDecomposition<MatrixXd> decomposition;
+  decomposition.setThreshold(tolerance);
+  return decomposition.compute(matrix).rank();
 }
 
 /// The rows that a rigid motion v(p) = T + W x (p - c)/l must annihilate: d.T + ((p - c)/l x d).W =

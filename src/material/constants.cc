@@ -13,6 +13,7 @@
 #include "material/coupling.h"
 #include "material/crystal_class.h"
 #include "material/library.h"
+#include "material/positive.h"
 #include "tourmaline/case/material_case.h"
 #include "tourmaline/error.h"
 
@@ -57,40 +58,6 @@ Tensor matrix33(const std::vector<std::vector<double>> &rows) {
 // (p1, p3) in two dimensions, where the plane is the crystal's 1-3 plane; all three otherwise.
 Vector pyroelectric_of(const std::vector<double> &p) {
   return p.size() == 2 ? Vector(p[0], 0, p[1]) : Vector(p.at(0), p.at(1), p.at(2));
-}
-
-// What a state of the energy is made of: the names of the entries of an eigenvector.
-const std::vector<std::string> &entries(Eigen::Index size) {
-  static const std::vector<std::string> strain{"eps11",   "eps22",   "eps33",
-                                               "2 eps23", "2 eps13", "2 eps12"},
-      field{"E1", "E2", "E3", "theta"};
-  return size == 6 ? strain : field;
-}
-
-// "0.71 eps11 - 0.71 eps22": the state of unit length whose energy is least.
-template <typename Column>
-std::string state(const Column &vector) {
-  std::string text;
-  for (Eigen::Index i = 0; i < vector.size(); ++i)
-    if (std::abs(vector[i]) > 0.05 * vector.cwiseAbs().maxCoeff())
-      text +=
-          fmt::format("{}{:.2g} {}",
-                      text.empty() ? (vector[i] < 0 ? "-" : "") : (vector[i] < 0 ? " - " : " + "),
-                      std::abs(vector[i]), entries(vector.size())[i]);
-  return text;
-}
-
-template <typename Matrix>
-void need_positive(const Matrix &matrix, const char *name, const std::string &where) {
-  const double size = matrix.cwiseAbs().maxCoeff();
-  if (!((matrix - matrix.transpose()).cwiseAbs().maxCoeff() <= 1e-12 * size))
-    throw CaseError(fmt::format("{} {} is not symmetric", where, name));
-  const Eigen::SelfAdjointEigenSolver<Matrix> spectrum(matrix);
-  if (spectrum.eigenvalues()(0) <= 0)
-    throw CaseError(fmt::format(
-        "{} {} is not positive definite: its smallest eigenvalue is {:.6g}, so that the state {} "
-        "would store no positive energy; a stored energy must be positive for every state",
-        where, name, spectrum.eigenvalues()(0), state(spectrum.eigenvectors().col(0).eval())));
 }
 
 // Formulas below: IEEE Std 176-1987, table 4, with D = e eps + eps^S E + p^S theta and the strain
@@ -223,9 +190,8 @@ void check_coupling(const Conversion &conversion, const Constants &c, const std:
   const std::optional<Tensor> free = conversion.free_permittivity();
   if (!free)
     return;
-  using Spectrum = Eigen::SelfAdjointEigenSolver<Tensor>;
-  const Spectrum at_strain(c.permittivity), at_stress(*free);
-  if (at_strain.eigenvalues()(0) > 0 || !(at_stress.eigenvalues()(0) > 0))
+  const LeastEnergy at_strain = least_energy(c.permittivity), at_stress = least_energy(*free);
+  if (at_strain.value > 0 || !(at_stress.value > 0))
     return;
   throw CaseError(fmt::format(
       "{} permittivity at constant strain, eps^T - d c d^T, is not positive definite: its smallest "
@@ -233,8 +199,8 @@ void check_coupling(const Conversion &conversion, const Constants &c, const std:
       "piezoelectric constants are too large for this stiffness and permittivity (coupling factor "
       "{:.4g}, and none reaches 1): check their units, d in C/N (1 pC/N = 1e-12 C/N), e in C/m^2, "
       "stiffness in Pa (1 GPa = 1e9 Pa), compliance in 1/Pa",
-      where, at_strain.eigenvalues()(0), state(at_strain.eigenvectors().col(0).eval()),
-      at_stress.eigenvalues()(0), coupling_factor(clamped_part(c), *free)));
+      where, at_strain.value, at_strain.state, at_stress.value,
+      coupling_factor(clamped_part(c), *free)));
 }
 
 }  // namespace

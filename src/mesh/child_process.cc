@@ -14,6 +14,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <fstream>
 #include <new>
 #include <optional>
@@ -115,28 +116,61 @@ class Child {
       ended_ = waitpid(id_, &status_, 0) == id_ || errno != EINTR;
     return status_;
   }
-  void kill() {
+  void kill(std::optional<Ending> why = {}) {
     ::kill(id_, SIGKILL);
     status();
-    was_killed_ = true;
+    killed_ = why;
   }
-  bool was_killed() const { return was_killed_; }
+  /// Why, if it was killed before its end.
+  std::optional<Ending> killed() const { return killed_; }
+  double processor_seconds() const {
+    clockid_t clock;
+    timespec used{};
+    if (clock_getcpuclockid(id_, &clock) == 0)
+      clock_gettime(clock, &used);
+    return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+  }
 
  private:
   pid_t id_;
-  bool was_killed_ = false;
+  std::optional<Ending> killed_;
   int status_ = 0;
   bool ended_ = false;
 };
 
-/// What the child sends until its end, or until the clock's limit, when it is killed. Whoever else
-/// holds the pipe then is not waited for.
-std::string received(int pipe, Child &child, double seconds) {
+/// The limits by the clock.
+class Watch {
+ public:
+  Watch(const Child &child, const Limits &limits) : child_(child), limits_(limits) {}
+
+  /// Which of them the child is beyond.
+  std::optional<Ending> beyond() {
+    if (const double used = child_.processor_seconds(); used > used_) {
+      used_ = used;
+      worked_ = Clock::now();
+    }
+    if (since(worked_) > limits_.idle_seconds)
+      return Ending::waiting;
+    return since(start_) > limits_.seconds ? std::optional(Ending::out_of_time) : std::nullopt;
+  }
+
+ private:
   using Clock = std::chrono::steady_clock;
-  const auto start = Clock::now();
-  const auto is_over = [&] {
-    return std::chrono::duration<double>(Clock::now() - start).count() > seconds;
-  };
+  static double since(Clock::time_point then) {
+    return std::chrono::duration<double>(Clock::now() - then).count();
+  }
+
+  const Child &child_;
+  const Limits &limits_;
+  const Clock::time_point start_ = Clock::now();
+  Clock::time_point worked_ = start_;
+  double used_ = 0;
+};
+
+/// What the child sends until its end, or until a limit, when it is killed. Whoever else holds the
+/// pipe then is not waited for.
+std::string received(int pipe, Child &child, const Limits &limits) {
+  Watch watch(child, limits);
   std::string text;
   std::string part(1 << 16, '\0');
   pollfd wanted{pipe, POLLIN, 0};
@@ -152,8 +186,8 @@ std::string received(int pipe, Child &child, double seconds) {
     } else {
       ended = child.has_ended();
     }
-    if (!ended && is_over())
-      child.kill();
+    if (const std::optional<Ending> ending = ended ? std::nullopt : watch.beyond())
+      child.kill(ending);
   }
 }
 
@@ -162,8 +196,10 @@ std::optional<Ending> ending_of(Child &child) {
   const int status = child.status();
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
     return {};
+  if (child.killed())
+    return child.killed();
   const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-  if (signal == SIGXCPU || child.was_killed())
+  if (signal == SIGXCPU)
     return Ending::out_of_time;
   if (signal == SIGKILL)  // by the kernel, which has no memory left
     return Ending::out_of_memory;
@@ -209,7 +245,7 @@ std::string in_child_process(const std::function<std::string()> &work, const Lim
     be_child(pipe.writing(), parent, work, limits);
   pipe.close_writing();
   Child child(id);
-  const std::string text = received(pipe.reading(), child, limits.seconds);
+  const std::string text = received(pipe.reading(), child, limits);
   if (const std::optional<Ending> ending = ending_of(child))
     throw CaseError(complaint(*ending));
   if (text.empty())

@@ -190,7 +190,8 @@ MeshFile read_with_libgmsh(Format format, const casefile::MeshCase &asked, bool 
 }
 
 // A mesh is read in a time that grows with its size. By the clock anything takes longer on a busy
-// machine, but nothing sleeps.
+// machine, but nothing sleeps for
+// long.
 Limits limits_of(Format format, const std::string &file, const Reading &how) {
   Limits limits;
   if (is_geometry(format) && how.trusted)
@@ -201,6 +202,7 @@ Limits limits_of(Format format, const std::string &file, const Reading &how) {
           ? how.seconds_of_geometry
           : least + static_cast<double>(std::filesystem::file_size(file)) / bytes_per_second;
   limits.seconds = 5 * limits.processor_seconds + least;
+  limits.idle_seconds = how.idle_seconds;
   // A script may ask for any amount: half of the machine is left to others.
   limits.bytes = (is_geometry(format) ? 0.5 : 1) * static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
                  static_cast<double>(sysconf(_SC_PAGESIZE));
@@ -210,6 +212,11 @@ Limits limits_of(Format format, const std::string &file, const Reading &how) {
 std::string complaint_about(Format format, const Limits &limits, Ending ending) {
   if (ending == Ending::forbidden)
     return fmt::format("wants to start a program; {}", walls);
+  if (ending == Ending::waiting)
+    return fmt::format(
+        "could not be read: for {:g} s nothing came from it, or from a file that it includes, as "
+        "from a pipe that nobody writes to or from a disk that does not answer",
+        limits.idle_seconds);
   if (is_geometry(format) && ending == Ending::out_of_time)
     return fmt::format(
         "is a geometry that does not come to an end within {:g} s of a processor; give larger "

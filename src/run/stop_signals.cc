@@ -12,7 +12,7 @@ namespace tourmaline::run {
 
 namespace {
 
-constexpr int stopping[] = {SIGINT, SIGTERM};
+constexpr int stopping[] = {SIGINT, SIGTERM, SIGHUP};
 volatile std::sig_atomic_t noted = 0;
 std::atomic<const char *> answer_text = nullptr;  // free of locks, so that a handler may read it
 struct sigaction previous[std::size(stopping)];
@@ -45,7 +45,8 @@ StopSignals::StopSignals() {
     sigaddset(&action.sa_mask, signal);
   for (std::size_t i = 0; i < std::size(stopping); ++i) {
     sigaction(stopping[i], nullptr, &previous[i]);
-    // Shells have the background jobs of a script ignore SIGINT; so it stays ignored.
+    // Shells have the background jobs of a script ignore SIGINT, and nohup SIGHUP; so they stay
+    // ignored.
     if (previous[i].sa_handler != SIG_IGN)
       sigaction(stopping[i], &action, nullptr);
   }
@@ -64,7 +65,7 @@ int StopSignals::received() const {
 }
 
 const char *signal_name(int signal) {
-  return signal == SIGINT ? "SIGINT" : "SIGTERM";
+  return signal == SIGINT ? "SIGINT" : signal == SIGTERM ? "SIGTERM" : "SIGHUP";
 }
 
 }  // namespace tourmaline::run

@@ -2,8 +2,8 @@
 
 namespace tourmaline::run {
 
-/// While it lives, the first SIGINT or SIGTERM only leaves a note, so that a run can end between
-/// two steps; the second one ends the process at once. One at a time.
+/// While it lives, the first SIGHUP, SIGINT or SIGTERM only leaves a note, so that a run can end
+/// between two steps; the second one ends the process at once. One at a time.
 class StopSignals {
  public:
   StopSignals();
@@ -18,7 +18,7 @@ class StopSignals {
   int received() const;
 };
 
-/// "SIGINT" or "SIGTERM".
+/// "SIGHUP", "SIGINT" or "SIGTERM".
 const char *signal_name(int signal);
 
 }  // namespace tourmaline::run

@@ -20,8 +20,9 @@ constexpr const char *reason =
     "the body is probably ill-conditioned: very thin, barely held, or of constants that differ by "
     "many powers of ten";
 
+// Nothing was measured where it is 0 or no number.
 std::string known(const char *name, double value) {
-  return std::isnan(value) ? "" : fmt::format(", {} {:.1e}", name, value);
+  return value > 0 ? fmt::format(", {} {:.1e}", name, value) : "";
 }
 
 }  // namespace

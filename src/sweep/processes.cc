@@ -19,7 +19,7 @@ namespace tourmaline::sweep {
 
 namespace {
 
-constexpr int heard[] = {SIGCHLD, SIGINT, SIGTERM};
+constexpr int heard[] = {SIGCHLD, SIGINT, SIGTERM, SIGHUP};
 struct sigaction previous[std::size(heard)];
 volatile std::sig_atomic_t noted = 0;
 int wake[2] = {-1, -1};  // a pipe, so that poll() wakes for a signal that came just before it
@@ -55,7 +55,8 @@ Processes::Processes() {
   sigemptyset(&action.sa_mask);
   for (std::size_t i = 0; i < std::size(heard); ++i) {
     sigaction(heard[i], nullptr, &previous[i]);
-    // Shells have the background jobs of a script ignore SIGINT; so it stays ignored.
+    // Shells have the background jobs of a script ignore SIGINT, and nohup SIGHUP; so they stay
+    // ignored.
     if (heard[i] == SIGCHLD || previous[i].sa_handler != SIG_IGN)
       sigaction(heard[i], &action, nullptr);
   }

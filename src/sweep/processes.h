@@ -13,8 +13,8 @@
 namespace tourmaline::sweep {
 
 /// Programs that run side by side. They end with this process, whatever ends it, and do not hear of
-/// what is typed at the terminal. While it lives, SIGINT and SIGTERM only leave a note. One at a
-/// time.
+/// what is typed at the terminal. While it lives, SIGHUP, SIGINT and SIGTERM only leave a note. One
+/// at a time.
 class Processes {
  public:
   /// How one of them ended.
@@ -40,7 +40,7 @@ class Processes {
   std::size_t running() const { return numbers_.size(); }
   void send(int signal) const;
 
-  /// SIGINT or SIGTERM, if one came since this was last asked; otherwise 0.
+  /// SIGHUP, SIGINT or SIGTERM, if one came since this was last asked; otherwise 0.
   int take_signal();
 
  private:

@@ -31,7 +31,7 @@ struct Outcome {
   std::size_t members = 0;
   std::size_t kept = 0;     ///< were done before
   std::size_t missing = 0;  ///< were not run to their end because of the signal
-  int signal = 0;           ///< SIGINT or SIGTERM when one stopped it
+  int signal = 0;           ///< SIGHUP, SIGINT or SIGTERM when one stopped it
   std::vector<Failure> failures;
   std::map<std::string, std::vector<std::string>> warnings;  ///< and the members that have them
   std::vector<std::filesystem::path> files;  ///< the table, and the plot when a member is done
@@ -44,8 +44,8 @@ struct Outcome {
 /// sweep.csv and sweep.svg. A member whose folder holds the finished run of the same case, of files
 /// with the same content, is not run again; one that was interrupted goes on, or starts from the
 /// beginning where it cannot. Every member is read and checked before the first runs. A failed one
-/// does not stop the others. SIGINT and SIGTERM end those that run, what is done stays. Throws
-/// CaseError, MachineError.
+/// does not stop the others. SIGHUP, SIGINT and SIGTERM end those that run, what is done stays.
+/// Throws CaseError, MachineError.
 Outcome run(const Request &request);
 
 }  // namespace tourmaline::sweep

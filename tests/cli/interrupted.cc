@@ -124,7 +124,7 @@ TEST_P(Signal, FinishesTheStepAndSaysHowToGoOn) {
   EXPECT_FALSE(fs::exists(here() / "results" / "run.lock"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, Signal, testing::Values(SIGINT, SIGTERM));
+INSTANTIATE_TEST_SUITE_P(Each, Signal, testing::Values(SIGINT, SIGTERM, SIGHUP));
 
 TEST_F(Interrupted, AStoppedRunGoesOnToTheSameBytes) {
   const std::string all = "run " + paper +

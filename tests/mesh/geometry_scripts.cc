@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
@@ -102,6 +103,12 @@ TEST_F(GeometryScript, ThatDoesNotEndIsEnded) {
   const std::string text =
       complaint(square + "For i In {1:1e12}\nEndFor\n", {.seconds_of_geometry = 1});
   EXPECT_THAT(text, AllOf(HasSubstr("does not come to an end within 1 s"), HasSubstr("--trust")));
+}
+
+TEST_F(GeometryScript, ThatWaitsForAPipeIsEnded) {
+  ASSERT_EQ(mkfifo((inside() / "pipe.geo").c_str(), 0600), 0);
+  EXPECT_THAT(complaint("Include \"pipe.geo\";\n", {.idle_seconds = 1}),
+              HasSubstr("for 1 s nothing came from it, or from a file that it includes"));
 }
 
 TEST_F(GeometryScript, DoesWhatItLikesWhenItIsTrusted) {

@@ -27,7 +27,8 @@ namespace {
 using testing::HasSubstr;
 
 std::string name_of(Ending ending) {
-  const char *names[] = {"crashed", "out of time", "out of memory", "forbidden", "silent"};
+  const char *names[] = {"crashed",   "out of time", "out of memory",
+                         "forbidden", "silent",      "waiting"};
   return names[static_cast<int>(ending)];
 }
 

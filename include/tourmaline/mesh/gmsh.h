@@ -23,6 +23,7 @@ struct Reading {
   bool trusted = false;
   Walls walls = {};                  ///< those to be built
   double seconds_of_geometry = 600;  ///< of a processor, to evaluate and mesh a geometry
+  double idle_seconds = 60;          ///< by the clock, in which the reading child does nothing
 };
 
 /// Reads `mesh.file` with libgmsh, in a child process: Gmsh's own format (2 or 4.1, text or
