@@ -81,7 +81,7 @@ std::string reason_of(const mu::Parser::exception_type &error) {
   while (!reason.empty() && (reason.back() == '.' || reason.back() == ' '))
     reason.pop_back();
   const std::string &token = error.GetToken();
-  if (const std::string large = too_large(token); !large.empty())
+  if (std::string large = too_large(token); !large.empty())
     return large;
   const bool unknown = error.GetCode() == mu::ecUNASSIGNABLE_TOKEN;
   const std::vector<std::string> names = all_names();

@@ -299,7 +299,7 @@ std::vector<double> poling_of(const MaterialCase &material, int dimension) {
 std::string axis_complaint(const MaterialCase &material, int dimension) {
   if (material.axis1.empty())
     return "";
-  if (const std::string text = direction_complaint(material.axis1); !text.empty())
+  if (std::string text = direction_complaint(material.axis1); !text.empty())
     return text;
   const std::vector<double> poling = poling_of(material, dimension);
   double along = 0;
