@@ -37,7 +37,6 @@ std::vector<Prescribed> prescribed_unknowns(
                         electrodes[e].name, static_cast<int>(e)});
     }
   std::vector<Prescribed> all;
-  all.reserve(by_unknown.size());
   for (auto &[i, prescribed] : by_unknown)
     all.push_back(std::move(prescribed));
   return all;

@@ -249,7 +249,7 @@ void CondensedBody<dim>::refine(const body::CellProducts<dim> &cells) {
   const std::vector<double> zero(variable_of_.size(), 0.);
   Eigen::MatrixXd columns(n, n);
   for (Index j = 0; j < n; ++j) {
-    std::vector<double> x = zero;
+    std::vector<double> x(variable_of_.size(), 0.);
     impose(VectorXd::Unit(n, j), x);
     solve_refined(zero, x);
     columns.col(j) = contact_rows(x);

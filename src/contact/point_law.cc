@@ -96,7 +96,7 @@ TangentMatrix PointLaw::traction_derivative(const Tangent &trial, double r) cons
   if (n == 0)
     return TangentMatrix(0, 0);
   const Tangent x = whole_trial(trial, r);
-  const TangentMatrix whole = with_law([&](const auto &law) { return law.traction_derivative(x); });
+  TangentMatrix whole = with_law([&](const auto &law) { return law.traction_derivative(x); });
   if (held_.size() == 0)
     return whole;
   const double left = 1 - whole(1, 1), across = whole(0, 1) * whole(1, 0);
