@@ -36,7 +36,7 @@ void say(const std::string &text, bool quiet) {
 Resumption complete_run_in(const std::filesystem::path &directory, const casefile::Case &asked,
                            const RunOptions &options, const MachineError &no_lock) {
   output::require_unused(directory);
-  const Resumption found = resumption(asked, directory, options.friction_name);
+  Resumption found = resumption(asked, directory, options.friction_name);
   if (!found.is_complete())
     throw no_lock;
   return found;

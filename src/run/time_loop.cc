@@ -232,7 +232,7 @@ output::Summary TimeLoop<dim>::close_tables(Schedule &schedule) {
         "tourmaline: all steps are done; the results are being finished (a second signal ends "
         "this at once)\n");
   recorder_->finish(state_);
-  const output::Summary done = summary();
+  output::Summary done = summary();
   parallel::on_first([&] { folder_->put_summary(done); });
   return done;
 }
