@@ -161,7 +161,8 @@ TEST(InterfaceNewton, ForcesThatAreNotFiniteAreNoSolution) {
 
 TEST(InterfaceNewton, StiffnessThatIsNotPositiveDefiniteIsTold) {
   const InterfaceSolution solution = two_points(2, 1).solve(VectorXd::Ones(2));
-  EXPECT_FALSE(solution.converged && solution.is_definite);
+  EXPECT_FALSE(solution.converged);
+  EXPECT_FALSE(solution.is_definite);
 }
 
 }  // namespace
