@@ -4,7 +4,8 @@
 
 #include <random>
 
-#include "material/orientation.h"
+#include "body/cell_products.h"
+#include "material/composition.h"
 #include "mesh/mesh.h"
 #include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
@@ -23,7 +24,11 @@ constexpr double step = 0.01;
 template <int dim>
 struct Block {
   Block(CellShape shape, int n, double size = 0.1)
-      : body(box(shape, n, size)), op(body, constants()) {
+      : asked(box(shape, n, size)),
+        composition(asked),
+        body(mesh::build<dim>(asked), 1),
+        op(body, composition, body::Modes::none),
+        cells(body, composition, op.modes()) {
     casefile::BoundaryCase clamp;
     clamp.on = {"right"};
     clamp.displacement = std::vector<std::optional<casefile::Formula>>(dim, casefile::Formula(0.));
@@ -32,24 +37,22 @@ struct Block {
     contact = body.nodes_on({"left"});
   }
 
-  static body::Discretisation<dim> box(CellShape shape, int n, double size) {
-    casefile::MeshCase mesh;
-    mesh.box = casefile::Box{std::vector<double>(dim, 0.), std::vector<double>(dim, size),
-                             std::vector<int>(dim, n), shape};
-    return {mesh::build<dim>(mesh), 1};
-  }
-
-  static material::BodyConstants<dim> constants() {
-    casefile::MaterialCase asked;
-    asked.library = "BaTiO3-Liu2014";
-    return material::restricted<dim>(
-        material::rotated(material::constants_of(asked), material::crystal_axes(asked, dim)));
+  static casefile::Case box(CellShape shape, int n, double size) {
+    casefile::Case asked;
+    asked.dimension = dim;
+    asked.material.library = "BaTiO3-Liu2014";
+    asked.mesh.box = casefile::Box{std::vector<double>(dim, 0.), std::vector<double>(dim, size),
+                                   std::vector<int>(dim, n), shape};
+    return asked;
   }
 
   CondensedBody<dim> condense() const { return {op, step, prescribed, contact, 1}; }
 
+  casefile::Case asked;
+  material::Composition<dim> composition;
   body::Discretisation<dim> body;
   body::Operator<dim> op;
+  body::CellProducts<dim> cells;
   std::vector<body::Prescribed> prescribed;
   std::vector<body::Node> contact;
 };
@@ -141,6 +144,8 @@ TEST(CondensedBody, ReducedAndExpandedStatesSolveTheWholeSystemToRoundOff) {
     const VectorXd s = condensed.reduce(b, x);
     const VectorXd c = condensed.stiffness().llt().solve(s);
     condensed.expand(c, x);
+    for (Eigen::Index i = 0; i < c.size(); ++i)
+      EXPECT_EQ(x[unknown<2>(block.contact[i / 2], i % 2)], c[i]) << "decided, not computed";
     const VectorXd no_contact_forces = VectorXd::Zero(c.size());
     EXPECT_LT(condensed.backward_error(b, x, no_contact_forces), 1e-12);
     // A held contact: the difference between S c and s is the force it takes.
@@ -148,6 +153,29 @@ TEST(CondensedBody, ReducedAndExpandedStatesSolveTheWholeSystemToRoundOff) {
     condensed.expand(held, x);
     EXPECT_LT(condensed.backward_error(b, x, condensed.stiffness() * held - again), 1e-12);
   }
+}
+
+// Of a body that needs no refinement its answers are the same, by products of cells alone.
+TEST(CondensedBody, RefinedItGivesTheSameStiffnessForcesAndStates) {
+  const Block<2> block(CellShape::triangle, 8);
+  CondensedBody<2> plain = block.condense(), refined = block.condense();
+  refined.refine(block.cells);
+  const double size = plain.stiffness().cwiseAbs().maxCoeff();
+  EXPECT_LT((refined.stiffness() - plain.stiffness()).cwiseAbs().maxCoeff(), 1e-8 * size);
+  std::vector<double> b(block.body.n_nodes() * 4, 0.), x(b.size(), 0.);
+  for (std::size_t i = 0; i < b.size(); i += 4)
+    b[i] = b[i + 1] = 1;
+  for (const auto &p : block.prescribed)
+    x[p.unknown] = p.unknown % 4 == 2 ? 3. : 1e-10;
+  std::vector<double> y = x;
+  const VectorXd s = plain.reduce(b, x), t = refined.reduce(b, y);
+  EXPECT_LT((s - t).norm(), 1e-8 * s.norm());
+  const VectorXd c = VectorXd::Constant(s.size(), 1e-10);
+  plain.expand(c, x);
+  refined.expand(c, y);
+  EXPECT_LT(refined.backward_error(b, y, refined.stiffness() * c - t), 1e-12);
+  EXPECT_LT(refined.left_by_refinement(), 1e-12);
+  EXPECT_LT(refined.forward_error(block.cells, b, y), 1e-12);
 }
 
 TEST(CondensedBody, WithoutContactReduceAndExpandSolveTheBody) {

@@ -115,7 +115,7 @@ Problem turning_points(int n_points) {
   });
   p.force.resize(n);
   for (int i = 0; i < n_points; ++i) {
-    p.points.push_back({2 * i, 2, 1, contact::Tresca{0.4}});
+    p.points.push_back({2 * i, 2, 0.5, contact::Tresca{0.8}});
     p.bounds.push_back(0.4);
     p.force.segment<2>(2 * i) << 0.5 + std::cos(0.2 * i), std::sin(0.2 * i);
   }

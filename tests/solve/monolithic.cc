@@ -224,6 +224,18 @@ TEST(PiecewiseConstantMultipliers, WorkOnTheSquareFacetsOfHexahedra) {
   EXPECT_LT(difference(run.nodes(), nodal.nodes(), "potential"), 0.2);
 }
 
+// Moved along the foundation far beyond the bound everything slips, and bears the bound.
+TEST(PiecewiseConstantMultipliers, BearTheBoundAsFrictionWhereAllSlips) {
+  const testing::RunCase run(
+      asked(plane, with(piecewise_constant, {"boundary[0].displacement=[0,'1e-6*t']"})));
+  const Table contact = run.contact();
+  for (const std::string &status : contact.columns.at("status"))
+    EXPECT_EQ(status, "slip");
+  for (const double traction : contact.numbers("tangential_traction_y"))
+    EXPECT_NEAR(std::abs(traction), 15, 1e-8);
+  EXPECT_NEAR(std::abs(run.history().numbers("contact_force_y").back()), 15 * 0.1, 1e-9);
+}
+
 TEST(PiecewiseConstantMultipliers, AreRefusedWhereThereAreMoreThanDisplacements) {
   // 18 triangles share 16 nodes.
   EXPECT_THROW(testing::RunCase(asked(block, piecewise_constant)), CaseError);
