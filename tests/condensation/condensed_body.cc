@@ -46,6 +46,9 @@ struct Block {
     return asked;
   }
 
+  std::size_t contact_unknown(Eigen::Index i) const {
+    return unknown<dim>(contact[i / dim], static_cast<int>(i % dim));
+  }
   CondensedBody<dim> condense() const { return {op, step, prescribed, contact, 1}; }
 
   casefile::Case asked;
@@ -70,7 +73,7 @@ MatrixXd stiffness_by_products(const Block<dim> &block, CondensedBody<dim> &cond
     condensed.expand(VectorXd::Unit(n, j), x);
     block.op.multiply(step, x, product);
     for (Eigen::Index i = 0; i < n; ++i)
-      columns(i, j) = product[unknown<dim>(block.contact[i / dim], i % dim)];
+      columns(i, j) = product[block.contact_unknown(i)];
   }
   return columns;
 }
@@ -145,7 +148,7 @@ TEST(CondensedBody, ReducedAndExpandedStatesSolveTheWholeSystemToRoundOff) {
     const VectorXd c = condensed.stiffness().llt().solve(s);
     condensed.expand(c, x);
     for (Eigen::Index i = 0; i < c.size(); ++i)
-      EXPECT_EQ(x[unknown<2>(block.contact[i / 2], i % 2)], c[i]) << "decided, not computed";
+      EXPECT_EQ(x[block.contact_unknown(i)], c[i]) << "decided, not computed";
     const VectorXd no_contact_forces = VectorXd::Zero(c.size());
     EXPECT_LT(condensed.backward_error(b, x, no_contact_forces), 1e-12);
     // A held contact: the difference between S c and s is the force it takes.
