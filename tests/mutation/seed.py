@@ -62,6 +62,9 @@ class Build:
         rooms = [f"src/{room}/*.h" for room in ("contact", "condensation", "solve")]
         headers = sorted(header for room in rooms for header in ROOT.glob(room))
         (self.scratch / "all.h").write_text("".join(f'#include "{header}"\n' for header in headers))
+        made = self.scratch / "all.h.gch"
+        if made.exists() and made.stat().st_mtime > max(file.stat().st_mtime for file in (ROOT / "src").rglob("*.h")):
+            return
         some = next(source for source in self.compile if source.startswith(str(ROOT / "src/solve")))
         self.compiled(some, "-x", "c++-header", "all.h", "-o", "all.h.gch").check_returncode()
 

@@ -36,12 +36,17 @@ struct Outcome {
   std::string said;
 };
 
+std::string program() {
+  const char *given = std::getenv("TOURMALINE_BINARY");
+  return given ? given : TOURMALINE_BINARY;
+}
+
 // Runs the program as a user would; more ranks than cores are allowed.
 Outcome run(int ranks, const std::string &arguments, const fs::path &folder) {
   const fs::path said = folder.string() + ".stderr";
   const std::string launcher =
       ranks == 1 ? "" : "mpirun --oversubscribe --bind-to none -np " + std::to_string(ranks) + " ";
-  const int status = std::system((launcher + TOURMALINE_BINARY + " run " + arguments + " -q -o '" +
+  const int status = std::system((launcher + program() + " run " + arguments + " -q -o '" +
                                   folder.string() + "' > /dev/null 2> '" + said.string() + "'")
                                      .c_str());
   return {WEXITSTATUS(status), content_of(said)};
