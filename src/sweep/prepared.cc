@@ -87,7 +87,7 @@ Found found_behind(const run::Resumption &resumption) {
 std::string obstacle(const fs::path &checkpoint, const Prepared &member,
                      const std::string &refusal) {
   try {
-    const std::string changed =
+    std::string changed =
         run::differences(output::read_checkpoint(checkpoint).inputs, run::inputs_of(member.asked));
     if (!changed.empty())
       return changed;
