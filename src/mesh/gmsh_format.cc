@@ -6,7 +6,11 @@
 #include <cctype>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <sstream>
+#include <utility>
 
+#include "case/utf8.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::mesh {
@@ -21,10 +25,38 @@ std::string extension(const std::filesystem::path &file) {
 }
 
 // libgmsh takes what there is of a file that was cut off.
-void check_whole(std::ifstream &in) {
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+void check_whole(const std::string &text) {
   if (text.find("$EndNodes") == std::string::npos || text.find("$EndElements") == std::string::npos)
     throw CaseError("is not whole: it does not end its lists of nodes and elements");
+}
+
+// Of groups of one dimension with the same name libgmsh keeps the name of one, and the others are
+// silently without; longer names it cannot read.
+void check_names(const std::string &text) {
+  const std::string begin = "$PhysicalNames";
+  const std::size_t at = text.find(begin), end = text.find("$EndPhysicalNames");
+  if (at == std::string::npos || end == std::string::npos || end < at)
+    return;
+  std::istringstream section(text.substr(at + begin.size(), end - at - begin.size()));
+  std::map<std::pair<int, std::string>, int> tags;
+  int dimension = 0, tag = 0;
+  std::string rest;
+  std::getline(section, rest);
+  for (std::getline(section, rest); section >> dimension >> tag && std::getline(section, rest);) {
+    const std::size_t first = rest.find('"'), last = rest.rfind('"');
+    if (first == last)
+      continue;
+    const std::string name = rest.substr(first + 1, last - first - 1);
+    if (name.size() > 127)
+      throw CaseError(fmt::format(
+          "has a physical group, {}, whose name has {} bytes; Gmsh reads 127", tag, name.size()));
+    const auto [same, is_new] = tags.try_emplace({dimension, name}, tag);
+    if (!is_new && same->second != tag && !name.empty())
+      throw CaseError(fmt::format(
+          "has two physical groups called \"{}\", {} and {}, of which Gmsh would lose the name of "
+          "one; make them one group, or give each its own name",
+          casefile::readable(name), same->second, tag));
+  }
 }
 
 Format format_of_msh(const std::filesystem::path &file) {
@@ -36,7 +68,9 @@ Format format_of_msh(const std::filesystem::path &file) {
   const bool old = version >= 2 && version < 3;
   if (!old && !(version >= 4 && version < 5))
     throw CaseError(fmt::format("has Gmsh's format {}; 2.2 and 4.1 can be read", version));
-  check_whole(in);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  check_whole(text);
+  check_names(text);
   return old ? Format::msh2 : Format::msh4;
 }
 

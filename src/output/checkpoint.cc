@@ -105,6 +105,8 @@ class Reader {
 };
 
 std::string contents(const std::filesystem::path &path) {
+  if (!std::filesystem::is_regular_file(path))  // nobody may ever write to a pipe
+    refuse(path, "is no checkpoint");
   std::ifstream in(path, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(in), {}};
   if (!in)

@@ -55,6 +55,23 @@ void read_case(Result &result, const fs::path &folder) {
   }
 }
 
+// As summary.json says how long the tables were.
+void remark_on_lost_tables(Result &result, const fs::path &folder) {
+  const nlohmann::json summary = nlohmann::json::parse(result.summary, nullptr, false);
+  const nlohmann::json files =
+      summary.is_object() && summary.contains("files") ? summary["files"] : nlohmann::json();
+  for (const char *name : {"history.csv", "contact.csv"}) {
+    if (!files.is_object() || !files.contains(name))
+      continue;
+    const bool is_there = fs::exists(folder / name);
+    if (!is_there || files[name] != fs::file_size(folder / name))
+      result.remarks.push_back(fmt::format(
+          "{} {}, and had {} bytes when the run was complete: what it held is not all shown.", name,
+          is_there ? fmt::format("has {} bytes", fs::file_size(folder / name)) : "is missing",
+          files[name].dump()));
+  }
+}
+
 void read_tables(Result &result, const fs::path &folder) {
   if (fs::exists(folder / "history.csv"))
     result.history = read_table(folder / "history.csv");
@@ -64,6 +81,7 @@ void read_tables(Result &result, const fs::path &folder) {
     result.summary = read_text_file(folder / "summary.json");
   else
     result.remarks.push_back("The run did not finish, or has not yet: there is no summary.json.");
+  remark_on_lost_tables(result, folder);
 }
 
 // Tresca's; what the page draws of another law is evaluated here too.

@@ -259,6 +259,7 @@ int Outcome::exit_status() const {
 Outcome run(const Request &request) {
   Results results;
   results.variations = read_variations(request.variations);
+  require_not_set(results.variations, request.overrides);
   results.members = members_of(results.variations);
   const std::vector<Prepared> cases = prepared(request, results.variations, results.members);
   std::vector<casefile::Case> asked;

@@ -186,4 +186,13 @@ std::vector<Variation> read_variations(const std::vector<std::string> &assignmen
   return all;
 }
 
+void require_not_set(const std::vector<Variation> &variations,
+                     const std::vector<std::string> &overrides) {
+  for (const std::string &override : overrides)
+    for (const Variation &variation : variations)
+      if (trimmed(override.substr(0, override.find('='))) == variation.key)
+        throw CaseError("--set " + casefile::shortened(override) +
+                        ": this key is varied, by --vary; give one of both");
+}
+
 }  // namespace tourmaline::sweep

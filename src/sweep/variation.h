@@ -18,4 +18,8 @@ Variation read_variation(const std::string &assignment);
 /// The same for all; a key may be varied once. Throws CaseError.
 std::vector<Variation> read_variations(const std::vector<std::string> &assignments);
 
+/// Throws CaseError where `--set` gives a key that is varied: one of both would mean nothing.
+void require_not_set(const std::vector<Variation> &variations,
+                     const std::vector<std::string> &overrides);
+
 }  // namespace tourmaline::sweep

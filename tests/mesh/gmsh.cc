@@ -324,6 +324,16 @@ TEST_F(MeshFiles, NumbersThatAreGivenTwiceAreRefused) {
               HasSubstr("lists two elements with the number 1"));
 }
 
+TEST_F(MeshFiles, GroupsWhoseNamesLibgmshWouldLoseAreRefused) {
+  EXPECT_THAT(complaint(text("a.msh", with(format2, "\"right\"", "\"left\""))),
+              HasSubstr("has two physical groups called \"left\", 1 and 2"));
+  EXPECT_EQ(complaint(text("a.msh", with(format2, "\"body\"", "\"left\""))), "");
+  const std::string name(127, 'a');
+  EXPECT_EQ(complaint(text("a.msh", with(format2, "right", name))), "");
+  EXPECT_THAT(complaint(text("a.msh", with(format2, "right", name + "a"))),
+              HasSubstr("whose name has 128 bytes; Gmsh reads 127"));
+}
+
 TEST_F(MeshFiles, WhatIsInconsistentIsRefused) {
   EXPECT_THAT(complaint(text("a.msh", with(format2, "3 1 1 0", "3 nan 1 0"))),
               HasSubstr("finite numbers"));

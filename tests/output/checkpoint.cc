@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <bit>
 #include <cmath>
@@ -65,6 +66,14 @@ TEST(Checkpoint, EveryShorterFileAndEveryFlippedBitIsRefused) {
     expect_refused(flipped);
   }
   expect_refused(whole + "more");
+}
+
+TEST(Checkpoint, WhatIsNoFileIsNotWaitedFor) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  for (const std::filesystem::path &path : {folder / "pipe", folder.path()})
+    EXPECT_THAT([&] { read_checkpoint(path); },
+                testing::ThrowsMessage<MachineError>(testing::HasSubstr("is no checkpoint")));
 }
 
 TEST(Checkpoint, NumbersThatAreNotThereAreNamed) {

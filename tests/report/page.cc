@@ -155,5 +155,15 @@ TEST(Page, OfAFailedRunItShowsTheStepsBeforeTheFailure) {
   EXPECT_THAT(result["remarks"][0].get<std::string>(), HasSubstr("did not finish"));
 }
 
+TEST(Page, SaysWhichTablesOfACompleteRunHaveGone) {
+  ResultFolder run(quick);
+  std::filesystem::remove(run.path() / "history.csv");
+  write_page({run.path()}, run.path() / "report.html");
+  const auto result = results_in(run.content("report.html"))[0];
+  ASSERT_EQ(result["remarks"].size(), 1u) << result["remarks"];
+  EXPECT_THAT(result["remarks"][0].get<std::string>(),
+              HasSubstr("history.csv is missing, and had"));
+}
+
 }  // namespace
 }  // namespace tourmaline::report

@@ -101,5 +101,14 @@ TEST(Variation, AKeyIsVariedOnce) {
       ThrowsMessage<CaseError>(HasSubstr("--vary a=3: this key is varied twice")));
 }
 
+TEST(Variation, AVariedKeyIsNotSetToo) {
+  require_not_set(read_variations({"a.b=1,2"}), {"a=3", "b=4"});
+  EXPECT_THAT(
+      [] {
+        require_not_set(read_variations({"a.b=1,2"}), {"c=1", "a.b =3"});
+      },
+      ThrowsMessage<CaseError>(HasSubstr("--set a.b =3: this key is varied")));
+}
+
 }  // namespace
 }  // namespace tourmaline::sweep
