@@ -23,9 +23,10 @@ find_package(deal.II 9.4 REQUIRED HINTS /usr)
 if(NOT TARGET ${DEAL_II_TARGET_RELEASE})  # 9.4 leaves that to its users, 9.6 does it
   include(${DEAL_II_TARGET_CONFIG})
 endif()
-# Not every release lists where its headers look for those of Trilinos (Kokkos among them).
+# Not every release lists where its headers look for those of Trilinos (Kokkos among them) and PETSc (index_set.h).
 find_path(TRILINOS_INCLUDE Teuchos_config.h PATH_SUFFIXES trilinos REQUIRED)
-set(dealii_headers ${DEAL_II_INCLUDE_DIRS} ${TRILINOS_INCLUDE} ${MPI_C_INCLUDE_DIRS})
+find_path(PETSC_INCLUDE petscis.h PATH_SUFFIXES petsc REQUIRED)
+set(dealii_headers ${DEAL_II_INCLUDE_DIRS} ${TRILINOS_INCLUDE} ${PETSC_INCLUDE} ${MPI_C_INCLUDE_DIRS})
 list(REMOVE_DUPLICATES dealii_headers)
 list(REMOVE_ITEM dealii_headers /usr/include)
 add_library(part::dealii INTERFACE IMPORTED)

@@ -1,13 +1,15 @@
 # Two packages: tourmaline and libtourmaline-dev.
 set(maintainer "Tourmaline maintainers <maintainers@tourmaline.invalid>")
-set(revision 1)
+# Every release has libraries of its own, so packages built on several are several versions: 1~debian12 < 1~debian13.
+cmake_host_system_information(RESULT system QUERY DISTRIB_INFO)
+set(revision 1~${system_ID}${system_VERSION_ID})
 
 # What Debian's policy wants beside every package: copyright, and both changelogs compressed.
 string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
 file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/changelog.Debian
-"tourmaline (${PROJECT_VERSION}-${revision}) bookworm; urgency=medium
+"tourmaline (${PROJECT_VERSION}-${revision}) ${system_VERSION_CODENAME}; urgency=medium
 
-  * Built for Debian 12; changelog.gz lists the changes.
+  * Built for ${system_PRETTY_NAME}; changelog.gz lists the changes.
 
  -- ${maintainer}  ${date}
 ")

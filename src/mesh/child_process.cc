@@ -83,8 +83,10 @@ void keep_only(int pipe) {
   close_range(pipe_of_child + 1, ~0U, 0);
 }
 
+// An exception that nobody expected ends the child: beyond here stands what the parent goes on
+// with.
 [[noreturn]] void be_child(int pipe, pid_t parent, const std::function<std::string()> &work,
-                           const Limits &limits) {
+                           const Limits &limits) noexcept {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent)
     _exit(1);

@@ -39,6 +39,8 @@ class Session {
     confined_ = confined;
     gmsh::initialize(0, nullptr, false);  // no settings of the user's own: same case, same mesh
     gmsh::option::setNumber("General.Terminal", 0);
+    // Newer ones than 4.8 throw at the first error, where what was said before it may be the cause.
+    gmsh::option::setNumber("General.AbortOnError", 0);
     gmsh::logger::start();
   }
   ~Session() {

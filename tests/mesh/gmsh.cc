@@ -404,12 +404,16 @@ Curve Loop(2) = {6, 7, 8}; Plane Surface(2) = {2}; Physical Surface("more") = {2
               HasSubstr("falls into pieces"));
 }
 
-// On these libgmsh 4.8 crashes; they were found by `./dev fuzz`.
+// On these libgmsh 4.8 crashes, and 4.13 does not; they were found by `./dev fuzz`.
 TEST_F(MeshFiles, ThatCrashLibgmshAreErrorsAsOthers) {
   for (const char *name : {"damaged-1.msh", "damaged-2.msh", "damaged-3.msh"}) {
     casefile::MeshCase asked;
     asked.file = std::string(TOURMALINE_SOURCE_DIR) + "/fuzz/seeds/mesh_file/" + name;
-    EXPECT_THAT(complaint(asked), HasSubstr("cannot be read, it may be damaged")) << name;
+    EXPECT_THAT(
+        complaint(asked),
+        testing::AnyOf(HasSubstr("cannot be read, it may be damaged"), HasSubstr("is not UTF-8"),
+                       HasSubstr("lists a facet at (1, 1, 0) that no cell")))
+        << name;
   }
 }
 

@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <stdexcept>
 #include <thread>
 
 #include "../../src/mesh/child_process.h"
@@ -199,6 +200,17 @@ TEST(ChildProcess, EndingsAreToldApart) {
             }),
             "crashed");
   EXPECT_EQ(in_child([]() -> std::string { throw CaseError("wrong"); }), "wrong");
+}
+
+// In the child it would come out of `in_child`, into what its parent goes on with.
+TEST(ChildProcess, NoExceptionComesOutOfTheChild) {
+  std::string ending;
+  try {
+    ending = in_child([]() -> std::string { throw std::runtime_error("that nobody expects"); });
+  } catch (const std::runtime_error &) {
+    _exit(0);
+  }
+  EXPECT_EQ(ending, "crashed");
 }
 
 TEST(ChildProcess, GrandchildrenThatHoldThePipeAreNotWaitedFor) {

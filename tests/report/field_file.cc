@@ -19,11 +19,11 @@ using output::PointFields;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-const FieldArray &array(const FieldFile &file, const std::string &name) {
+const FieldArray &array(const FieldFile &file, std::string_view name) {
   for (const FieldArray &a : file.arrays)
     if (a.name == name)
       return a;
-  throw std::runtime_error("no array " + name);
+  throw std::runtime_error("no array " + std::string(name));
 }
 
 class FieldFiles : public testing::Test {
