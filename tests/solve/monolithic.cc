@@ -234,6 +234,13 @@ TEST(PiecewiseConstantMultipliers, BearTheBoundAsFrictionWhereAllSlips) {
   for (const double traction : contact.numbers("tangential_traction_y"))
     EXPECT_NEAR(std::abs(traction), 15, 1e-8);
   EXPECT_NEAR(std::abs(run.history().numbers("contact_force_y").back()), 15 * 0.1, 1e-9);
+  // All slip to the same side, so the work is the bound's on the mean slip: nodes of 8 equal
+  // facets.
+  const std::vector<double> rates = contact.numbers("slip_rate");
+  double work = 0;  // of the last step's 9 nodes
+  for (std::size_t i = rates.size() - 9; i < rates.size(); ++i)
+    work += 15 * 0.1 / 8 * rates[i] * (i == rates.size() - 9 || i + 1 == rates.size() ? 0.5 : 1);
+  EXPECT_NEAR(run.history().numbers("friction_dissipation").back(), work, 1e-9 * work);
 }
 
 TEST(PiecewiseConstantMultipliers, AreRefusedWhereThereAreMoreThanDisplacements) {
