@@ -12,7 +12,7 @@ struct Limits {
   double seconds = std::numeric_limits<double>::infinity();  ///< by the clock
   /// without any work of a processor: it waits for what does not come
   double idle_seconds = std::numeric_limits<double>::infinity();
-  double bytes = std::numeric_limits<double>::infinity();    ///< of memory, beyond this process's
+  double bytes = std::numeric_limits<double>::infinity();  ///< of memory, beyond this process's
 };
 
 /// How a child process ended that did not finish its work.
