@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "output/atomic_file.h"
 #include "output/checkpoint.h"
 #include "output/folder_lock.h"
+#include "output/growing_table.h"
 #include "output/pvd.h"
 #include "output/records.h"
 #include "output/summary.h"
@@ -24,7 +24,8 @@ struct Piece {
   int number = 0, count = 1;
 };
 
-/// Throws MachineError where files are missing, or too short, on which a checkpoint there counts.
+/// Throws MachineError where files on which a checkpoint there counts are missing, too short, or of
+/// the tables not what was written.
 void require_position(const std::filesystem::path &directory, const FolderPosition &position);
 
 /// What stands in summary.json of the files of a complete run: the bytes of each table and of
@@ -104,7 +105,7 @@ class ResultFolder {
   OptionalArrays optional_;
   std::vector<PvdEntry> series_;
   std::vector<std::string> unsynced_;  // field files since the last checkpoint
-  std::unique_ptr<AtomicFile> contact_, history_;
+  std::optional<GrowingTable> contact_, history_;
   std::string history_header_;
 };
 
