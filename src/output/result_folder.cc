@@ -129,6 +129,15 @@ std::map<std::string, std::uint64_t> file_sizes(const fs::path &directory) {
   return sizes;
 }
 
+std::vector<std::string> field_files(int step, int pieces) {
+  std::vector<std::string> names;
+  for (int i = 0; i < pieces; ++i)
+    names.push_back(piece_name(step, i, pieces));
+  if (pieces > 1)
+    names.push_back(fmt::format("result_{:04}.pvtu", step));
+  return names;
+}
+
 ResultFolder::ResultFolder(fs::path directory, int dimension, Piece piece,
                            std::unique_ptr<FolderLock> lock)
     : directory_(std::move(directory)),
@@ -189,18 +198,12 @@ void ResultFolder::put_fields(int step, double time, const Grid &grid, const Poi
 }
 
 void ResultFolder::list_fields(int step, double time) {
-  std::string name = piece_name(step, 0, 1);
-  if (piece_.count > 1) {
-    std::vector<std::string> pieces;
-    pieces.reserve(piece_.count);
-    for (int i = 0; i < piece_.count; ++i)
-      pieces.push_back(piece_name(step, i, piece_.count));
-    unsynced_.insert(unsynced_.end(), pieces.begin(), pieces.end());
-    name = fmt::format("result_{:04}.pvtu", step);
-    write_file(directory_ / name, pvtu_text(time, pieces, optional_));
-  }
-  series_.push_back({time, name});
-  unsynced_.push_back(name);
+  const std::vector<std::string> names = field_files(step, piece_.count);
+  if (piece_.count > 1)
+    write_file(directory_ / names.back(),
+               pvtu_text(time, {names.begin(), names.end() - 1}, optional_));
+  unsynced_.insert(unsynced_.end(), names.begin(), names.end());
+  series_.push_back({time, names.back()});
   write_file(directory_ / "result.pvd", pvd_text(series_));
 }
 

@@ -11,6 +11,7 @@
 #include "case/resolved.h"
 #include "output/result_folder.h"
 #include "parallel/ranks.h"
+#include "run/schedule.h"
 #include "run/versions.h"
 #include "tourmaline/error.h"
 
@@ -132,19 +133,85 @@ void require_same_program(const output::Checkpoint &checkpoint, const fs::path &
         directory.string(), checkpoint.program, program_version()));
 }
 
-// Field files may have been taken away to make room, unless the page is still to be made of them.
-void require_whole(const nlohmann::json &summary, const fs::path &directory, bool with_fields) {
-  const auto sizes = output::file_sizes(directory);
-  const nlohmann::json files = summary.value("files", nlohmann::json::object());
+constexpr const char *fields = "result_*";  // all field files, among the summary's files
+
+int ranks_of(const nlohmann::json &summary) {
+  const auto sizes = summary.value("sizes", nlohmann::json::object());
+  return sizes.is_object() && sizes.contains("ranks") && sizes["ranks"].is_number_integer()
+             ? sizes["ranks"].get<int>()
+             : 1;
+}
+
+std::vector<std::string> missing_fields(const casefile::Case &asked, int ranks,
+                                        const fs::path &directory) {
+  std::vector<std::string> missing;
+  const auto look_for = [&](const std::string &name) {
+    if (std::error_code error; !fs::exists(directory / name, error))
+      missing.push_back(name);
+  };
+  for (int n = 0; n <= asked.time.steps; ++n)
+    if (writes_fields(asked, n))
+      for (const std::string &name : output::field_files(n, ranks))
+        look_for(name);
+  look_for("result.pvd");
+  return missing;
+}
+
+// "a, b and c", and of many "a, b, c, d and 96 more"
+std::string list_of(const std::vector<std::string> &names) {
+  constexpr std::size_t most = 4;
+  const std::size_t told = names.size() <= most ? names.size() - 1 : most;
+  std::string text = names.front();
+  for (std::size_t i = 1; i < told; ++i)
+    text += ", " + names[i];
+  if (names.size() == 1)
+    return text;
+  return text + " and " +
+         (names.size() <= most ? names.back() : fmt::format("{} more", names.size() - most));
+}
+
+// "" where all is there.
+std::string trouble_with_fields(const casefile::Case &asked, const nlohmann::json &summary,
+                                std::uint64_t there, const fs::path &directory) {
+  const auto missing = missing_fields(asked, ranks_of(summary), directory);
+  if (!missing.empty())
+    return fmt::format("{} of the complete run in {} {} missing", list_of(missing),
+                       directory.string(), missing.size() == 1 ? "is" : "are");
+  const auto &bytes = summary["files"][fields];
+  return bytes == there ? ""
+                        : fmt::format(
+                              "the field files of the complete run in {} have {} bytes, "
+                              "and should have {}",
+                              directory.string(), there, bytes.dump());
+}
+
+void require_tables(const nlohmann::json &files, const std::map<std::string, std::uint64_t> &sizes,
+                    const fs::path &directory) {
   for (const auto &[name, bytes] : files.items()) {
     const auto found = sizes.find(name);
-    if ((with_fields || name != "result_*") && (found == sizes.end() || bytes != found->second))
+    if (name != fields && (found == sizes.end() || bytes != found->second))
       throw MachineError(fmt::format(
           "{} of the complete run in {} {}, and should have {} bytes; start again without --resume",
           name, directory.string(),
           found == sizes.end() ? "is missing" : fmt::format("has {} bytes", found->second),
           bytes.dump()));
   }
+}
+
+// Field files may have been taken away to make room, unless the page is still to be made of them.
+void require_whole(const casefile::Case &asked, const nlohmann::json &summary,
+                   const fs::path &directory, Resumption &found) {
+  auto sizes = output::file_sizes(directory);
+  const nlohmann::json files = summary.value("files", nlohmann::json::object());
+  require_tables(files, sizes, directory);
+  if (!files.contains(fields))
+    return;
+  const std::string trouble = trouble_with_fields(asked, summary, sizes[fields], directory);
+  if (!trouble.empty() && !found.has_report)
+    throw MachineError(trouble +
+                       ", and its page is to be made of them; start again without --resume");
+  if (!trouble.empty())
+    found.warning = trouble + "; without --resume it is run again";
 }
 
 }  // namespace
@@ -188,7 +255,7 @@ Resumption resumption(const casefile::Case &asked, const fs::path &directory,
                  inputs_of(asked, friction_name), directory);
     found.has_all_steps = true;
     found.has_report = !asked.output.report || fs::exists(directory / "report.html");
-    require_whole(summary, directory, !found.has_report);
+    require_whole(asked, summary, directory, found);
   } else if (const fs::path file = directory / output::checkpoint_name; fs::exists(file)) {
     found.checkpoint = output::read_checkpoint(file);
     require_same_program(*found.checkpoint, directory);
