@@ -46,6 +46,16 @@ TEST_F(Interrupted, ThePapersCaseGoesOn) {
   expect_to_go_on(paper + " --set time.steps=400 --set output.every=70", "150steps");
 }
 
+TEST_F(Interrupted, WhatWasLargestBeforeTheCheckpointIsStillWarnedOf) {
+  expect_to_go_on(paper +
+                      " --set time.steps=1600 --set output.every=700 --set "
+                      "'boundary[1].temperature=\"400*exp(-(t/0.0025 - 2)^2)\"' --set "
+                      "'boundary[2].traction=[0, \"-0.5*t - 4e10*exp(-(t/0.0025 - 2)^2)\"]'",
+                  "45steps");
+  EXPECT_THAT(complained_, AllOf(HasSubstr("the temperature reaches 400 K (step 40, t = 0.005 s)"),
+                                 HasSubstr("strains reach"), HasSubstr("(step 40,")));
+}
+
 TEST_F(Interrupted, TheMonolithicRouteGoesOn) {
   expect_to_go_on(paper + " --set solver.method=monolithic --set contact.friction.bound=0.02");
 }
