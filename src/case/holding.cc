@@ -109,7 +109,7 @@ std::vector<Support> supports_of(const Case &asked) {
             supports.push_back({at.point, {}});
             supports.back().direction[i] = 1;
           }
-  if (asked.contact && asked.contact->normal == "bilateral")
+  if (asked.contact && asked.contact->normal.law == "bilateral")
     for (const std::string &name : asked.contact->on)
       for (const SidePoint &at : points_on(asked.mesh, name))
         supports.push_back({at.point, at.normal});

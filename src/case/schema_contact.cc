@@ -75,7 +75,7 @@ void declare(Visitor &v, ContactCase &contact, const MeshCase &mesh) {
          .choices = {"bilateral"},
          .foreseen = {"unilateral", "signorini", "compliance", "normal_compliance", "damped",
                       "damped_response"}},
-        &contact.normal);
+        &contact.normal.law);
   v.refuse("charge", "not available in this version; no charge crosses the contact boundary");
   v.refuse("electric", "not available in this version; no charge crosses the contact boundary");
   v.refuse("gap", "not available in this version; body and foundation touch at the time 0");

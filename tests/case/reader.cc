@@ -67,7 +67,7 @@ TEST(Reader, ReadsTheContact) {
   const Case c = read();
   ASSERT_TRUE(c.contact);
   EXPECT_EQ(c.contact->on, std::vector<std::string>{"left"});
-  EXPECT_EQ(c.contact->normal, "bilateral");
+  EXPECT_EQ(c.contact->normal.law, "bilateral");
   EXPECT_EQ(c.contact->friction.law, "tresca");
   EXPECT_EQ(c.contact->friction.bound.value({}, 0), 15);
   EXPECT_EQ(c.contact->heat.law, "exchange");
