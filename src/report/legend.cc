@@ -32,7 +32,7 @@ std::string traction_text(const casefile::FormulaVector &components) {
 void add_contact(Conditions &conditions, const casefile::ContactCase &contact,
                  const std::string &friction_name) {
   conditions.kind = "contact";
-  conditions.texts.push_back(contact.normal + " contact");
+  conditions.texts.push_back(contact.normal.law + " contact");
   if (!friction_name.empty())
     conditions.texts.push_back(fmt::format("friction of a program: {}", friction_name));
   else if (contact.friction.law == "none")

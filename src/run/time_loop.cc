@@ -65,8 +65,10 @@ TimeLoop<dim>::TimeLoop(const casefile::Case &asked, const std::filesystem::path
   for (const auto &node : model_.interface)
     model_.friction(
         contact::contact_place(node.point, model_.time(1), Eigen::Matrix<double, dim, 0>{}));
-  if (options.friction)
+  if (options.friction) {
     model_.friction = contact::checked(options.friction, options.friction_name);
+    model_.laws->replace_friction();
+  }
   open_folder(directory, std::move(lock));
   recorder_.emplace(model_, *folder_);
   locking_.emplace(model_);

@@ -48,8 +48,10 @@ class MonolithicRoute : public Route {
  private:
   using Point = contact::MultiplierPoint<dim>;
 
+  std::vector<double> rest_at(double time) const;
   std::vector<AugmentedLagrangian> laws_at(double time, std::span<const double> before,
-                                           std::span<const double> state) const;
+                                           std::span<const double> state,
+                                           std::span<const double> rest) const;
   SaddlePoint prediction(std::span<const double> before, std::span<const double> state) const;
   std::vector<ContactStatus> status(const StepData &data) const;
   void settle(const StepData &data, const std::vector<ContactStatus> &status);
@@ -80,13 +82,25 @@ MonolithicRoute<dim>::MonolithicRoute(const Model<dim> &model)
     area_ += point.weight;
 }
 
+// The contact nodes just touch the foundation.
+template <int dim>
+std::vector<double> MonolithicRoute<dim>::rest_at(double time) const {
+  std::vector<double> rest(model_.n_unknowns(), 0.);
+  for (const contact::InterfaceNode<dim> &at : model_.interface)
+    for (int c = 0; c < dim; ++c)
+      rest[body::unknown<dim>(at.node, c)] = model_.reach(at, time) * at.normal[c];
+  return rest;
+}
+
 // r_nu and r = r_tau / k as given, or else the stiffness of a body as large as the contact
 // boundary: that of a node at the point, E / h, times h / L. With the stiffness of the node itself
 // a slip that turns back in the iteration jumps to the opposite slip, and Newton's method cycles
 // more often.
 template <int dim>
-std::vector<AugmentedLagrangian> MonolithicRoute<dim>::laws_at(
-    double time, std::span<const double> before, std::span<const double> state) const {
+std::vector<AugmentedLagrangian> MonolithicRoute<dim>::laws_at(double time,
+                                                               std::span<const double> before,
+                                                               std::span<const double> state,
+                                                               std::span<const double> rest) const {
   const casefile::SolverCase &solver = model_.asked.solver;
   std::vector<AugmentedLagrangian> laws;
   for (std::size_t p = 0; p < system_.points().size(); ++p) {
@@ -97,7 +111,7 @@ std::vector<AugmentedLagrangian> MonolithicRoute<dim>::laws_at(
     law.r_normal = solver.r_normal.value_or(r);
     law.r_slip = solver.r_tangential ? *solver.r_tangential / model_.step : r;
     law.friction = {model_.friction(contact::contact_place(point.place, time, point.tangent())),
-                    point.held_slip(state, before)};
+                    point.held_slip(state, before, rest)};
   }
   return laws;
 }
@@ -115,8 +129,11 @@ SaddlePoint MonolithicRoute<dim>::prediction(std::span<const double> before,
 template <int dim>
 StepOutcome MonolithicRoute<dim>::advance(double time, std::span<const double> right_side,
                                           std::span<const double> before, std::span<double> state) {
-  const std::vector<AugmentedLagrangian> laws = laws_at(time, before, state);
-  const StepData data{right_side, before, laws};
+  std::vector<double> storage;
+  const std::span<const double> carried = model_.carried(before, time, storage);
+  const std::vector<double> rest = rest_at(time);
+  const std::vector<AugmentedLagrangian> laws = laws_at(time, carried, state, rest);
+  const StepData data{right_side, carried, rest, laws};
   SaddleNewton<dim> newton(system_, data, prediction(before, state));
   if (!newton.solve({model_.asked.solver.tolerance, model_.asked.solver.max_iterations}))
     give_up(time, newton);
@@ -160,7 +177,7 @@ template <int dim>
 std::vector<ContactStatus> MonolithicRoute<dim>::status(const StepData &data) const {
   std::vector<ContactStatus> status(model_.interface.size(), ContactStatus::stick);
   for (std::size_t p = 0; p < data.laws.size(); ++p)
-    if (data.laws[p].status(system_.displacement(p, x_, data.before), system_.multiplier(p, x_)) ==
+    if (data.laws[p].status(system_.displacement(p, x_, data), system_.multiplier(p, x_)) ==
         ContactStatus::slip)
       for (const auto &share : system_.points()[p].mean)
         status[interface_index(share.node)] = ContactStatus::slip;
@@ -172,7 +189,7 @@ std::vector<ContactStatus> MonolithicRoute<dim>::status(const StepData &data) co
 template <int dim>
 void MonolithicRoute<dim>::settle(const StepData &data, const std::vector<ContactStatus> &status) {
   for (std::size_t p = 0; p < data.laws.size(); ++p) {
-    Local off = system_.displacement(p, x_, data.before);
+    Local off = system_.displacement(p, x_, data);
     if (status[p] == ContactStatus::slip)
       off.tail(off.size() - (data.laws[p].has_normal ? 1 : 0)).setZero();
     const typename Point::Vector correction = system_.points()[p].directions * off;
@@ -193,7 +210,7 @@ VectorXd MonolithicRoute<dim>::holding_forces(const StepData &data) const {
     const Point &point = system_.points()[p];
     const Local traction =
         data.laws[p]
-            .gradient(system_.displacement(p, x_, data.before), system_.multiplier(p, x_))
+            .gradient(system_.displacement(p, x_, data), system_.multiplier(p, x_))
             .traction;
     for (const auto &share : point.mean)
       forces.template segment<dim>(dim * static_cast<Index>(interface_index(share.node))) -=
@@ -216,7 +233,7 @@ contact::Tangent MonolithicRoute<dim>::whole_friction(const StepData &data, std:
                                                       const VectorXd &holding) const {
   const Point &point = system_.points()[p];
   const AugmentedLagrangian &law = data.laws[p];
-  const Local y = system_.displacement(p, x_, data.before), lambda = system_.multiplier(p, x_);
+  const Local y = system_.displacement(p, x_, data), lambda = system_.multiplier(p, x_);
   contact::Tangent slip = y.tail(y.size() - point.has_normal);
   if (law.status(y, lambda) == ContactStatus::stick)
     slip.setZero();

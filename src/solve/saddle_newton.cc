@@ -47,7 +47,7 @@ const char *Verdict::worst_name() const {
 template <int dim>
 SaddleNewton<dim>::SaddleNewton(SaddleSystem<dim> &system, const StepData &data,
                                 SaddlePoint prediction)
-    : system_(system), data_(data), x_(std::move(prediction)), zero_(x_.body.size(), 0.) {}
+    : system_(system), data_(data), x_(std::move(prediction)) {}
 
 template <int dim>
 bool SaddleNewton<dim>::solve(const SaddleSettings &settings) {
@@ -101,7 +101,7 @@ void SaddleNewton<dim>::correct(const SaddlePoint &increment, double length) {
 template <int dim>
 void SaddleNewton<dim>::multiplier_step(const SaddleSettings &settings) {
   const std::vector<AugmentedLagrangian> laws = laws_with_held_friction();
-  const StepData held{data_.right_side, data_.before, laws};
+  const StepData held{data_.right_side, data_.before, data_.rest, laws};
   while (judge(held).without_law() > settings.tolerance && iterations_ < settings.max_iterations) {
     const SaddlePoint residual = system_.residual(held, x_);
     const SaddlePoint newton_direction = direction(held, residual);
@@ -109,8 +109,7 @@ void SaddleNewton<dim>::multiplier_step(const SaddleSettings &settings) {
   }
   for (std::size_t p = 0; p < laws.size(); ++p) {
     Local lambda = system_.multiplier(p, x_);
-    const Tangent moved =
-        laws[p].friction_traction(system_.displacement(p, x_, data_.before), lambda);
+    const Tangent moved = laws[p].friction_traction(system_.displacement(p, x_, data_), lambda);
     lambda.tail(moved.size()) = moved;
     system_.set_multiplier(p, lambda, x_);
   }
@@ -153,8 +152,8 @@ double SaddleNewton<dim>::friction_power(const StepData &data, const SaddlePoint
                                          double length) const {
   double sum = 0;
   for (std::size_t p = 0; p < data.laws.size(); ++p) {
-    const Local change = system_.displacement(p, direction, zero_);
-    const Local y = system_.displacement(p, x_, data.before) + length * change;
+    const Local change = system_.change(p, direction);
+    const Local y = system_.displacement(p, x_, data) + length * change;
     const Tangent traction = data.laws[p].friction_traction(y, system_.multiplier(p, x_));
     sum += system_.points()[p].weight * traction.dot(change.tail(traction.size()));
   }
@@ -167,7 +166,7 @@ double SaddleNewton<dim>::law_residual(std::size_t point) const {
   natural.r_slip = system_.stiffness_at(point);
   const Local lambda = system_.multiplier(point, x_);
   const Tangent projected =
-      natural.friction_traction(system_.displacement(point, x_, data_.before), lambda);
+      natural.friction_traction(system_.displacement(point, x_, data_), lambda);
   return system_.points()[point].weight * (projected - lambda.tail(projected.size())).norm();
 }
 
@@ -182,7 +181,7 @@ Verdict SaddleNewton<dim>::judge(const StepData &data) const {
   double gap = 0, law = 0;
   for (std::size_t p = 0; p < data.laws.size(); ++p) {
     if (data.laws[p].has_normal)
-      gap = larger(gap, std::abs(system_.displacement(p, x_, data.before)[0]));
+      gap = larger(gap, std::abs(system_.displacement(p, x_, data)[0]));
     law = larger(law, law_residual(p));
   }
   verdict.blocks[3] = relative_to(gap, system_.largest_displacement(x_));

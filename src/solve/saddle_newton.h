@@ -60,7 +60,6 @@ class SaddleNewton {
   SaddleSystem<dim> &system_;
   const StepData data_;
   SaddlePoint x_;
-  const std::vector<double> zero_;  // no state at all
   int iterations_ = 0;
 };
 

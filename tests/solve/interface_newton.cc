@@ -41,7 +41,7 @@ TEST(InterfaceNewton, FindsItWhereConditionsMoveSomePointsAlongTheFoundation) {
       ASSERT_TRUE(s.converged) << "programme " << k << ", residual " << s.residual;
       ASSERT_LT(violation(p, s.increment), 1e-9) << "programme " << k;
       for (std::size_t i = 0; i < p.points.size(); ++i)
-        if (!p.points[i].friction.held().isZero(0)) {
+        if (!p.points[i].law.held().isZero(0)) {
           EXPECT_EQ(s.status[i], ContactStatus::slip);
         }
       most = std::max(most, s.iterations);

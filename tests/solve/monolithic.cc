@@ -345,7 +345,7 @@ void expect_tangent_is_the_derivative(const char *text, bool facets) {
   std::vector<AugmentedLagrangian> laws(system.points().size(), point(3));
   for (AugmentedLagrangian &law : laws)
     law.r_normal = law.r_slip = 1e12;
-  const StepData data{zero, zero, laws};
+  const StepData data{zero, zero, zero, laws};
   const SaddlePoint x = draw(1e-12, 2);
   system.factorise(data, x);
   const double force = 1e-4, condition = 1e-17;
