@@ -22,4 +22,8 @@ double Damped::potential(double delta) const {
   return layer_.potential(delta - before_);
 }
 
+double Damped::dissipated(double delta) const {
+  return pressure_at(delta) * (delta - before_);
+}
+
 }  // namespace tourmaline::contact

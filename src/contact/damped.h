@@ -21,6 +21,7 @@ class Damped : public NormalLaw {
   double stiffness_at(double delta) const override;
   bool has_kink() const override { return false; }
   double potential(double delta) const override;
+  double dissipated(double delta) const override;
 
  private:
   Compliance layer_;  // in what delta exceeds `before_`

@@ -23,10 +23,11 @@ class NormalLaw {
   /// Whether the relation has a vertical part, which then stands at delta = 0.
   virtual bool has_kink() const = 0;
 
-  /// The potential of p [J/m^2], infinite where the body cannot be; the part of the work done on
-  /// the foundation that it gives back.
+  /// The potential of p [J/m^2], infinite where the body cannot be. Of the work done on the
+  /// foundation, what it holds then and gives back; and what it has dissipated in this step.
   virtual double potential(double delta) const = 0;
   virtual double stored(double /*delta*/) const { return 0; }
+  virtual double dissipated(double /*delta*/) const { return 0; }
 
   /// Whether the trial value is that of a point that touches.
   virtual bool is_closed(double trial) const { return trial >= 0; }

@@ -235,7 +235,8 @@ void ResultFolder::list_fields(int step, double time) {
 
 void ResultFolder::put_contact(int step, double time, std::span<const ContactRow> rows) {
   if (!contact_)
-    contact_ = begin_table(directory_ / "contact.csv", contact_header(dimension_));
+    contact_ = begin_table(directory_ / "contact.csv",
+                           contact_header(dimension_, rows.empty() ? ContactRow{} : rows.front()));
   contact_->append(contact_lines(dimension_, step, time, rows));
 }
 

@@ -34,8 +34,8 @@ void share(StepOutcome &outcome) {
                               static_cast<double>(outcome.stage)};
   for (const auto status : outcome.status)
     numbers.push_back(static_cast<double>(status));
-  for (const VectorXd &by_node :
-       {outcome.contact_forces, outcome.friction_forces, outcome.accumulated_slip})
+  for (const VectorXd &by_node : {outcome.contact_forces, outcome.friction_forces,
+                                  outcome.friction_bound, outcome.accumulated_slip})
     numbers.insert(numbers.end(), by_node.begin(), by_node.end());
   parallel::from_first(std::span<double>(numbers));
   outcome.newton_iterations = static_cast<int>(numbers[0]);
@@ -44,8 +44,8 @@ void share(StepOutcome &outcome) {
   const double *next = &numbers[3];
   for (auto &status : outcome.status)
     status = static_cast<ContactStatus>(*next++);
-  for (VectorXd *by_node :
-       {&outcome.contact_forces, &outcome.friction_forces, &outcome.accumulated_slip}) {
+  for (VectorXd *by_node : {&outcome.contact_forces, &outcome.friction_forces,
+                            &outcome.friction_bound, &outcome.accumulated_slip}) {
     std::copy_n(next, by_node->size(), by_node->begin());
     next += by_node->size();
   }
@@ -215,8 +215,11 @@ StepOutcome CondensedRoute<dim>::solve(double time, std::span<const double> righ
   if (!model_.interface.empty()) {
     outcome.contact_forces = outcome.friction_forces = VectorXd::Zero(s.size());
     outcome.status.resize(model_.interface.size());
+    const auto n_nodes = static_cast<Index>(model_.interface.size());
+    if (contact_->is_coupled())
+      outcome.friction_bound = VectorXd::Zero(n_nodes);
     if (model_.laws->remembers_slip())
-      outcome.accumulated_slip = VectorXd::Zero(static_cast<Index>(model_.interface.size()));
+      outcome.accumulated_slip = VectorXd::Zero(n_nodes);
     parallel::on_first([&] { advance_contact(time, s, before, state, c, outcome); });
     share(outcome);
   }

@@ -183,6 +183,11 @@ void ContactNodes<dim>::end_step(const CoupledSolution &solution, StepOutcome &o
       slipped_[static_cast<Index>(i)] += std::hypot(
           solution.interface.increment.segment(p.offset, p.size).norm(), p.law.held().norm());
   }
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    if (nodes_[i].coupling != none)
+      if (const auto *ball =
+              std::get_if<contact::Tresca>(&solution.friction[nodes_[i].coupling].law()))
+        outcome.friction_bound[static_cast<Index>(i)] = ball->bound;
   if (model_.laws->remembers_slip())
     outcome.accumulated_slip = slipped_;
 }

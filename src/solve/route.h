@@ -33,8 +33,9 @@ struct StepOutcome {
   Eigen::VectorXd contact_forces;
   Eigen::VectorXd friction_forces;    ///< the part of them that opposes the slip [N]
   std::vector<ContactStatus> status;  ///< by interface node
-  /// by interface node, over all steps [m]; empty where no law depends on it
-  Eigen::VectorXd accumulated_slip;
+  /// by interface node, where friction depends on the pressure; else empty
+  Eigen::VectorXd friction_bound;    ///< [N/m^2]
+  Eigen::VectorXd accumulated_slip;  ///< over all steps [m]; empty, too, where no law depends on it
 };
 
 /// What a route did to get ready, and how well it solves.
