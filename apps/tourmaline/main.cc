@@ -13,6 +13,7 @@
 #include "case/nearest.h"
 #include "case/reference.h"
 #include "case/resolved.h"
+#include "case/snapping.h"
 #include "material/description.h"
 #include "output/folder_lock.h"
 #include "parallel/ranks.h"
@@ -64,6 +65,8 @@ void check(const Asked &asked) {
   const auto read = case_of(asked);
   tourmaline::run::check(read);
   std::cout << tourmaline::casefile::resolved(read) << tourmaline::run::survey(read);
+  if (const std::string warning = tourmaline::casefile::snapping_warning(read); !warning.empty())
+    std::cout << "\n# warning: " << warning << "\n";
 }
 
 void materials(const Asked &asked) {

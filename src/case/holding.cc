@@ -116,6 +116,18 @@ std::vector<Support> supports_of(const Case &asked) {
   return supports;
 }
 
+// What the contact does for the holding, in brackets.
+std::string words_of_contact(const std::optional<ContactCase> &contact) {
+  if (!contact)
+    return "";
+  const std::string &law = contact->normal.law;
+  return law == "bilateral" ? " (bilateral contact holds only the normal one)"
+                            : fmt::format(
+                                  " ({} contact, which may open, holds no body by itself; nor does "
+                                  "friction)",
+                                  law);
+}
+
 std::string listed(const std::vector<std::string> &texts) {
   std::string all;
   for (std::size_t i = 0; i < texts.size(); ++i)
@@ -154,8 +166,7 @@ void check_holding(const Case &asked) {
     throw CaseError(fmt::format(
         "{} [[boundary]]: nothing holds the body against {}; prescribe further components of "
         "`displacement`{}",
-        asked.source, listed(free),
-        asked.contact ? " (bilateral contact holds only the normal one)" : ""));
+        asked.source, listed(free), words_of_contact(asked.contact)));
 }
 
 }  // namespace tourmaline::casefile

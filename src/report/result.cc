@@ -84,10 +84,11 @@ void read_tables(Result &result, const fs::path &folder) {
   remark_on_lost_tables(result, folder);
 }
 
-// Tresca's; what the page draws of another law is evaluated here too.
+// Tresca's, which is known without the run; what the page draws of another law is evaluated here
+// too.
 void evaluate_friction_bound(Result &result) {
   if (!result.asked || !result.asked->contact || !result.contact || !result.friction_name.empty() ||
-      result.asked->contact->friction.law == "none")
+      result.asked->contact->friction.law != "tresca")
     return;
   const std::vector<double> *time = result.contact->find("time"), *x = result.contact->find("x"),
                             *y = result.contact->find("y"), *z = result.contact->find("z");

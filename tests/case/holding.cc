@@ -84,6 +84,17 @@ TEST(Holding, BilateralContactHoldsTheNormalDirectionOnly) {
   EXPECT_EQ(error_in(example, {"boundary[0].displacement=['free',0]"}), "no error");
 }
 
+TEST(Holding, ContactThatMayOpenHoldsNothing) {
+  for (const std::string law : {"unilateral", "compliance", "damped"}) {
+    const std::string constants = law == "unilateral" ? "" : ", coefficient = 1e13";
+    const std::string normal = "contact.normal={law='" + law + "'" + constants + "}";
+    const std::string error = error_in(example, {normal, "boundary[0].displacement=['free',0]"});
+    EXPECT_THAT(error, HasSubstr("against a translation along x and a rotation in the plane;"));
+    EXPECT_THAT(error, HasSubstr(law + " contact, which may open, holds no body by itself"));
+    EXPECT_EQ(error_in(example, {normal}), "no error");
+  }
+}
+
 TEST(Holding, ABoxOnRollersSlidesAndTurnsOnThem) {
   const std::string error = error_in(cube, {"boundary[0].displacement=['free','free',0]"});
   EXPECT_THAT(error, HasSubstr("a translation along x, a translation along y and a rotation about "
