@@ -13,6 +13,7 @@
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 using tourmaline::output::content_of;
 
 const std::string good_case = R"(title = "a square in contact"
@@ -266,6 +267,17 @@ TEST_F(Program, CheckSaysWhichCouplingsAMaterialHas) {
                         "not pyroelectric, without thermal expansion\n"));
   ASSERT_EQ(run("check case.toml --set material.d33=3e-11"), 2);
   EXPECT_THAT(complained_, HasSubstr("piezoelectric constants d31, d15 (d33 is given"));
+}
+
+TEST_F(Program, CheckWarnsOfFrictionThatFallsWithSlip) {
+  std::ofstream(here() / "case.toml") << good_case_with(
+      "law = \"tresca\", bound = 15",
+      "law = \"coulomb\", coefficient = { static = 0.4, kinetic = 0.2, distance = 1e-6 }");
+  ASSERT_EQ(run("check case.toml"), 0) << complained_;
+  EXPECT_THAT(said_, HasSubstr("# warning: "));
+  EXPECT_THAT(said_, HasSubstr("static = 0.4 is above kinetic = 0.2"));
+  ASSERT_EQ(run("check case.toml --set contact.friction.coefficient=0.4"), 0) << complained_;
+  EXPECT_THAT(said_, Not(HasSubstr("falls as the contact slips")));
 }
 
 TEST_F(Program, CheckWritesNoFiles) {
