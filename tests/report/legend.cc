@@ -46,6 +46,42 @@ TEST(Legend, ContactNamesItsLawsAndStaysContactBesideAPotential) {
                                             "insulated, q·ν = 0", "φ = 0 V"));
 }
 
+TEST(Legend, ContactNamesTheConstantsOfItsLaws) {
+  casefile::Case asked;
+  asked.contact.emplace();
+  asked.contact->on = {"left"};
+  asked.contact->gap = Formula("1e-6*y");
+  asked.contact->foundation_displacement = {Formula(0.), Formula("t")};
+  asked.contact->normal = {"compliance", Formula(1e13), 1.5};
+  asked.contact->friction.law = "coulomb";
+  asked.contact->friction.cohesion = Formula(2.);
+  asked.contact->friction.limit = Formula(30.);
+  casefile::FrictionCoefficientCase &mu = asked.contact->friction.coefficient;
+  mu.at_rest = Formula(0.5);
+  mu.kinetic = Formula("0.3 + y");
+  mu.distance = 1e-6;
+  EXPECT_THAT(
+      conditions_on(asked, "left").texts,
+      ElementsAre("compliance, p = c d₊^1.5, c = 10000000000000 N/m^(2+m)", "gap 1e-6*y m",
+                  "foundation moves by (0, t) m",
+                  "Coulomb friction, μ from 0.5 to 0.3 + y over 1e-06 m, cohesion 2 N/m², at most "
+                  "30 N/m²",
+                  "insulated, q·ν = 0"));
+}
+
+TEST(Legend, ContactNamesItsNormalLaw) {
+  casefile::Case asked;
+  asked.contact.emplace();
+  asked.contact->on = {"left"};
+  asked.contact->normal.law = "unilateral";
+  asked.contact->friction.law = "coulomb";
+  asked.contact->friction.coefficient.value = Formula(0.3);
+  EXPECT_THAT(conditions_on(asked, "left").texts,
+              ElementsAre("unilateral contact", "Coulomb friction, μ = 0.3", "insulated, q·ν = 0"));
+  asked.contact->normal = {"damped", Formula(1e9)};
+  EXPECT_EQ(conditions_on(asked, "left").texts[0], "damped contact, c = 1000000000 N s/m³");
+}
+
 TEST(Legend, LawsOfAProgramStandInstead) {
   casefile::Case asked;
   asked.contact.emplace();
