@@ -104,7 +104,7 @@ class Run:
             self.solver.solve(x, load)
             full = self.body.K @ x - load
             balance = max(np.max(np.abs(self.turn * full[self.rows] - q)),
-                          np.max(np.abs(full[self.interior][self.interior % 4 < 2]))) / size
+                          np.max(np.abs(full[self.interior][self.interior % 4 < 2]), initial=0)) / size
             p = step.closed_pressure(state, q, closed)
             d = state[n:]
             slid = slid + d
@@ -125,8 +125,7 @@ class Run:
             try:
                 z = random.standard_normal(2 * n) * float(size) * 10 ** random.uniform(-2, 1)
                 found = step.solve(z, frozen=bool(random.integers(2)))[0]
-                q, p = step.SL @ found - step.sL, step.SL @ state - step.sL
-                other += bool(np.max(np.abs(q - p)) > 1e-9 * np.max(np.abs(p)))
+                other += step.distance(found, state) > 1e-9
             except Unsettled:
                 failed += 1
         return {"random_starts": starts, "other_solution": other, "unsettled": failed}
@@ -194,11 +193,22 @@ def main():
     constant = run.coulomb_constant() if case.friction["law"] == "coulomb" else None
     print("asymmetry of S", run.asymmetry, " 1/L", 1 / constant if constant else None)
     if a.result:
-        with open(a.result, "w") as file:
-            json.dump({"title": case.title, "friction_law": case.friction["law"],
-                       "unique_below": 1 / constant if constant else None, "steps": steps, "nodes": nodes,
-                       "largest": largest}, file, indent=0)
-            file.write("\n")
+        write(a.result, {"title": case.title, "friction_law": case.friction["law"],
+                         "unique_below": 1 / constant if constant else None, "steps": steps, "nodes": nodes, "largest": largest})
+
+
+def write(path, result):
+    """JSON, a line for each list of numbers; numbers as short as they can be without losing a bit (up to 17 digits)."""
+    def text(value, indent):
+        if not isinstance(value, (dict, list)) or isinstance(value, list) and not isinstance(value[0], dict):
+            return json.dumps(value)
+        pad = "\n" + " " * (indent + 1)
+        if isinstance(value, list):
+            return "[" + pad + ("," + pad).join(text(v, indent + 1) for v in value) + "]"
+        return "{" + pad + ("," + pad).join(f"{json.dumps(k)}: {text(v, indent + 1)}" for k, v in value.items()) + "}"
+
+    with open(path, "w") as file:
+        file.write(text(result, 0) + "\n")
 
 
 if __name__ == "__main__":

@@ -10,6 +10,10 @@ with q_n = -P, q_t = T+ - T- (the form of Stewart and Trinkle, whose matrix is c
 """
 import numpy as np
 
+# Added to every friction bound, as a share of the largest force: with bounds that are positive where the contact is
+# open, Lemke's path cannot end in a ray (the matrix is copositive). The solution moves by about as much.
+CLEARANCE = 1e-10
+
 
 def leaving(T, c, able, basis):
     """The row of the least ratio; ties are broken lexicographically, so that degenerate pivots cannot cycle."""
@@ -65,13 +69,15 @@ def free_rows(step, closed):
     return np.array(free)
 
 
-def problem(step, closed, side):
+def problem(step, state, closed, side):
     """M, r, and the map from x to all nodal forces, forces in units of `size`, lengths in size/stiffness."""
     n, S, s, w = step.n, step.S, step.s, step.w
     free = free_rows(step, closed)
     rhs = s.copy()
     for i, value in step.held.items():
         rhs -= S[:, i] * value
+    for i in set(range(2 * n)) - set(free) - set(step.held):
+        rhs -= S[:, i] * float(state[i])
     A, F = step.diagonal.mean(), max(np.max(np.abs(rhs[free])), step.size)
     W = np.zeros((2 * n, 2 * n))
     W[np.ix_(free, free)] = np.linalg.inv(S[np.ix_(free, free)] / A)
@@ -93,7 +99,7 @@ def problem(step, closed, side):
     M, r = np.zeros((m, m)), np.zeros(m)
     for j, i in enumerate(t):
         Q[n + i, plus[j]], Q[n + i, minus[j]] = 1, -1
-        M[sigma[j], i], M[sigma[j], plus[j]], M[sigma[j], minus[j]], r[sigma[j]] = mu, -1, -1, fixed[i]
+        M[sigma[j], i], M[sigma[j], plus[j]], M[sigma[j], minus[j]], r[sigma[j]] = mu, -1, -1, fixed[i] + CLEARANCE
     Z = W @ Q
     M[:n], r[:n] = -Z[:n], -z0[:n]
     if step.normal.law == "compliance":
@@ -119,16 +125,40 @@ def compare(step, state, closed, side, random, covers=8):
     table = step.friction.table
     if step.normal.law == "compliance" and step.normal.m != 1 or isinstance(table.get("coefficient"), dict) or "limit" in table:
         return {}
-    M, r, Q, q0, F = problem(step, closed, side)
-    q = (step.SL @ state - step.sL).astype(float) / F
+    M, r, Q, q0, F = problem(step, state, closed, side)
     free = free_rows(step, closed)
-    distances, rays, pivots = [], 0, 0
+    counts = {"same": 0, "other": 0, "ray": 0, "lost_digits": 0}
     for c in range(covers):
-        x, count = lemke(M, r, np.ones(len(r)) if c == 0 else 10 ** random.uniform(-1.5, 1.5, len(r)))
-        pivots = max(pivots, count)
+        x, _ = lemke(M, r, np.ones(len(r)) if c == 0 else 10 ** random.uniform(-1, 1, len(r)))
         if x is None:
-            rays += 1
-        else:
-            distances.append(float(np.max(np.abs((Q @ x + q0 - q)[free])) / max(np.max(np.abs(q)), step.size / F)))
-    return {"lemke": len(distances), "lemke_rays": rays, "lemke_pivots": pivots,
-            "lemke_largest_difference": max(distances, default=None)}
+            counts["ray"] += 1
+            continue
+        q = (Q @ x + q0) * F
+        z = np.where(np.isin(np.arange(2 * step.n), free), 0, state.astype(float))
+        rhs = step.s + q - step.S @ z
+        z[free] = np.linalg.solve(step.S[np.ix_(free, free)], rhs[free])
+        counts[judge(step, z, -q[:step.n], state, closed, side)] += 1
+    return {"lemke": counts}
+
+
+def judge(step, z, P, state, closed, side):
+    """Whether the state that pivots ended at is this solution, another one, or none (digits were lost on the way)."""
+    guess_closed, guess_side = step.guess(np.where(np.abs(z) * step.diagonal < 1e-8 * P.max(), 0, z), np.where(P > 1e-8 * P.max(), P, 0))
+    for i in step.held:
+        if i >= step.n:
+            guess_side[i - step.n] = side[i - step.n]
+    if step.normal.law == "unilateral" and len(free_rows(step, closed)) < 2 * step.n - len(step.held):
+        for i in range(step.n):
+            guess_closed[i] = guess_closed[i] or (closed[i] and step.n + i in step.held)
+    found, a, b = None, guess_closed, guess_side
+    for _ in range(5):
+        try:
+            found, r = step.exact(z, a, b)
+        except np.linalg.LinAlgError:
+            return "lost_digits"
+        worst, a, b, _ = step.check(found, a, b)
+        if worst < 1e-12:
+            break
+    else:
+        return "lost_digits"
+    return "same" if step.distance(found, state) < 1e-9 else "other"

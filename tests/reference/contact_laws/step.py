@@ -209,6 +209,12 @@ class Step:
             margin = min(margin, abs(abs(trial) - w[i] * b))
         return float(worst) / size, new_closed, new_side, float(margin) / size
 
+    def distance(self, a, b):
+        """Largest difference of two states, as a force, over the largest force."""
+        d = a - b
+        size = max(np.max(np.abs(self.SL @ b - self.sL)), self.size)
+        return float(max(np.max(np.abs(self.SL @ d)), np.max(np.abs(self.diagonal * d))) / size)
+
     def solve(self, z, frozen=False, tolerance=1e-12, rounds=40):
         """The state, pressures and statuses; raises Unsettled."""
         z = z.copy()
