@@ -6,7 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
 
+#include "case/holding.h"
 #include "larger.h"
 #include "parallel/ranks.h"
 #include "solve/connected_body.h"
@@ -82,6 +84,7 @@ class CondensedRoute : public Route {
   void restore_memory(const output::SavedNumbers &numbers) override;
 
   const Model<dim> &model_;
+  std::string left_to_contact_;  // rigid motions
   std::vector<bool> is_prescribed_;
   ConnectedBody<dim> condensed_;
   std::optional<ContactNodes<dim>> contact_;
@@ -93,6 +96,7 @@ class CondensedRoute : public Route {
 template <int dim>
 CondensedRoute<dim>::CondensedRoute(const Model<dim> &model)
     : model_(model),
+      left_to_contact_(casefile::left_to_contact(model.asked)),
       is_prescribed_(body::mask_of(model.prescribed, model.n_unknowns())),
       condensed_(model) {
   if (!model.interface.empty())
@@ -105,11 +109,12 @@ CondensedRoute<dim>::CondensedRoute(const Model<dim> &model)
     refine();
 }
 
-// What round-off of the size of S's entries does to the solution of T^T S T.
+// What round-off of the size of S's entries does to the solution of T^T S T. Where that is singular
+// by itself, as only the contact holds the body, it says nothing.
 template <int dim>
 double CondensedRoute<dim>::error_of_slips() const {
   double error = 0;
-  if (parallel::is_first() && slip_stiffness_.size() > 0) {
+  if (parallel::is_first() && slip_stiffness_.size() > 0 && left_to_contact_.empty()) {
     const Eigen::LLT<MatrixXd> factor(slip_stiffness_);
     error = factor.info() == Eigen::Success
                 ? std::numeric_limits<double>::epsilon() / factor.rcond()
@@ -141,7 +146,7 @@ void CondensedRoute<dim>::condense_onto_slips() {
 template <int dim>
 CoupledSolution CondensedRoute<dim>::solve_programme(const InterfaceProgramme &programme) const {
   const InterfaceSettings settings{model_.asked.solver.tolerance,
-                                   model_.asked.solver.max_iterations};
+                                   model_.asked.solver.max_iterations, left_to_contact_.empty()};
   if (contact_->is_coupled())
     return solve_coupled({programme, contact_->couplings()}, last_increment_, settings);
   CoupledSolution solution;
@@ -170,6 +175,13 @@ void CondensedRoute<dim>::give_up(double time, const InterfaceSolution &solution
         "for a load, a prescribed value or a constant that is too large by many powers "
         "of ten, often a unit",
         time));
+  if (!left_to_contact_.empty())
+    throw SolveError(fmt::format(
+        "the contact problem at t = {:g} s has no solution that was found: residual {:.3g} of the "
+        "largest force after {} iterations. Nothing but the contact keeps the body from {}, and "
+        "with these loads it may not: the body would move rigidly. Prescribe further components "
+        "of `displacement`, or press the body to the foundation in every step",
+        time, solution.residual, solution.iterations, left_to_contact_));
   if (!solution.is_definite || !(error_of_slips_ <= 1e-2))
     throw SolveError(fmt::format(
         "the contact problem at t = {:g} s is too badly conditioned to be solved: round-off leaves "

@@ -113,7 +113,7 @@ bool Cascade::find_by_newton(const VectorXd &start, Place &x) {
   if (newton(map, x, most))
     return true;
   x = map.at(without_contact());
-  return newton(map, x, most);
+  return settings_.is_definite && newton(map, x, most);
 }
 
 InterfaceSolution Cascade::convex(const std::vector<PointLaw> &friction, const VectorXd &start) {
@@ -122,8 +122,10 @@ InterfaceSolution Cascade::convex(const std::vector<PointLaw> &friction, const V
     points[programme_.couplings[j].slip].law = friction[j];
   const InterfaceProgramme held{programme_.convex.stiffness, programme_.convex.force, points,
                                 programme_.convex.force_scale};
-  InterfaceSolution found = minimise(
-      held, start, {settings_.tolerance, std::max(1, settings_.max_iterations - iterations_)});
+  InterfaceSolution found =
+      minimise(held, start,
+               {settings_.tolerance, std::max(1, settings_.max_iterations - iterations_),
+                settings_.is_definite});
   iterations_ += found.iterations;
   return found;
 }

@@ -24,8 +24,8 @@ double largest_of(const VectorXd &v) {
 
 class Iteration {
  public:
-  Iteration(const InterfaceProgramme &programme, VectorXd start)
-      : programme_(programme), d_(std::move(start)) {
+  Iteration(const InterfaceProgramme &programme, VectorXd start, bool is_definite)
+      : programme_(programme), d_(std::move(start)), may_be_singular_(!is_definite) {
     for (const ContactPoint &p : programme.points)
       curvature_.push_back(largest_eigenvalue(p));
     update_residual_force();
@@ -67,6 +67,7 @@ class Iteration {
   VectorXd d_;      // slip increments
   VectorXd force_;  // f - A d
   std::vector<double> curvature_;
+  bool may_be_singular_;
   bool is_definite_ = true;
 };
 
@@ -164,6 +165,10 @@ std::optional<VectorXd> Iteration::newton_direction(const std::vector<std::size_
     hessian.block(row, row, p.size, p.size) += p.weight * p.law.hessian(d);
     descent.segment(row, p.size) -= p.weight * p.law.gradient(d);
     row += p.size;
+  }
+  if (may_be_singular_) {
+    constexpr double slightly = 1e-10;
+    hessian.diagonal() *= 1 + slightly;
   }
   const Eigen::LLT<Eigen::MatrixXd> factor(hessian);
   if (factor.info() != Eigen::Success)
@@ -266,7 +271,7 @@ InterfaceSolution minimise(const InterfaceProgramme &programme, VectorXd start,
                            const InterfaceSettings &settings) {
   if (programme.force.size() == 0)
     return nothing_to_slip(programme);
-  Iteration iteration(programme, std::move(start));
+  Iteration iteration(programme, std::move(start), settings.is_definite);
   int solved = 0;
   bool converged = false;
   while (true) {

@@ -32,6 +32,9 @@ struct InterfaceProgramme {
 struct InterfaceSettings {
   double tolerance = 1e-12;  ///< of the natural residual over the size of the forces
   int max_iterations = 100;
+  /// Whether A is definite. If not, the contact itself may hold what A leaves free, and directions
+  /// are found for slightly more than A.
+  bool is_definite = true;
 };
 
 struct InterfaceSolution {
