@@ -34,10 +34,10 @@ void expect_in_time(const Table &contact, const std::string &column, const OfTim
     ASSERT_NEAR(values[i], expected[i], tolerance * largest(expected)) << column << " " << i;
 }
 
-void expect_balances(const Table &history) {
+void expect_balances(const Table &history, double tolerance = 1e-10) {
   for (const char *column :
        {"energy_imbalance", "force_imbalance", "charge_imbalance", "heat_imbalance"})
-    EXPECT_LT(largest(history, column), 1e-10) << column;
+    EXPECT_LT(largest(history, column), tolerance) << column;
 }
 
 // 1. Normal laws.
@@ -214,7 +214,9 @@ Hertz hertz(const std::string &name, double reduced, int cells) {
     second += nodal * x[i] * x[i];
   }
   EXPECT_NEAR(sum, force, 1e-8 * force);
-  expect_balances(run.history());
+  // The body leans on its contact alone, and has cells some hundred times as long as wide, in which
+  // its way down makes forces of round-off.
+  expect_balances(run.history(), 2e-9);
   const double a = std::sqrt(4 * force * radius / (std::numbers::pi * reduced)),
                p0 = std::sqrt(force * reduced / (std::numbers::pi * radius));
   return {2 * std::sqrt(second / sum) / a - 1, -traction[0] / p0 - 1};
