@@ -35,7 +35,7 @@ bool add_once(std::vector<std::string> &names, const std::string &name) {
 }
 
 // A balance that lacks less is not looked at any closer.
-constexpr double unquestioned = 1e-6;
+constexpr double unquestioned = 1e-10;
 
 const char *const axes[] = {"x", "y", "z"};
 
@@ -150,7 +150,8 @@ void Balance<dim>::put_imbalance(const std::string &name, double value, double s
 template <int dim>
 void Balance<dim>::add_energy(const Step &step, Columns &columns) {
   const double per_watt = -model_.step / model_.op.reference_temperature();
-  double load = 0, friction = 0, electric = 0, thermal = 0, conduction = 0, foundation = 0;
+  double load = 0, friction = 0, electric = 0, thermal = 0, conduction = 0;
+  double foundation = step.normal.pressed_in;
   const bool can_open = model_.laws && model_.laws->can_open();
   for (std::size_t i = 0; i < step.now.unknowns.size(); ++i) {
     const int field = field_of<dim>(i);

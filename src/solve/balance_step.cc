@@ -97,6 +97,8 @@ std::vector<double> carried(const Model<dim> &model, double time,
   return moved;
 }
 
+// A rigid foundation that reaches into the body at the start gets out of it in the first step: it
+// presses the body by as much as the two have overlapped.
 template <int dim>
 NormalEnergy normal_energy(const Model<dim> &model, const BalanceStep<dim> &step) {
   NormalEnergy energy;
@@ -104,18 +106,22 @@ NormalEnergy normal_energy(const Model<dim> &model, const BalanceStep<dim> &step
     return energy;
   const double earlier = model.time_before(step.time);
   for (const contact::InterfaceNode<dim> &at : model.interface) {
-    double received = 0;
+    double received = 0, force = 0;
     typename Model<dim>::Vector then, now;
     for (int c = 0; c < dim; ++c) {
       const std::size_t i = body::unknown<dim>(at.node, c);
       then[c] = step.before.unknowns[i];
       now[c] = step.now.unknowns[i];
-      received -= (step.contact[i] - step.friction[i]) * (step.change(i) - step.carried_by(i));
+      const double pressing = step.contact[i] - step.friction[i];
+      received -= pressing * (step.change(i) - step.carried_by(i));
+      force -= pressing * at.normal[c];
     }
     const double before = then.dot(at.normal) - model.reach(at, earlier),
                  after = now.dot(at.normal) - model.reach(at, step.time);
     const auto law = model.laws->normal(at.point, before);
-    energy.received += received;
+    const double pressed_in = std::isinf(law->potential(before)) ? force * before : 0;
+    energy.pressed_in += pressed_in;
+    energy.received += received + pressed_in;
     energy.stored += at.weight * law->stored(after);
     energy.gained += at.weight * (law->stored(after) - law->stored(before));
     energy.dissipated += at.weight * law->dissipated(after);

@@ -29,9 +29,11 @@ struct BalanceRoundOff {
 
 /// Of the response of a foundation that the body can leave [J].
 struct NormalEnergy {
-  double received = 0;    ///< from the body in this step
-  double stored = 0;      ///< held at its end
-  double gained = 0;      ///< of it in this step
+  double pressed_in =
+      0;                ///< what the foundation does as it takes away an interference at the start
+  double received = 0;  ///< from the body and by that in this step
+  double stored = 0;    ///< held at its end
+  double gained = 0;    ///< of it in this step
   double dissipated = 0;  ///< in this step
 
   /// What the step loses as the contact closes or is pressed, never negative.
