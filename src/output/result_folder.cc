@@ -93,20 +93,6 @@ bool is_later(const std::string &name, std::uint64_t step) {
          name == "report.html" || name == "summary.json";
 }
 
-void require(const fs::path &file, std::uint64_t bytes = 0) {
-  std::error_code error;
-  const std::uint64_t size = fs::file_size(file, error);
-  if (error)
-    throw MachineError(
-        fmt::format("{}, on which the checkpoint counts, is missing; start again without --resume",
-                    file.string()));
-  if (size < bytes)
-    throw MachineError(
-        fmt::format("{} is shorter than the {} bytes that the checkpoint counts on; start again "
-                    "without --resume",
-                    file.string(), bytes));
-}
-
 /// Of the field files up to that step whose names begin so, of all pieces.
 std::uint64_t field_bytes(const fs::path &directory, std::uint64_t last_step,
                           std::string_view beginning = "") {
@@ -124,26 +110,11 @@ std::uint64_t field_bytes(const fs::path &directory, std::uint64_t last_step,
   return bytes;
 }
 
-/// A table grows as its `.part`; an ordered end has moved it into place.
-void require_table(const fs::path &file, std::uint64_t bytes) {
-  const fs::path growing = file.string() + std::string(part);
-  std::error_code error;
-  if (bytes > 0)
-    require(fs::exists(growing, error) ? growing : file, bytes);
-}
-
-/// A table that has at least its header, also when the disk is full.
-std::unique_ptr<AtomicFile> begin_table(const fs::path &path, const std::string &header) {
-  auto table = std::make_unique<AtomicFile>(path);
-  table->append(header);
-  return table;
-}
-
 }  // namespace
 
 void require_position(const fs::path &directory, const FolderPosition &position) {
   for (const PvdEntry &entry : position.series)
-    require(directory / entry.file);
+    require_bytes(directory / entry.file);
   if (!position.series.empty()) {
     const auto last = step_of_field_file(position.series.back().file);
     if (last && field_bytes(directory, *last) != position.field_bytes)
@@ -152,8 +123,8 @@ void require_position(const fs::path &directory, const FolderPosition &position)
           "again without --resume",
           directory.string(), position.field_bytes));
   }
-  require_table(directory / "contact.csv", position.contact_bytes);
-  require_table(directory / "history.csv", position.history_bytes);
+  require_table(directory / "contact.csv", position.contact);
+  require_table(directory / "history.csv", position.history);
 }
 
 std::map<std::string, std::uint64_t> file_sizes(const fs::path &directory) {
@@ -201,10 +172,10 @@ ResultFolder::ResultFolder(fs::path directory, int dimension, Piece piece,
     lock_ = std::make_unique<FolderLock>(directory_);
   require_position(directory_, position);
   remove_if_there(directory_ / "summary.json");  // first: it counts on the others
-  if (position.contact_bytes > 0)
-    contact_ = std::make_unique<AtomicFile>(directory_ / "contact.csv", position.contact_bytes);
-  if (position.history_bytes > 0)
-    history_ = std::make_unique<AtomicFile>(directory_ / "history.csv", position.history_bytes);
+  if (position.contact.bytes > 0)
+    contact_.emplace(directory_ / "contact.csv", position.contact);
+  if (position.history.bytes > 0)
+    history_.emplace(directory_ / "history.csv", position.history);
   remove_files(directory_,
                [&](const std::string &name) { return is_later(name, checkpoint.step); });
   for (const PvdEntry &entry : position.series)
@@ -253,8 +224,8 @@ void ResultFolder::list_fields(int step, double time) {
 
 void ResultFolder::put_contact(int step, double time, std::span<const ContactRow> rows) {
   if (!contact_)
-    contact_ = begin_table(directory_ / "contact.csv",
-                           contact_header(dimension_, rows.empty() ? ContactRow{} : rows.front()));
+    contact_.emplace(directory_ / "contact.csv",
+                     contact_header(dimension_, rows.empty() ? ContactRow{} : rows.front()));
   contact_->append(contact_lines(dimension_, step, time, rows));
 }
 
@@ -272,7 +243,7 @@ void ResultFolder::put_contact_fields(int step, double time, const ContactFacets
 void ResultFolder::put_history(const HistoryRow &row) {
   const std::string header = history_header(row);
   if (!history_)
-    history_ = begin_table(directory_ / "history.csv", header);
+    history_.emplace(directory_ / "history.csv", header);
   if (history_header_.empty())
     history_header_ = header;
   if (header != history_header_)
@@ -316,12 +287,14 @@ void ResultFolder::sync_fields() {
 
 void ResultFolder::put_checkpoint(Checkpoint checkpoint) {
   sync_fields();
-  for (AtomicFile *table : {contact_.get(), history_.get()})
+  const auto synced = [](std::optional<GrowingTable> &table) {
     if (table)
       table->sync();
+    return table ? table->position() : TablePosition{};
+  };
   std::vector<PvdEntry> all = contact_series_;
   all.insert(all.end(), series_.begin(), series_.end());
-  checkpoint.position = {contact_ ? contact_->size() : 0, history_ ? history_->size() : 0, all,
+  checkpoint.position = {synced(contact_), synced(history_), all,
                          field_bytes(directory_, checkpoint.step)};
   write_checkpoint(directory_ / checkpoint_name, checkpoint);
 }

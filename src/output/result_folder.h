@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "output/atomic_file.h"
 #include "output/checkpoint.h"
 #include "output/contact_surface.h"
 #include "output/folder_lock.h"
+#include "output/growing_table.h"
 #include "output/pvd.h"
 #include "output/records.h"
 #include "output/summary.h"
@@ -25,7 +25,8 @@ struct Piece {
   int number = 0, count = 1;
 };
 
-/// Throws MachineError where files are missing, or too short, on which a checkpoint there counts.
+/// Throws MachineError where files on which a checkpoint there counts are missing, too short, or of
+/// the tables not what was written.
 void require_position(const std::filesystem::path &directory, const FolderPosition &position);
 
 /// What stands in summary.json of the files of a complete run: the bytes of each table and of
@@ -113,7 +114,7 @@ class ResultFolder {
   std::optional<ContactSurface> contact_surface_;
   std::vector<PvdEntry> series_, contact_series_;
   std::vector<std::string> unsynced_;  // field files since the last checkpoint
-  std::unique_ptr<AtomicFile> contact_, history_;
+  std::optional<GrowingTable> contact_, history_;
   std::string history_header_;
 };
 

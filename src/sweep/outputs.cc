@@ -171,9 +171,13 @@ class Chooser {
   Output choose(const std::string &name) const {
     if (const Output *output = find(name))  // first, as names of boundaries may have colons
       return *output;
-    if (const auto at = name.rfind('@'); at != std::string::npos)
+    const auto at = name.rfind('@'), colon = name.find(':');
+    const bool is_reduced = colon != std::string::npos && reduction_named(name.substr(0, colon));
+    if (is_reduced && at != std::string::npos && !find(name.substr(colon + 1)))
+      fail_twice(name, colon, at);
+    if (!is_reduced && at != std::string::npos)
       return at_time(name, at);
-    if (const auto colon = name.find(':'); colon != std::string::npos)
+    if (colon != std::string::npos)
       return reduced_column(name, colon);
     fail_unknown(name, "", name, "");
   }
@@ -192,6 +196,16 @@ class Chooser {
              "; allowed: " + joined(names_, false) +
              ", each also as min:NAME, max:NAME, mean:NAME, rms:NAME, last:NAME or NAME@TIME" +
              ", and " + joined(names_, true) + "; the folder of a study is said by -o or --folder");
+  }
+
+  [[noreturn]] void fail_twice(const std::string &name, std::size_t colon, std::size_t at) const {
+    const std::string word = name.substr(0, colon + 1), time = name.substr(at),
+                      column = name.substr(colon + 1, at - colon - 1);
+    if (!find(column))
+      fail_unknown(name, word, column, "");
+    fail(name, fmt::format("{0} and {1} each make one number of a column, and here are both; write "
+                           "{0}{2} or {2}{1}",
+                           word, time, column));
   }
 
   const Output *find(const std::string &name) const {

@@ -1,5 +1,6 @@
 #include "output/result_folder.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -24,6 +25,12 @@ const std::span<const ContactRow> one_row(&contact_row, 1);
 
 HistoryRow history_row(int step) {
   return {step, 0.1 * step, 1, 0, 1, 0, 0, {{"energy", 2}}};
+}
+
+Checkpoint behind(int step) {
+  Checkpoint checkpoint;
+  checkpoint.step = step;
+  return checkpoint;
 }
 
 class Results : public testing::Test {
@@ -201,6 +208,55 @@ TEST_F(Results, TheSummaryHasTheBytesOfBothSeriesApart) {
     EXPECT_EQ(sizes.at(series + "_*"),
               std::filesystem::file_size(directory / (series + "_0001.vtu")) +
                   std::filesystem::file_size(directory / (series + "_0002.vtu")));
+}
+
+TEST_F(Results, ATableThatIsNotWhatWasWrittenUpToTheCheckpointIsRefused) {
+  {
+    ResultFolder results(directory, 2);
+    run_two_steps(results);
+    results.put_checkpoint(behind(2));
+    results.put_history(history_row(3));
+  }
+  const Checkpoint checkpoint = read_checkpoint(directory / "checkpoint.bin");
+  const auto position = checkpoint.position;
+  const auto going_on = [&] { require_position(directory, position); };
+  for (const char *name : {"contact.csv", "history.csv"}) {
+    const std::filesystem::path growing = directory / (name + std::string(".part"));
+    const std::string written = content_of(growing);
+    const std::uint64_t counted = name[0] == 'c' ? position.contact.bytes : position.history.bytes;
+    for (const std::size_t place : {std::size_t{0}, std::size_t{counted} - 2}) {
+      std::string edited = written;
+      edited[place] = edited[place] == '1' ? '2' : '1';  // of the same length
+      std::ofstream(growing, std::ios::binary) << edited;
+      EXPECT_THAT(going_on,
+                  ThrowsMessage<MachineError>(AllOf(
+                      HasSubstr(fmt::format("the first {} bytes of {}", counted, growing.string())),
+                      HasSubstr("edited or damaged"), HasSubstr("without --resume"))));
+      EXPECT_THROW(ResultFolder(directory, 2, {}, checkpoint), MachineError);
+    }
+    // What follows is cut off in any case.
+    std::ofstream(growing, std::ios::binary) << written.substr(0, counted) << "3,";
+    EXPECT_NO_THROW(going_on());
+    // An ordered end has moved it into place.
+    std::filesystem::rename(growing, directory / name);
+    EXPECT_NO_THROW(going_on());
+  }
+}
+
+TEST_F(Results, GoingOnTwiceTheTablesAreStillThoseOfTheCheckpoint) {
+  {
+    ResultFolder results(directory, 2);
+    run_two_steps(results);
+    results.put_checkpoint(behind(2));
+  }
+  {
+    ResultFolder results(directory, 2, {}, read_checkpoint(directory / "checkpoint.bin"));
+    results.put_contact(3, 0.3, one_row);
+    results.put_history(history_row(3));
+    results.put_checkpoint(behind(3));
+  }
+  EXPECT_NO_THROW(
+      ResultFolder(directory, 2, {}, read_checkpoint(directory / "checkpoint.bin")).finish());
 }
 
 TEST_F(Results, ATableThatACheckpointCountsOnOutlivesAnError) {
