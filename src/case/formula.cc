@@ -76,7 +76,22 @@ std::vector<std::string> all_names() {
   return all;
 }
 
-std::string reason_of(const mu::Parser::exception_type &error) {
+// "1e", where a text begins with a number whose exponent has no digits.
+std::string incomplete_number(std::string_view text) {
+  const std::size_t letter = text.find_first_not_of("0123456789.");
+  if (letter == 0 || letter == std::string_view::npos || (text[letter] | ' ') != 'e')
+    return "";
+  const auto goes_on = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
+  const std::string_view behind = text.substr(letter + 1);
+  return !behind.empty() && goes_on(behind.front()) ? "" : std::string(text.substr(0, letter + 1));
+}
+
+std::string reason_of(const mu::Parser::exception_type &error, const std::string &text) {
+  const auto place = std::clamp<std::size_t>(error.GetPos(), 0, text.size());
+  if (const std::string number = incomplete_number(std::string_view(text).substr(place));
+      !number.empty())
+    return fmt::format("not a formula: the number \"{}\" is incomplete, its exponent has no digits",
+                       shortened(number));
   std::string reason = error.GetMsg();
   while (!reason.empty() && (reason.back() == '.' || reason.back() == ' '))
     reason.pop_back();
@@ -186,7 +201,7 @@ Formula::Formula(const std::string &text, std::string where, const Range &range,
     parser.SetExpr(with_branches(text));
     parser.Eval();
   } catch (const mu::Parser::exception_type &error) {
-    fail(where_, text, reason_of(error));
+    fail(where_, text, reason_of(error, text));
   }
   if (depends_on_time() || depends_on_place()) {
     expression_ = std::move(expression);

@@ -128,9 +128,10 @@ std::vector<Support> supports_of(const Case &asked, Held by_contact) {
   return supports;
 }
 
-// Only the condensed route keeps what the contact holds out of the matrix that it factorises.
+// An iterative solution of the body's equations needs a body that is held whatever the contact
+// does.
 bool may_lean(const Case &asked) {
-  return asked.solver.method == "condensed" && asked.solver.body != "iterative";
+  return asked.solver.body != "iterative";
 }
 
 // What the contact does for the holding, in brackets.
@@ -138,7 +139,7 @@ std::string words_of_contact(const Case &asked) {
   if (!asked.contact)
     return "";
   if (!may_lean(asked))
-    return " (friction and contact that opens hold a body with solver.method = \"condensed\" only)";
+    return " (friction and contact that opens hold no body with solver.body = \"iterative\")";
   return asked.contact->friction.law == "none" ? " (contact without friction holds only the normal)"
                                                : "";
 }

@@ -135,7 +135,7 @@ void declare(Visitor &v, SolverCase &solver, const std::optional<ContactCase> &c
   v.key({.name = "threads", .description = "of OpenBLAS and OpenMP", .range = from_to(1, 1024)},
         &solver.threads);
   declare_augmented_lagrangian(v, solver);
-  v.check("method", [&] { return method_complaint(contact, solver.method); });
+  v.check("multiplier", [&] { return multiplier_complaint(contact, solver.multiplier); });
   v.check("body", [&] { return body_complaint(contact, solver.body); });
 }
 

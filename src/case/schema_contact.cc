@@ -147,7 +147,7 @@ void declare(Visitor &v, FrictionCase &friction) {
          .description = "none: the foundation is slippery; tresca: the tangential traction stays "
                         "below a given bound, and slip is opposed by it (9); coulomb: likewise, "
                         "with the bound min(cohesion + mu p, limit), p being the contact pressure "
-                        "-sigma_nu where it is positive",
+                        "-sigma_nu, and at least 0",
          .choices = {"none", "tresca", "coulomb"}},
         &friction.law);
   v.key({.name = "bound",
@@ -237,7 +237,7 @@ void declare(Visitor &v, ContactCase &contact, const MeshCase &mesh, int dimensi
 namespace {
 
 // `normal = "unilateral"` or `friction.law = "coulomb"`: the first law that changes with the
-// contact's state, and so needs the condensed matrix; empty: there is none.
+// contact's state; empty: there is none.
 std::string law_of_the_state(const std::optional<ContactCase> &contact) {
   if (!contact)
     return "";
@@ -248,14 +248,15 @@ std::string law_of_the_state(const std::optional<ContactCase> &contact) {
 
 }  // namespace
 
-std::string method_complaint(const std::optional<ContactCase> &contact, const std::string &method) {
+std::string multiplier_complaint(const std::optional<ContactCase> &contact,
+                                 const std::string &multiplier) {
   const std::string law = law_of_the_state(contact);
-  if (law.empty() || method == "condensed")
+  if (law.empty() || multiplier == "nodal")
     return "";
   return fmt::format(
-      "contact with {} is not available with solver.method = \"{}\" in this version; take "
-      "\"condensed\"",
-      law, method);
+      "contact with {} is not available with solver.multiplier = \"{}\" in this version; take "
+      "\"nodal\"",
+      law, multiplier);
 }
 
 std::string body_complaint(const std::optional<ContactCase> &contact, const std::string &body) {

@@ -32,7 +32,8 @@ void declare_contact(Visitor &v, std::optional<ContactCase> &contact, const Mesh
                      int dimension);
 /// Of a contact whose laws the way of solving cannot take; empty: it can. `solver` and `body` are
 /// those of [solver].
-std::string method_complaint(const std::optional<ContactCase> &contact, const std::string &method);
+std::string multiplier_complaint(const std::optional<ContactCase> &contact,
+                                 const std::string &multiplier);
 std::string body_complaint(const std::optional<ContactCase> &contact, const std::string &body);
 
 }  // namespace tourmaline::casefile

@@ -1,8 +1,11 @@
 #include "contact/bilateral.h"
 
+#include <fmt/format.h>
+
 #include <vector>
 
 #include "body/fields.h"
+#include "tourmaline/error.h"
 
 namespace tourmaline::contact {
 
@@ -107,7 +110,22 @@ Admissible<dim> bilateral(const InterfaceNode<dim> &at, const std::vector<bool> 
   return bilateral<dim>(at.normal, prescribed, reach);
 }
 
+template <int dim>
+void require_plain_normal(const InterfaceNode<dim> &at, const Admissible<dim> &admissible) {
+  const Vector<dim> &free_normal = admissible.free_normal;
+  if (free_normal.isZero(0) || (free_normal - at.normal).norm() <= no_normal)
+    return;
+  throw CaseError(fmt::format(
+      "[contact] at ({:g}, {:g}, {:g}) some components of the displacement are prescribed, and "
+      "the normal ({:g}, {:g}, {:g}) is oblique to them; contact that opens or whose friction "
+      "depends on the pressure is not available there",
+      at.point[0], at.point[1], at.point[2], at.normal[0], at.normal[1],
+      dim == 3 ? at.normal[dim - 1] : 0.));
+}
+
 template struct Admissible<2>;
+template void require_plain_normal<2>(const InterfaceNode<2> &, const Admissible<2> &);
+template void require_plain_normal<3>(const InterfaceNode<3> &, const Admissible<3> &);
 template struct Admissible<3>;
 template Admissible<2> bilateral<2>(const Eigen::Matrix<double, 2, 1> &,
                                     const std::array<std::optional<double>, 2> &, double);

@@ -53,6 +53,11 @@ Admissible<dim> bilateral(const Eigen::Matrix<double, dim, 1> &normal,
                           const std::array<std::optional<double>, dim> &prescribed,
                           double reach = 0);
 
+/// Throws CaseError where some components of a node are prescribed and its normal is oblique to
+/// them: what happens along the normal would then be a part of the slip. Where that counts.
+template <int dim>
+void require_plain_normal(const InterfaceNode<dim> &at, const Admissible<dim> &admissible);
+
 /// The same at a contact node of a body with the unknowns `state`.
 template <int dim>
 Admissible<dim> bilateral(const InterfaceNode<dim> &at, const std::vector<bool> &is_prescribed,

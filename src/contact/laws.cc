@@ -112,6 +112,11 @@ std::shared_ptr<const NormalLaw> ContactLaws::normal(const Vector3 &point, doubl
   return std::make_shared<HeldNormal>();
 }
 
+double ContactLaws::pressure_under_supports(const Vector3 &point, double before, double now) const {
+  const auto law = normal(point, before);
+  return law->is_smooth_at(now) ? law->pressure_at(now) : 0;
+}
+
 FrictionAt ContactLaws::friction() const {
   return friction_of(asked_.friction);
 }

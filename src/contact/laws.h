@@ -36,6 +36,10 @@ class ContactLaws {
 
   /// `before`: penetration at the end of the last step [m].
   std::shared_ptr<const NormalLaw> normal(const Vector3 &point, double before) const;
+  /// The pressure at a point that supports have moved from one penetration to another [m]: of a
+  /// foundation that yields; where it is rigid, nothing tells it from the supports, and it has
+  /// none.
+  double pressure_under_supports(const Vector3 &point, double before, double now) const;
   /// Friction that does not depend on the pressure; none where `bound` has it.
   FrictionAt friction() const;
   /// The bound that depends on the pressure, or nothing; `slipped`: the accumulated slip at the end

@@ -1,7 +1,6 @@
 #include "output/checkpoint.h"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <bit>
@@ -9,23 +8,18 @@
 #include <fstream>
 #include <iterator>
 #include <string_view>
+#include <system_error>
 #include <type_traits>
 
 #include "output/atomic_file.h"
+#include "output/checksum.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::output {
 namespace {
 
 constexpr std::string_view magic = "Tourmaline checkpoint\n";
-constexpr std::uint64_t format_version = 3;
-
-// Of nothing zlib says 0, whatever stood before.
-std::uint64_t checksum(std::uint64_t before, std::string_view bytes) {
-  return bytes.empty()
-             ? before
-             : crc32_z(before, reinterpret_cast<const unsigned char *>(bytes.data()), bytes.size());
-}
+constexpr std::uint64_t format_version = 4;
 
 /// Writes one member behind the other.
 class Writer {
@@ -154,8 +148,10 @@ void write_checkpoint(const std::filesystem::path &path, const Checkpoint &check
   file.text(checkpoint.inputs);
   file.number(checkpoint.ranks);
   file.number(checkpoint.step);
-  file.number(checkpoint.position.contact_bytes);
-  file.number(checkpoint.position.history_bytes);
+  for (const TablePosition &table : {checkpoint.position.contact, checkpoint.position.history}) {
+    file.number(table.bytes);
+    file.number(table.checksum);
+  }
   file.number(std::uint64_t{checkpoint.position.series.size()});
   for (const PvdEntry &entry : checkpoint.position.series) {
     file.number(entry.time);
@@ -179,8 +175,10 @@ Checkpoint read_checkpoint(const std::filesystem::path &path) {
   checkpoint.inputs = file.text();
   checkpoint.ranks = file.number();
   checkpoint.step = file.number();
-  checkpoint.position.contact_bytes = file.number();
-  checkpoint.position.history_bytes = file.number();
+  for (TablePosition *table : {&checkpoint.position.contact, &checkpoint.position.history}) {
+    table->bytes = file.number();
+    table->checksum = file.number();
+  }
   for (std::uint64_t left = file.number(); left > 0; --left) {
     const double time = std::bit_cast<double>(file.number());
     checkpoint.position.series.push_back({time, file.text()});
@@ -191,6 +189,20 @@ Checkpoint read_checkpoint(const std::filesystem::path &path) {
     checkpoint.numbers.put(name, file.numbers());
   }
   return checkpoint;
+}
+
+void require_bytes(const std::filesystem::path &file, std::uint64_t bytes) {
+  std::error_code error;
+  const std::uint64_t size = std::filesystem::file_size(file, error);
+  if (error)
+    throw MachineError(
+        fmt::format("{}, on which the checkpoint counts, is missing; start again without --resume",
+                    file.string()));
+  if (size < bytes)
+    throw MachineError(
+        fmt::format("{} is shorter than the {} bytes that the checkpoint counts on; start again "
+                    "without --resume",
+                    file.string(), bytes));
 }
 
 }  // namespace tourmaline::output

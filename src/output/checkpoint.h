@@ -36,11 +36,17 @@ class SavedNumbers {
   std::map<std::string, std::vector<double>> values_;
 };
 
+/// How far a table has come.
+struct TablePosition {
+  std::uint64_t bytes = 0;     ///< 0: not begun
+  std::uint64_t checksum = 0;  ///< of these bytes
+};
+
 /// How far the files of a result folder have come.
 struct FolderPosition {
-  std::uint64_t contact_bytes = 0, history_bytes = 0;  ///< of the tables; 0: not begun
-  std::vector<PvdEntry> series;                        ///< the field files
-  std::uint64_t field_bytes = 0;                       ///< of those of all pieces together
+  TablePosition contact, history;
+  std::vector<PvdEntry> series;   ///< the field files
+  std::uint64_t field_bytes = 0;  ///< of those of all pieces together
 };
 
 /// A run between two steps: with it a new process continues to the same bytes.
@@ -65,5 +71,8 @@ void write_checkpoint(const std::filesystem::path &path, const Checkpoint &check
 
 /// Throws MachineError when the file is not there, damaged, or of another version of the format.
 Checkpoint read_checkpoint(const std::filesystem::path &path);
+
+/// Throws MachineError where a file on which a checkpoint counts is missing or has fewer bytes.
+void require_bytes(const std::filesystem::path &file, std::uint64_t bytes = 0);
 
 }  // namespace tourmaline::output

@@ -9,9 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "output/atomic_file.h"
 #include "output/checkpoint.h"
+#include "output/contact_surface.h"
 #include "output/folder_lock.h"
+#include "output/growing_table.h"
 #include "output/pvd.h"
 #include "output/records.h"
 #include "output/summary.h"
@@ -24,11 +25,13 @@ struct Piece {
   int number = 0, count = 1;
 };
 
-/// Throws MachineError where files are missing, or too short, on which a checkpoint there counts.
+/// Throws MachineError where files on which a checkpoint there counts are missing, too short, or of
+/// the tables not what was written.
 void require_position(const std::filesystem::path &directory, const FolderPosition &position);
 
 /// What stands in summary.json of the files of a complete run: the bytes of each table and of
-/// boundaries.json by their names, and those of all field files together as "result_*".
+/// boundaries.json by their names, and those of all field files together as "result_*", of the
+/// contact's as "contact_*".
 std::map<std::string, std::uint64_t> file_sizes(const std::filesystem::path &directory);
 
 /// The folder that a run leaves behind, and has for itself meanwhile. Every file in it is whole at
@@ -69,6 +72,12 @@ class ResultFolder {
   /// not.
   void put_contact(int step, double time, std::span<const ContactRow> rows);
 
+  /// contact_NNNN.vtu with the rows of contact.csv of that step on the facets of the contact, and
+  /// contact.pvd with all of these so far. The facets are encoded at the first call: every call of
+  /// a run passes the same ones. Throws std::invalid_argument when sizes disagree.
+  void put_contact_fields(int step, double time, const ContactFacets &facets,
+                          std::span<const ContactRow> rows);
+
   /// A row of history.csv. Throws std::invalid_argument when its quantities are not those of the
   /// first row.
   void put_history(const HistoryRow &row);
@@ -102,9 +111,10 @@ class ResultFolder {
   Piece piece_;
   std::optional<VtuWriter> vtu_;
   OptionalArrays optional_;
-  std::vector<PvdEntry> series_;
+  std::optional<ContactSurface> contact_surface_;
+  std::vector<PvdEntry> series_, contact_series_;
   std::vector<std::string> unsynced_;  // field files since the last checkpoint
-  std::unique_ptr<AtomicFile> contact_, history_;
+  std::optional<GrowingTable> contact_, history_;
   std::string history_header_;
 };
 

@@ -53,7 +53,15 @@ void Recorder<dim>::initial(std::span<const double> state) {
 template <int dim>
 void Recorder<dim>::put_boundaries() {
   const std::vector<output::NamedBoundary> boundaries = model_.body.boundaries();
-  parallel::on_first([&] { folder_.put_boundaries(boundaries); });
+  parallel::on_first([&] {
+    folder_.put_boundaries(boundaries);
+    if (!model_.asked.contact)
+      return;
+    std::vector<std::uint32_t> nodes;
+    for (const contact::InterfaceNode<dim> &at : model_.interface)
+      nodes.push_back(at.node);
+    contact_facets_ = output::contact_facets(boundaries, model_.asked.contact->on, nodes);
+  });
 }
 
 template <int dim>
@@ -111,6 +119,8 @@ output::HistoryRow Recorder<dim>::step(int n, const solve::StepOutcome &outcome,
   parallel::on_first([&] {
     if (model_.asked.contact)
       folder_.put_contact(n, time, rows);
+    if (model_.asked.contact && has_fields(n))
+      folder_.put_contact_fields(n, time, contact_facets_, rows);
     folder_.put_history(row);
   });
   if (has_fields(n))

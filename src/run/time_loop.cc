@@ -7,6 +7,7 @@
 
 #include "case/interval.h"
 #include "case/resolved.h"
+#include "case/snapping.h"
 #include "contact/checked_law.h"
 #include "parallel/ranks.h"
 #include "report/page.h"
@@ -353,6 +354,8 @@ std::vector<std::string> TimeLoop<dim>::warnings() const {
   if (const std::string text = locking_->warning(); !text.empty())
     all.push_back(text);
   for (const std::string &text : material_warnings(model_.asked))
+    all.push_back(text);
+  if (const std::string text = casefile::snapping_warning(model_.asked); !text.empty())
     all.push_back(text);
   const std::vector<std::string> given = temperature_warnings(model_.asked);
   all.insert(all.end(), given.begin(), given.end());

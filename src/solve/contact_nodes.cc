@@ -1,10 +1,6 @@
 #include "solve/contact_nodes.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
-
-#include "tourmaline/error.h"
 
 namespace tourmaline::solve {
 
@@ -33,15 +29,8 @@ ContactNodes<dim>::ContactNodes(const Model<dim> &model, const std::vector<bool>
 template <int dim>
 void ContactNodes<dim>::add_normal(std::size_t i, std::vector<Eigen::Triplet<double>> &entries) {
   const contact::InterfaceNode<dim> &at = model_.interface[i];
-  const Vector &free_normal = nodes_[i].admissible.free_normal;
-  const bool is_known = free_normal.isZero(0);
-  if (!is_known && (free_normal - at.normal).norm() > 1e-8)
-    throw CaseError(fmt::format(
-        "[contact] at ({:g}, {:g}, {:g}) some components of the displacement are prescribed, and "
-        "the normal ({:g}, {:g}, {:g}) is oblique to them; contact that opens or whose friction "
-        "depends on the pressure is not available there",
-        at.point[0], at.point[1], at.point[2], at.normal[0], at.normal[1],
-        dim == 3 ? at.normal[dim - 1] : 0.));
+  const bool is_known = nodes_[i].admissible.free_normal.isZero(0);
+  contact::require_plain_normal(at, nodes_[i].admissible);
   if (is_known && model_.laws->can_open())
     return;
   nodes_[i].normal = points_.size();
@@ -122,15 +111,13 @@ void ContactNodes<dim>::set_friction(std::size_t i, double time, const Vector &c
         model_.laws->bound(at.point, time, slipped_[static_cast<Index>(i)]);
 }
 
-// Where supports move the node along its normal: where they take it into a foundation that yields,
-// that answers as its law says; where it is rigid, nothing tells it from the supports.
 template <int dim>
 void ContactNodes<dim>::know_pressure(std::size_t i, double time, std::span<const double> before) {
   const contact::InterfaceNode<dim> &at = model_.interface[i];
   Node &node = nodes_[i];
-  const double now = node.admissible.base.dot(at.normal) - model_.reach(at, time);
-  const auto law = model_.laws->normal(at.point, penetration(i, time, before));
-  node.pressure = law->is_smooth_at(now) ? law->pressure_at(now) : 0;
+  node.pressure = model_.laws->pressure_under_supports(
+      at.point, penetration(i, time, before),
+      node.admissible.base.dot(at.normal) - model_.reach(at, time));
   if (node.coupling == none)
     return;
   couplings_[node.coupling].pressure = node.pressure;

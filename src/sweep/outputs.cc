@@ -13,6 +13,7 @@
 
 #include "case/nearest.h"
 #include "case/toml_text.h"
+#include "contact/laws.h"
 #include "report/table.h"
 #include "report/text_file.h"
 #include "tourmaline/case/case.h"
@@ -76,6 +77,25 @@ void add_flows(const casefile::Case &asked, List &list) {
   }
 }
 
+// What only some contacts have in history.csv, as solve/balance.h and run/recorder.h write it.
+void add_contact(const casefile::Case &asked, List &list) {
+  if (!asked.contact)
+    return;
+  const contact::ContactLaws laws(*asked.contact, asked.time.end / asked.time.steps);
+  const std::string moment = asked.dimension == 2 ? "N" : "N m";
+  if (laws.has_moving_foundation() || laws.has_normal_unknowns()) {
+    list.add(whole("W", asked.dimension), {"foundation_power"});
+    for (int c = asked.dimension == 2 ? 2 : 0; c < 3; ++c)
+      list.add(moment, {std::string("contact_moment_") + axes[c]});
+  }
+  if (laws.can_open()) {
+    list.add(whole("J", asked.dimension), {"contact_energy"});
+    list.add(whole("W", asked.dimension), {"contact_dissipation"});
+  }
+  if (laws.friction_depends_on_pressure())
+    list.add("", {"contact_stage"});
+}
+
 void add_extremes(int dimension, List &list) {
   for (const Output &field : fields())
     list.add(field.unit, {"min_" + field.name, "max_" + field.name});
@@ -101,6 +121,7 @@ std::vector<Output> outputs_of(const casefile::Case &asked) {
     for (const char *force : {"load_", "reaction_", "contact_force_"})
       list.add(whole("N", asked.dimension), {std::string(force) + axes[c]});
   add_flows(asked, list);
+  add_contact(asked, list);
   list.add(power, {"stored_heat_rate", "heat_source"});
   list.add("", {"energy_imbalance", "force_imbalance", "charge_imbalance", "heat_imbalance"});
   add_extremes(asked.dimension, list);
@@ -150,9 +171,13 @@ class Chooser {
   Output choose(const std::string &name) const {
     if (const Output *output = find(name))  // first, as names of boundaries may have colons
       return *output;
-    if (const auto at = name.rfind('@'); at != std::string::npos)
+    const auto at = name.rfind('@'), colon = name.find(':');
+    const bool is_reduced = colon != std::string::npos && reduction_named(name.substr(0, colon));
+    if (is_reduced && at != std::string::npos && !find(name.substr(colon + 1)))
+      fail_twice(name, colon, at);
+    if (!is_reduced && at != std::string::npos)
       return at_time(name, at);
-    if (const auto colon = name.find(':'); colon != std::string::npos)
+    if (colon != std::string::npos)
       return reduced_column(name, colon);
     fail_unknown(name, "", name, "");
   }
@@ -171,6 +196,16 @@ class Chooser {
              "; allowed: " + joined(names_, false) +
              ", each also as min:NAME, max:NAME, mean:NAME, rms:NAME, last:NAME or NAME@TIME" +
              ", and " + joined(names_, true) + "; the folder of a study is said by -o or --folder");
+  }
+
+  [[noreturn]] void fail_twice(const std::string &name, std::size_t colon, std::size_t at) const {
+    const std::string word = name.substr(0, colon + 1), time = name.substr(at),
+                      column = name.substr(colon + 1, at - colon - 1);
+    if (!find(column))
+      fail_unknown(name, word, column, "");
+    fail(name, fmt::format("{0} and {1} each make one number of a column, and here are both; write "
+                           "{0}{2} or {2}{1}",
+                           word, time, column));
   }
 
   const Output *find(const std::string &name) const {

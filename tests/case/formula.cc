@@ -13,7 +13,9 @@
 namespace tourmaline::casefile {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 std::string error_of(const std::string &text) {
   try {
@@ -124,6 +126,23 @@ TEST(Formula, ControlCharactersAreRefused) {
   EXPECT_THAT(error_of(std::string("1\0*x", 4)), HasSubstr("control character"));
   EXPECT_THAT(error_of("x\x1B[31m"), HasSubstr("control character"));
   EXPECT_EQ(Formula("x\n+\tt").value({1, 0, 0}, 2), 3);
+}
+
+TEST(Formula, ANumberWithoutTheDigitsOfItsExponentIsIncomplete) {
+  for (const auto &[text, number] : std::map<std::string, std::string>{{"1e", "1e"},
+                                                                       {"2.5E", "2.5E"},
+                                                                       {"1.e", "1.e"},
+                                                                       {"x + 2e*t", "2e"},
+                                                                       {"sin(3e)", "3e"},
+                                                                       {"1e-", "1e"},
+                                                                       {"1e+t", "1e"},
+                                                                       {"1e 5", "1e"}})
+    EXPECT_THAT(error_of(text), AllOf(HasSubstr("the number \"" + number + "\" is incomplete"),
+                                      Not(HasSubstr("did you mean"))))
+        << text;
+  for (const char *text : {"e", "1ex", "x1e", "1_e"})
+    EXPECT_THAT(error_of(text), AllOf(HasSubstr("not a formula"), Not(HasSubstr("incomplete"))));
+  EXPECT_EQ(Formula("1e-1*x").value({2, 0, 0}, 0), 0.2);
 }
 
 TEST(Formula, ThatIsNestedTooDeeplyIsRefused) {

@@ -13,6 +13,7 @@
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 using tourmaline::output::content_of;
 
 const std::string good_case = R"(title = "a square in contact"
@@ -184,8 +185,6 @@ const BadInput values[] = {
     override("contact on a loaded side", "contact.on=top", "traction on a contact boundary"),
     override("temperature where heat is exchanged", "boundary[1]={on=\"left\",temperature=0}",
              "heat.law"),
-    override("nothing holds the body", "boundary[0].displacement=[\"free\",\"free\"]",
-             "translation along y"),
     override("formula that does not parse", "boundary[1].traction=[0,\"2*(t\"]", "parenthesis"),
     override("formula with an unknown name", "boundary[1].traction=[0,\"2*time\"]", "\"time\""),
     override("constant formula that is infinite", "boundary[1].traction=[0,\"1/0\"]", "finite"),
@@ -199,6 +198,8 @@ const BadInput values[] = {
     {"no mesh", good_case_with("box =", "#"), run_it, 2, "no mesh"},
     {"mesh file", good_case_with("box =", "file = \"block.msh\" #"), run_it, 2,
      "there is no such file"},
+    {"nothing holds the body", good_case_with("friction = { law = \"tresca\", bound = 15 }\n", ""),
+     run_it + " --set 'boundary[0].displacement=[\"free\",\"free\"]'", 2, "translation along y"},
     {"no time", good_case_with("[time]\nend = 0.2\nsteps = 2\n", ""), run_it, 2, "time: missing"},
 };
 INSTANTIATE_TEST_SUITE_P(Values, CommandLine, testing::ValuesIn(values), in_camel_case);
@@ -266,6 +267,17 @@ TEST_F(Program, CheckSaysWhichCouplingsAMaterialHas) {
                         "not pyroelectric, without thermal expansion\n"));
   ASSERT_EQ(run("check case.toml --set material.d33=3e-11"), 2);
   EXPECT_THAT(complained_, HasSubstr("piezoelectric constants d31, d15 (d33 is given"));
+}
+
+TEST_F(Program, CheckWarnsOfFrictionThatFallsWithSlip) {
+  std::ofstream(here() / "case.toml") << good_case_with(
+      "law = \"tresca\", bound = 15",
+      "law = \"coulomb\", coefficient = { static = 0.4, kinetic = 0.2, distance = 1e-6 }");
+  ASSERT_EQ(run("check case.toml"), 0) << complained_;
+  EXPECT_THAT(said_, HasSubstr("# warning: "));
+  EXPECT_THAT(said_, HasSubstr("static = 0.4 is above kinetic = 0.2"));
+  ASSERT_EQ(run("check case.toml --set contact.friction.coefficient=0.4"), 0) << complained_;
+  EXPECT_THAT(said_, Not(HasSubstr("falls as the contact slips")));
 }
 
 TEST_F(Program, CheckWritesNoFiles) {

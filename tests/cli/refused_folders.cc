@@ -109,7 +109,7 @@ TEST_F(Damaged, ACheckpointIsRefusedAndTheFilesStay) {
   expect_refusal("version 9 of the format");
 }
 
-TEST_F(Damaged, AMissingTableOrFieldFileIsNamed) {
+TEST_F(Damaged, AMissingOrEditedTableOrFieldFileIsNamed) {
   interrupt_a_run();
   const auto expect_named = [&](const std::string &name) {
     EXPECT_EQ(run(slow + " -o results --resume"), 4);
@@ -119,6 +119,8 @@ TEST_F(Damaged, AMissingTableOrFieldFileIsNamed) {
   fs::rename(here() / "results/result_0000.vtu", here() / "away");
   expect_named("result_0000.vtu");
   fs::rename(here() / "away", here() / "results/result_0000.vtu");
+  std::fstream(here() / "results/history.csv.part") << "Step";  // was: step
+  expect_named("of results/history.csv.part, on which the checkpoint counts, are not those");
   fs::resize_file(here() / "results/history.csv.part", 10);
   expect_named("history.csv.part is shorter");
 }

@@ -39,7 +39,8 @@ TEST(Legend, ContactNamesItsLawsAndStaysContactBesideAPotential) {
   asked.boundaries[0].potential = Formula(0.);
   asked.contact.emplace();
   asked.contact->on = {"left"};
-  asked.contact->friction = {"tresca", Formula("10 + y")};
+  asked.contact->friction.law = "tresca";
+  asked.contact->friction.bound = Formula("10 + y");
   const Conditions conditions = conditions_on(asked, "left");
   EXPECT_EQ(conditions.kind, "contact");
   EXPECT_THAT(conditions.texts, ElementsAre("bilateral contact", "Tresca friction, S = 10 + y N/m²",
@@ -86,7 +87,8 @@ TEST(Legend, LawsOfAProgramStandInstead) {
   casefile::Case asked;
   asked.contact.emplace();
   asked.contact->on = {"left"};
-  asked.contact->friction = {"tresca", Formula(15.)};
+  asked.contact->friction.law = "tresca";
+  asked.contact->friction.bound = Formula(15.);
   EXPECT_THAT(conditions_on(asked, "left", "nap").texts,
               ElementsAre("bilateral contact", "friction of a program: nap", "insulated, q·ν = 0"));
 }

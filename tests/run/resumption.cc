@@ -201,7 +201,8 @@ TEST_F(Resuming, AMissingFileOnWhichTheCheckpointCountsIsNamed) {
   output::Checkpoint checkpoint;
   checkpoint.program = program_version();
   checkpoint.inputs = inputs_of(asked_);
-  checkpoint.position = {0, 10, {{0., "result_0000.vtu"}}, 3};
+  constexpr std::uint64_t sum = 0x261daee5;  // CRC-32 of 1234567890
+  checkpoint.position = {{}, {10, sum}, {{0., "result_0000.vtu"}}, 3};
   output::write_checkpoint(folder_ / output::checkpoint_name, checkpoint);
   EXPECT_THAT(asking(), ThrowsMessage<MachineError>(HasSubstr("result_0000.vtu, on which")));
   put("result_0000.vtu", "");
@@ -209,6 +210,8 @@ TEST_F(Resuming, AMissingFileOnWhichTheCheckpointCountsIsNamed) {
   put("result_0000.vtu", "123");
   put("history.csv.part", "123456789");
   EXPECT_THAT(asking(), ThrowsMessage<MachineError>(HasSubstr("history.csv.part is shorter")));
+  put("history.csv.part", "1234567880");
+  EXPECT_THAT(asking(), ThrowsMessage<MachineError>(HasSubstr("history.csv.part, on which")));
   put("history.csv.part", "1234567890");
   EXPECT_NO_THROW(asking()());
 }

@@ -122,6 +122,18 @@ TEST(ChosenOutputs, AColumnIsTakenAsItsNameSays) {
   EXPECT_EQ(chosen[3].name, "slip@0.1");
 }
 
+TEST(ChosenOutputs, NamesOfBoundariesMayHaveAllThatStandsAroundAColumn) {
+  casefile::Case odd = paper().back();
+  for (casefile::BoundaryCase &boundary : odd.boundaries)
+    if (boundary.temperature)
+      boundary.on = {"max:a@b"};
+  const auto chosen =
+      chosen_outputs({"heat_max:a@b", "rms:heat_max:a@b", "heat_max:a@b@0.1"}, {odd});
+  for (const Output &output : chosen)
+    EXPECT_EQ(output.column.empty() ? output.name : output.column, "heat_max:a@b");
+  EXPECT_EQ(chosen[2].reduction.time, 0.1);
+}
+
 struct WrongOutput {
   const char *name, *reason;
 };
@@ -145,7 +157,11 @@ INSTANTIATE_TEST_SUITE_P(
                     WrongOutput{"average:slip", "allowed: last:NAME, min:NAME"},
                     WrongOutput{"slip@", "write NAME@TIME"}, WrongOutput{"slip@0", "above 0"},
                     WrongOutput{"slip@nan", "above 0"}, WrongOutput{"slip@0.3", "at most 0.2"},
-                    WrongOutput{"max:slip@0.1", "no column of history.csv"},
+                    WrongOutput{"max:slip@0.1", "write max:slip or slip@0.1"},
+                    WrongOutput{
+                        "rms:max_potential@0.1",
+                        "rms: and @0.1 each make one number of a column, and here are both"},
+                    WrongOutput{"max:slop@0.1", "did you mean \"max:slip\"?"},
                     WrongOutput{"max:at_max_potential_x", "is a place"},
                     WrongOutput{"at_max_potential_x@0.1", "is a place"}));
 

@@ -95,6 +95,13 @@ def closed_forms(results):
     def damped(r):
         return [u - 1e-6 * n / 4 for n, u in enumerate(column(r, "normal_displacement"), 1)], 1e-6
 
+    def damped_driven(r):
+        f, c, k, exact, u = 162e9 * 0.75 / (1.25 * 0.5), 1e12, 0.25, [], 0.0
+        for n in range(1, 5):
+            u = (f * 1e-6 * n * k / 0.1 + c / k * u) / (f / 0.1 + c / k)
+            exact.append(u)
+        return [u - e for u, e in zip(column(r, "normal_displacement"), exact)], 1e-6
+
     def capped(r):
         d = [5e-7 * n for n in range(1, 5)]
         return [s - (a - min(43e10 * a, 3e5) / 43e10) for a, s in zip(d, column(r, "slip_x"))], 2e-6
@@ -103,7 +110,8 @@ def closed_forms(results):
         s = 1.155922279133010628e-6
         return [column(r, "slip_x")[0] - s, (column(r, "tangential_traction_x")[0] + 43e10 * (2e-6 - s)) / 43e10], s
 
-    for name, formula in (("column-compliance", compliance), ("column-damped", damped), ("layer-capped", capped),
+    for name, formula in (("column-compliance", compliance), ("column-damped", damped),
+                          ("column-damped-driven", damped_driven), ("layer-capped", capped),
                           ("layer-slip-weakening", weakening)):
         error, size = formula(results[name])
         yield name + ": closed form", max(float(np.max(np.abs(e))) for e in error) / size

@@ -5,7 +5,8 @@
     compare.py build/release/apps/tourmaline/tourmaline ssnv128 damped -- --set solver.method=monolithic
 
 For every column of contact.csv: the largest difference over all steps and nodes, divided by the column's largest
-value, or, for a column that is 1e-9 of its kind or less (tractions, lengths, rates), by that of its kind. Exit status 1 where a
+value, or, for a column that is 1e-9 of its kind or less (tractions, lengths, rates), by that of its kind; of nodes.csv, divided by the
+largest value of the field over all steps. Exit status 1 where a
 difference is larger than 1e-9, a status differs, or the program fails. Needs nothing but Python.
 """
 import csv
@@ -38,8 +39,9 @@ def by_place(table):
 class Differences:
     """Of each column the largest difference and the largest expected value."""
 
-    def __init__(self):
+    def __init__(self, step=1.0):
         self.largest, self.size, self.at = {}, {}, {}
+        self.step = step  # length of a time step [s]
 
     def add(self, column, value, expected, where, name=None):
         name = name or column
@@ -52,6 +54,8 @@ class Differences:
     def relative(self, name):
         column = name.split(" ")[0]
         kind = max(self.size.get(c, 0.0) for c in KINDS[KIND[column]])
+        if KIND[column] == "rate":
+            kind = max(kind, max(self.size.get(c, 0.0) for c in KINDS["length"]) / self.step)
         size = self.size[column] if self.size[column] > 1e-9 * kind else kind
         return self.largest[name] / size if size else self.largest[name]
 
@@ -63,7 +67,7 @@ def status_agrees(friction, mine, expected):
 
 def compare_contact(result, table, report):
     """Differences of contact.csv; the nodes whose status differs."""
-    differences, mismatches, missing = Differences(), [], set()
+    differences, mismatches, missing = Differences(result["steps"][0]["time"]), [], set()
     steps = {}
     for row in table:
         steps.setdefault(int(row["step"]), []).append(row)

@@ -75,6 +75,7 @@ class Run:
         before, slid = -fn - g, -ft.astype(LONG)  # delta; u_tau - u_f,tau
         accumulated, size = np.zeros(n, LONG), 0.0
         steps, z = [], np.zeros(2 * n)
+        self.largest = np.zeros(4)  # of each field, over all steps
         for k in range(1, case.steps + 1):
             t = k * case.end / case.steps
             load = b.loads(t, x)
@@ -102,6 +103,7 @@ class Run:
             x = trial
             x[self.rows] = self.turn * (base + state)
             self.solver.solve(x, load)
+            self.largest = np.maximum(self.largest, [float(np.max(np.abs(x[f::4]))) for f in range(4)])
             full = self.body.K @ x - load
             balance = max(np.max(np.abs(self.turn * full[self.rows] - q)),
                           np.max(np.abs(full[self.interior][self.interior % 4 < 2]), initial=0)) / size
@@ -168,7 +170,7 @@ class Run:
                 picked.append(i * (ny + 1) + j)
         picked = np.array(picked)
         take = lambda f: [float(v) for v in self.final[4 * picked + f]]
-        largest = {name: float(np.max(np.abs(self.final[f::4]))) for f, name in enumerate(("u_x", "u_y", "potential", "temperature"))}
+        largest = dict(zip(("u_x", "u_y", "potential", "temperature"), self.largest.tolist()))
         return {"x": b.x[picked].tolist(), "y": b.y[picked].tolist(), "u_x": take(0), "u_y": take(1),
                 "potential": take(PHI), "temperature": take(THETA)}, largest
 

@@ -127,7 +127,7 @@ def compare(step, state, closed, side, random, covers=8):
         return {}
     M, r, Q, q0, F = problem(step, state, closed, side)
     free = free_rows(step, closed)
-    counts = {"same": 0, "other": 0, "ray": 0, "lost_digits": 0}
+    counts = {"same": 0, "same_after_changes": 0, "other": 0, "ray": 0, "lost_digits": 0}
     for c in range(covers):
         x, _ = lemke(M, r, np.ones(len(r)) if c == 0 else 10 ** random.uniform(-1, 1, len(r)))
         if x is None:
@@ -142,7 +142,11 @@ def compare(step, state, closed, side, random, covers=8):
 
 
 def judge(step, z, P, state, closed, side):
-    """Whether the state that pivots ended at is this solution, another one, or none (digits were lost on the way)."""
+    """Whether the state that pivots ended at is this solution, another one, or none.
+
+    Digits are lost on long paths: where the statuses they end at fail, nodes change theirs up to four times, which is
+    counted apart.
+    """
     guess_closed, guess_side = step.guess(np.where(np.abs(z) * step.diagonal < 1e-8 * P.max(), 0, z), np.where(P > 1e-8 * P.max(), P, 0))
     for i in step.held:
         if i >= step.n:
@@ -151,7 +155,7 @@ def judge(step, z, P, state, closed, side):
         for i in range(step.n):
             guess_closed[i] = guess_closed[i] or (closed[i] and step.n + i in step.held)
     found, a, b = None, guess_closed, guess_side
-    for _ in range(5):
+    for changes in range(5):
         try:
             found, r = step.exact(z, a, b)
         except np.linalg.LinAlgError:
@@ -161,4 +165,6 @@ def judge(step, z, P, state, closed, side):
             break
     else:
         return "lost_digits"
-    return "same" if step.distance(found, state) < 1e-9 else "other"
+    if step.distance(found, state) > 1e-9:
+        return "other"
+    return "same_after_changes" if changes else "same"
