@@ -147,7 +147,7 @@ void declare(Visitor &v, FrictionCase &friction) {
          .description = "none: the foundation is slippery; tresca: the tangential traction stays "
                         "below a given bound, and slip is opposed by it (9); coulomb: likewise, "
                         "with the bound min(cohesion + mu p, limit), p being the contact pressure "
-                        "-sigma_nu where it is positive",
+                        "-sigma_nu, and at least 0",
          .choices = {"none", "tresca", "coulomb"}},
         &friction.law);
   v.key({.name = "bound",

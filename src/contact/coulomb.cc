@@ -1,6 +1,5 @@
 #include "contact/coulomb.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace tourmaline::contact {
@@ -14,11 +13,12 @@ double FrictionCoefficient::derivative(double slip) const {
 }
 
 FrictionBound::Value Coulomb::at(double pressure, double slip) const {
-  const double p = std::max(0., pressure), mu = coefficient_.value(slip);
-  const double free = cohesion_ + mu * p;
+  const double mu = coefficient_.value(slip), free = cohesion_ + mu * pressure;
+  if (free <= 0)
+    return {};
   if (free >= limit_)
     return {limit_, 0, 0};
-  return {free, pressure > 0 ? mu : 0, coefficient_.derivative(slip) * p};
+  return {free, mu, coefficient_.derivative(slip) * pressure};
 }
 
 }  // namespace tourmaline::contact

@@ -18,7 +18,8 @@ struct FrictionCoefficient {
   double derivative(double slip) const;  ///< in |d| [1/m]
 };
 
-/// Coulomb's law: the bound is min(cohesion + mu p, limit), p > 0.
+/// Coulomb's law: the bound is min(cohesion + mu p, limit), but at least 0, which counts where
+/// bilateral contact is pulled, p < 0.
 class Coulomb : public FrictionBound {
  public:
   Coulomb(FrictionCoefficient coefficient, double cohesion,
