@@ -13,6 +13,7 @@
 #include "case/nearest.h"
 #include "case/reference.h"
 #include "case/resolved.h"
+#include "case/snapping.h"
 #include "material/description.h"
 #include "output/folder_lock.h"
 #include "parallel/ranks.h"
@@ -64,6 +65,8 @@ void check(const Asked &asked) {
   const auto read = case_of(asked);
   tourmaline::run::check(read);
   std::cout << tourmaline::casefile::resolved(read) << tourmaline::run::survey(read);
+  if (const std::string warning = tourmaline::casefile::snapping_warning(read); !warning.empty())
+    std::cout << "\n# warning: " << warning << "\n";
 }
 
 void materials(const Asked &asked) {
@@ -153,8 +156,9 @@ void add_figures(CLI::App &app, Asked &asked) {
   command->add_option("--format", asked.format, "svg, png or pdf; svg if not given");
   command
       ->add_option("--field", asked.fields,
-                   "a field to draw, NAME or NAME.COMPONENT; may be given several times; if not "
-                   "given, what the paper shows")
+                   "a field to draw, NAME or NAME.COMPONENT, or a curve along the contact, "
+                   "contact.pressure, contact.gap or another contact.COLUMN; may be given several "
+                   "times; if not given, what the paper shows")
       ->allow_extra_args(false);
   command->add_option("--time", asked.time,
                       "the moment [s]; the nearest field file is taken, if not given the last");

@@ -387,17 +387,40 @@ std::vector<Node> Discretisation<dim>::nodes_on(const std::vector<std::string> &
 
 namespace {
 
-// deal.II's numbers of a facet's corners in a circle, and of the middle of a quadratic line.
+// deal.II's numbers of the nodes of a line from end to end.
 template <class Face>
+std::vector<dealii::types::global_dof_index> line_dofs(const Face &face, unsigned int degree) {
+  if (degree == 1)
+    return {face.vertex_dof_index(0, 0), face.vertex_dof_index(1, 0)};
+  return {face.vertex_dof_index(0, 0), face.dof_index(0), face.vertex_dof_index(1, 0)};
+}
+
+// Of a triangle or a quadrilateral: corners in a circle, then the middles of the sides from the one
+// between the first two on, then the middle of a quadrilateral. deal.II has a quadrilateral's
+// corners line by line, and its sides as left, right, bottom, top.
+template <class Face>
+std::vector<dealii::types::global_dof_index> face_dofs(const Face &face, unsigned int degree) {
+  const bool is_triangle = face.n_vertices() == 3;
+  std::vector<dealii::types::global_dof_index> dofs;
+  for (const unsigned int corner :
+       is_triangle ? std::vector{0U, 1U, 2U} : std::vector{0U, 1U, 3U, 2U})
+    dofs.push_back(face.vertex_dof_index(corner, 0));
+  if (degree == 1)
+    return dofs;
+  for (const unsigned int side :
+       is_triangle ? std::vector{0U, 1U, 2U} : std::vector{2U, 1U, 3U, 0U})
+    dofs.push_back(face.line(side)->dof_index(0));
+  if (!is_triangle)
+    dofs.push_back(face.dof_index(0));
+  return dofs;
+}
+
+template <int dim, class Face>
 std::vector<dealii::types::global_dof_index> facet_dofs(const Face &face, unsigned int degree) {
-  const auto corner = [&](unsigned int i) { return face.vertex_dof_index(i, 0); };
-  if (face.n_vertices() == 2 && degree == 1)
-    return {corner(0), corner(1)};
-  if (face.n_vertices() == 2)
-    return {corner(0), face.dof_index(0), corner(1)};
-  if (face.n_vertices() == 3)
-    return {corner(0), corner(1), corner(2)};
-  return {corner(0), corner(1), corner(3), corner(2)};  // deal.II runs line by line
+  if constexpr (dim == 2)
+    return line_dofs(face, degree);
+  else
+    return face_dofs(face, degree);
 }
 
 // From (number of nodes, nodes) of each facet, one behind the other.
@@ -419,7 +442,7 @@ std::vector<output::NamedBoundary> Discretisation<dim>::boundaries() const {
       for (const unsigned int f : cell->face_indices()) {
         if (!cell->face(f)->at_boundary() || !ids.count(cell->face(f)->boundary_id()))
           continue;
-        const auto dofs = facet_dofs(*cell->face(f), parts_->element->degree);
+        const auto dofs = facet_dofs<dim>(*cell->face(f), parts_->element->degree);
         facets.push_back(static_cast<Node>(dofs.size()));
         for (const auto dof : dofs)
           facets.push_back(parts_->node_of[dof]);

@@ -98,8 +98,11 @@ void add_rotations(const Constraints &constraints, std::vector<std::string> &fre
     free.emplace_back("a rotation about an oblique axis");
 }
 
+// What the contact may hold of a body.
+enum class Held { nothing, never_lost, all_it_can };
+
 // A rigid motion is affine: what it is on a side is decided at so many points.
-std::vector<Support> supports_of(const Case &asked) {
+std::vector<Support> supports_of(const Case &asked, Held by_contact) {
   std::vector<Support> supports;
   for (const BoundaryCase &boundary : asked.boundaries)
     for (const std::string &name : boundary.on)
@@ -109,11 +112,36 @@ std::vector<Support> supports_of(const Case &asked) {
             supports.push_back({at.point, {}});
             supports.back().direction[i] = 1;
           }
-  if (asked.contact && asked.contact->normal == "bilateral")
-    for (const std::string &name : asked.contact->on)
-      for (const SidePoint &at : points_on(asked.mesh, name))
+  if (!asked.contact || by_contact == Held::nothing)
+    return supports;
+  const bool is_bilateral = asked.contact->normal.law == "bilateral";
+  const bool has_friction = asked.contact->friction.law != "none";
+  for (const std::string &name : asked.contact->on)
+    for (const SidePoint &at : points_on(asked.mesh, name)) {
+      if (is_bilateral || by_contact == Held::all_it_can)
         supports.push_back({at.point, at.normal});
+      for (int i = 0; has_friction && by_contact == Held::all_it_can && i < asked.dimension; ++i) {
+        supports.push_back({at.point, {}});
+        supports.back().direction[i] = 1;
+      }
+    }
   return supports;
+}
+
+// An iterative solution of the body's equations needs a body that is held whatever the contact
+// does.
+bool may_lean(const Case &asked) {
+  return asked.solver.body != "iterative";
+}
+
+// What the contact does for the holding, in brackets.
+std::string words_of_contact(const Case &asked) {
+  if (!asked.contact)
+    return "";
+  if (!may_lean(asked))
+    return " (friction and contact that opens hold no body with solver.body = \"iterative\")";
+  return asked.contact->friction.law == "none" ? " (contact without friction holds only the normal)"
+                                               : "";
 }
 
 std::string listed(const std::vector<std::string> &texts) {
@@ -149,13 +177,18 @@ void check_holding(const Case &asked) {
                          : " [[electrode]]: the electric potential floats, as no electrode has a "
                            "path to a given voltage; give one a `voltage`, or a boundary a "
                            "`potential`"));
-  const std::vector<std::string> free = free_motions(asked.dimension, supports_of(asked));
+  const std::vector<std::string> free = free_motions(
+      asked.dimension, supports_of(asked, may_lean(asked) ? Held::all_it_can : Held::never_lost));
   if (!free.empty())
     throw CaseError(fmt::format(
         "{} [[boundary]]: nothing holds the body against {}; prescribe further components of "
         "`displacement`{}",
-        asked.source, listed(free),
-        asked.contact ? " (bilateral contact holds only the normal one)" : ""));
+        asked.source, listed(free), words_of_contact(asked)));
+}
+
+std::string left_to_contact(const Case &asked) {
+  return asked.contact ? listed(free_motions(asked.dimension, supports_of(asked, Held::never_lost)))
+                       : "";
 }
 
 }  // namespace tourmaline::casefile

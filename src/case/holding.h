@@ -19,9 +19,12 @@ struct Support {
 /// the third coordinates are not looked at.
 std::vector<std::string> free_motions(int dimension, const std::vector<Support> &supports);
 
-/// Throws CaseError when the case's conditions leave the box a rigid motion (bilateral contact
-/// holds the normal direction) or the electric potential a constant: such a problem has no unique
-/// solution.
+/// Throws CaseError when the case's conditions, with all that its contact can hold, leave the body
+/// a rigid motion, or the electric potential a constant: such a problem has no unique solution.
 void check_holding(const Case &asked);
+
+/// The rigid motions that only friction or contact that may open keep the body from, as a phrase;
+/// empty where there are none.
+std::string left_to_contact(const Case &asked);
 
 }  // namespace tourmaline::casefile

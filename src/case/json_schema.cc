@@ -38,6 +38,7 @@ struct Switch {
   std::string key;
   std::vector<std::string> choices = {};  ///< empty: whether it is given matters
   std::string standard = {};              ///< the choice without the key
+  bool sole = false;                      ///< its value may stand for the table
 };
 
 /// A switch in one position.
@@ -59,10 +60,14 @@ struct Visit {
 
 const std::string mesh_table = "/properties/mesh";
 
+// Of a table for which a value may stand there are two schemas, the value's first.
+const std::string of_value = "/anyOf/0", of_table = "/anyOf/1";
+
 /// One table as the declaration has it in one case.
 class Table : public Visitor {
  public:
-  Table(std::string path, Visit &visit) : path_(std::move(path)), visit_(visit) {}
+  Table(std::string path, Visit &visit, std::string sole = {})
+      : path_(std::move(path)), visit_(visit), sole_(std::move(sole)) {}
 
   Json schema() const {
     Json all{{"type", "object"}, {"properties", properties_}, {"additionalProperties", false}};
@@ -87,7 +92,10 @@ class Table : public Visitor {
   }
 
   void table(const Key &key, const Body &body) override {
-    add(key, described(key, inner(key.name, "", body)));
+    if (!key.used.holds)
+      add(key, false);
+    else
+      add(key, described(key, key.sole.empty() ? inner(key.name, "", body) : of_both(key, body)));
   }
 
   int count(const Key &, int) override { return 1; }
@@ -106,6 +114,17 @@ class Table : public Visitor {
     }
   }
 
+  void one_group(const std::vector<std::vector<std::string>> &groups) override {
+    for (const std::vector<std::string> &group : groups) {
+      Json one{{"required", group}};
+      for (const std::vector<std::string> &other : groups)
+        for (const std::string &name : other)
+          if (std::find(group.begin(), group.end(), name) == group.end())
+            one["properties"][name] = false;
+      one_of_.push_back(one);
+    }
+  }
+
   void load(MeshCase &mesh) override {
     if (!mesh.file)
       return;
@@ -120,7 +139,8 @@ class Table : public Visitor {
   }
 
   static Json described(const Key &key, const Json &schema) {
-    Json all{{"description", key.description}};
+    const std::string only = key.used.words.empty() ? "" : "; only with " + key.used.words;
+    Json all{{"description", key.description + only}};
     all.update(schema);
     return all;
   }
@@ -131,17 +151,23 @@ class Table : public Visitor {
       required_.push_back(key.name);
   }
 
-  Json inner(const std::string &name, const char *suffix, const Body &body) {
+  Json inner(const std::string &name, const std::string &suffix, const Body &body) {
     Table table(path_ + "/properties/" + name + suffix, visit_);
     body(table);
     return table.schema();
+  }
+
+  Json of_both(const Key &key, const Body &body) {
+    Table table(path_ + "/properties/" + key.name + of_table, visit_, key.sole);
+    body(table);
+    return {{"anyOf", {table.properties_[key.sole], table.schema()}}};
   }
 
   // The declaration sees the choice of this visit from here on.
   void choose(const Key &key, std::string &value) {
     if (key.optional)
       return;
-    visit_.switches.push_back({path_, key.name, key.choices, value});
+    visit_.switches.push_back({path_, key.name, key.choices, value, key.name == sole_});
     if (visit_.is_at(path_, key.name))
       value = visit_.position.choice;
     else if (path_ == mesh_table + "/properties/" + visit_.kind.given && key.name == "cell")
@@ -150,6 +176,7 @@ class Table : public Visitor {
 
   std::string path_;
   Visit &visit_;
+  std::string sole_;  ///< the key whose value may stand for the table
   Json properties_ = Json::object(), required_ = Json::array(), one_of_ = Json::array();
   std::set<std::string> arrays_;
 };
@@ -231,6 +258,19 @@ const std::vector<Json> *known_positions(const std::vector<Variant> &earlier, co
   return nullptr;
 }
 
+// Alone a choice can stand for its table where the table needs no other key.
+void restrict_value(Json &any, const Switch &turned, const std::vector<Json> &positions) {
+  Json alone = Json::array();
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const Json required = positions[i].value("required", Json::array());
+    if (std::all_of(required.begin(), required.end(),
+                    [&](const Json &name) { return name == turned.key; }))
+      alone.push_back(turned.choices[i]);
+  }
+  const std::string both = turned.table.substr(0, turned.table.size() - of_table.size());
+  any.at(Json::json_pointer(both + of_value))["enum"] = alone;
+}
+
 Variant variant_of(const Declaration &declaration, const MeshKind &kind,
                    const std::vector<Variant> &earlier) {
   Visit visit{kind};
@@ -245,6 +285,8 @@ Variant variant_of(const Declaration &declaration, const MeshKind &kind,
       Json &table = variant.any.at(Json::json_pointer(turned.table));
       for (const Json &position : variant.positions.back())
         table = merged(table, position);
+      if (turned.sole)
+        restrict_value(variant.any, turned, variant.positions.back());
     }
   return variant;
 }

@@ -22,6 +22,8 @@ class UnitOf : public Visitor {
   bool given(const Key &, bool) override { return true; }
   void table(const Key &key, const Body &body) override {
     const std::string outside = path_;
+    if (!key.sole.empty() && path_ + key.name == wanted_)
+      wanted_ += "." + key.sole;
     path_ += key.name + ".";
     body(*this);
     path_ = outside;

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "case/given_table.h"
 #include "case/toml_text.h"
 #include "case/too_large.h"
 #include "case/utf8.h"
@@ -145,8 +147,12 @@ std::size_t index_in(const toml::array &array, const Override &asked, std::size_
 
 // The place for the part of that number inside `parent`: what is there, or nullptr.
 toml::node *child(toml::node &parent, const Override &asked, std::size_t part) {
-  if (toml::table *table = parent.as_table())
+  if (toml::table *table = parent.as_table()) {
+    if (part > 0 && is_index(asked.path[part]))
+      fail(asked, fmt::format("{0} is a table and no list; write {0}.KEY without a number",
+                              joined(asked.path, part)));
     return table->get(asked.path[part]);
+  }
   if (toml::array *array = parent.as_array())
     return array->get(index_in(*array, asked, part));
   fail(asked, fmt::format("{} is a value, which has no key or entry \"{}\"",
@@ -167,6 +173,30 @@ void put(toml::node &parent, const Override &asked, std::size_t part, toml::node
   array.insert(array.begin() + static_cast<std::ptrdiff_t>(index), std::move(value));
 }
 
+// Of the parts before that one, without the numbers of entries, as the keys are declared.
+std::string declared_path(const std::vector<std::string> &path, std::size_t parts) {
+  std::vector<std::string> names;
+  std::copy_if(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(parts),
+               std::back_inserter(names), [](const std::string &part) { return !is_index(part); });
+  return joined(names, names.size());
+}
+
+// A value that stands for a key of a table becomes that table, so that others can be added. The
+// table's place is the override, which asks for these.
+void make_table_of_value(toml::node &parent, const Override &asked, std::size_t part) {
+  toml::node &value = *child(parent, asked, part);
+  if (value.is_table())
+    return;
+  const std::string sole = sole_key_of(declared_path(asked.path, part + 1));
+  if (sole.empty())
+    return;
+  toml::table made = empty(asked, false);
+  toml::table &around = *made.get_as<toml::table>("value");
+  const toml::source_region place = value.source();
+  around.insert(toml::key(sole, place), std::move(value));
+  put(parent, asked, part, std::move(around));
+}
+
 }  // namespace
 
 void apply_override(toml::table &root, const std::string &assignment) {
@@ -179,6 +209,7 @@ void apply_override(toml::table &root, const std::string &assignment) {
       toml::table made = empty(asked, is_index(asked.path[part + 1]));
       put(*parent, asked, part, std::move(*made.get("value")));
     }
+    make_table_of_value(*parent, asked, part);
     parent = child(*parent, asked, part);
   }
   child(*parent, asked, last);  // complains about a path that goes through a value

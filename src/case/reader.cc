@@ -10,6 +10,7 @@
 
 #include "case/conflicts.h"
 #include "case/electrodes.h"
+#include "case/given_table.h"
 #include "case/holding.h"
 #include "case/plane_formulas.h"
 #include "case/schema.h"
@@ -38,7 +39,7 @@ class Reader : public Visitor {
     std::function<std::string()> unknown_keys;  ///< what is wrong with all of them
   };
 
-  Reader(const toml::table &table, std::string path, const Context &context)
+  Reader(const GivenTable &table, std::string path, const Context &context)
       : table_(table), path_(std::move(path)), context_(context) {}
 
   /// Checks that every key of the table is declared, then reads those that are.
@@ -46,29 +47,26 @@ class Reader : public Visitor {
     Names names;
     body(names);
     check_laws(names.laws);
-    for (const auto &[name, node] : table_)
-      if (!names.hold(std::string(name.str())))
-        throw CaseError(context_.unknown_keys());
+    if (const toml::table *keys = table_.keys())
+      for (const auto &[name, node] : *keys)
+        if (!names.hold(std::string(name.str())))
+          throw CaseError(context_.unknown_keys());
     body(*this);
     if (!missing_.empty())
       fail_missing();
   }
 
   void key(const Key &key, Value value) override {
-    const toml::node *node = table_.get(key.name);
-    if (!key.used.holds) {
-      if (node)
-        fail(item(*node, key), "is only used with " + key.used.words);
+    if (!is_used(key))
       return;
-    }
-    if (node)
+    if (const toml::node *node = table_.get(key.name))
       read(item(*node, key), value);
     else if (key.required)
       missing_.push_back(key);
   }
 
   bool given(const Key &key, bool) override {
-    const bool present = table_.contains(key.name);
+    const bool present = table_.get(key.name) != nullptr;
     if (!present && key.required) {
       missing_.push_back(key);
       fail_missing();
@@ -77,6 +75,8 @@ class Reader : public Visitor {
   }
 
   void table(const Key &key, const Body &body) override {
+    if (!is_used(key))
+      return;
     const toml::node *node = table_.get(key.name);
     if (!node && key.required) {
       missing_.push_back(key);
@@ -84,9 +84,9 @@ class Reader : public Visitor {
     }
     if (!node)
       return;
-    const toml::table *inner = node->as_table();
+    const std::optional<GivenTable> inner = given_table(*node, key);
     if (!inner)
-      fail(item(*node, key), "must be a table: [" + path_to(key.name) + "]");
+      fail(item(*node, key), "must be a table: [" + path_to(key.name) + "]" + why_one(*node, key));
     Reader(*inner, path_to(key.name), context_).read_all(body);
   }
 
@@ -105,9 +105,8 @@ class Reader : public Visitor {
   }
 
   void entry(const Key &key, int index, const Body &body) override {
-    const toml::node *node =
-        table_.get_as<toml::array>(key.name)->get(static_cast<std::size_t>(index));
-    Reader(*node->as_table(), fmt::format("{}[{}]", path_to(key.name), index), context_)
+    const toml::node *node = table_.get(key.name)->as_array()->get(static_cast<std::size_t>(index));
+    Reader(GivenTable(*node->as_table()), fmt::format("{}[{}]", path_to(key.name), index), context_)
         .read_all(body);
   }
 
@@ -119,7 +118,7 @@ class Reader : public Visitor {
       return;
     const toml::node *node = table_.get(name);
     if (!node)
-      throw CaseError(where(table_.source(), name) + ": " + text);
+      throw CaseError(where(table_.node().source(), name) + ": " + text);
     fail(item(*node, {.name = name, .description = ""}), text);
   }
 
@@ -147,11 +146,14 @@ class Reader : public Visitor {
     }
   }
 
-  void place(std::string &where_) override { where_ = where(table_.source(), ""); }
+  void place(std::string &where_) override { where_ = where(table_.node().source(), ""); }
 
   void places(std::map<std::string, std::string> &where_) override {
-    for (const auto &[name, node] : table_)
-      where_[std::string(name.str())] = where(node.source(), std::string(name.str()));
+    if (const toml::table *keys = table_.keys())
+      for (const auto &[name, node] : *keys)
+        where_[std::string(name.str())] = where(node.source(), std::string(name.str()));
+    else
+      where_[table_.sole()] = where(table_.node().source(), table_.sole());
   }
 
  private:
@@ -161,7 +163,32 @@ class Reader : public Visitor {
 
   // " [contact.friction] bound"; an empty name stands for the table itself.
   std::string full_name(const std::string &name) const {
+    if (is_sole(name))
+      return name_of_value();
     return (path_.empty() ? "" : " [" + path_ + "]") + (name.empty() ? "" : " " + name);
+  }
+
+  bool is_sole(const std::string &name) const {
+    return !table_.keys() && (name.empty() || name == table_.sole());
+  }
+
+  // Of a value that is given for this table: " [contact] normal".
+  std::string name_of_value() const {
+    const std::size_t dot = path_.rfind('.');
+    return dot == std::string::npos
+               ? " " + path_
+               : fmt::format(" [{}] {}", path_.substr(0, dot), path_.substr(dot + 1));
+  }
+
+  bool is_used(const Key &key) const {
+    const toml::node *node = table_.get(key.name);
+    if (!key.used.holds && node)
+      fail(item(*node, key), "is only used with " + key.used.words);
+    return key.used.holds;
+  }
+
+  static std::string why_one(const toml::node &node, const Key &key) {
+    return node.is_array() && !key.no_array.empty() ? "; " + key.no_array : "";
   }
 
   std::string where(const toml::source_region &source, const std::string &name) const {
@@ -169,7 +196,7 @@ class Reader : public Visitor {
   }
 
   Item item(const toml::node &node, const Key &key) const {
-    return {node, key, full_name(key.name)};
+    return {node, key, full_name(key.name), is_sole(key.name) ? "a table, [" + path_ + "]" : ""};
   }
 
   // A law that does not exist is the mistake, and not the keys that it would have.
@@ -188,11 +215,22 @@ class Reader : public Visitor {
       meanings += (meanings.empty() ? "" : "; ") + (missing_.size() > 1 ? key.name + ", " : "") +
                   key.description + unit;
     }
-    throw MissingKeys(
-        fmt::format("{}: missing, but must be given: {}", where(table_.source(), names), meanings));
+    throw MissingKeys(fmt::format("{}: missing, but must be given: {}{}",
+                                  where(table_.node().source(), names), meanings, as_table()));
   }
 
-  const toml::table &table_;
+  // How to give further keys where a value is given: "; write normal = { law = "damped",
+  // coefficient = ... }".
+  std::string as_table() const {
+    if (table_.keys())
+      return "";
+    std::string keys = table_.sole() + " = " + quoted(table_.node());
+    for (const Key &key : missing_)
+      keys += ", " + key.name + " = ...";
+    return fmt::format("; write {} = {{ {} }}", path_.substr(path_.rfind('.') + 1), keys);
+  }
+
+  GivenTable table_;
   std::string path_;  ///< of the table, with dots
   std::vector<Key> missing_;
   const Context &context_;
@@ -252,7 +290,9 @@ Case read_text(const std::string &text, const std::string &name,
     return unknown_keys(root, "", [&](Visitor &visitor) { declare(visitor, scratch); });
   };
   const Reader::Context context{std::filesystem::path(name).parent_path(), read_mesh, unknown};
-  Reader(root, "", context).read_all([&](Visitor &visitor) { declare(visitor, asked); });
+  Reader(GivenTable(root), "", context).read_all([&](Visitor &visitor) {
+    declare(visitor, asked);
+  });
   if (asked.output.every == 0)
     asked.output.every = steps_between_files(asked.time.steps);
   check_plane(asked);
@@ -276,7 +316,7 @@ void read_entry(const toml::node &node, const std::string &file, MaterialEntry &
                         [&](Visitor &visitor) { declare_entry(visitor, scratch); });
   };
   const Reader::Context context{std::filesystem::path(file).parent_path(), none, unknown};
-  Reader(*table, entry.name, context).read_all([&](Visitor &visitor) {
+  Reader(GivenTable(*table), entry.name, context).read_all([&](Visitor &visitor) {
     declare_entry(visitor, entry.given);
   });
 }

@@ -88,7 +88,8 @@ struct TypeName {
 /// A row for each key, then the tables inside.
 class Page : public Visitor {
  public:
-  explicit Page(std::string path) : path_(std::move(path)) {}
+  explicit Page(std::string path, Key table = {})
+      : path_(std::move(path)), table_(std::move(table)) {}
 
   std::string text() const {
     std::string all = with_head(rows_);
@@ -98,9 +99,13 @@ class Page : public Visitor {
   }
 
   void key(const Key &key, Value value) override {
-    rows_ +=
-        fmt::format("| `{}` | {} | {} | {} | {} |\n", key.name, std::visit(TypeName{key}, value),
-                    key.unit, default_of(key, value), meaning(key, value));
+    const std::string type = std::visit(TypeName{key}, value), standard = default_of(key, value),
+                      text = meaning(key, value);
+    rows_ += fmt::format(row, key.name, type, key.unit, standard, text);
+    if (key.name == table_.sole)
+      row_of_value_ = fmt::format(
+          row, table_.name, type + " or table", key.unit, table_.required ? "required" : standard,
+          fmt::format("`{}` of [{}], or that table{}", key.name, path_, only_with(table_)));
   }
 
   bool given(const Key &, bool) override { return true; }
@@ -134,9 +139,11 @@ class Page : public Visitor {
       text += "; " + sizes;
     if (key.constant_in_time)
       text += "; must not depend on t";
-    if (!key.used.words.empty())
-      text += "; only with `" + key.used.words + "`";
-    return text;
+    return text + only_with(key);
+  }
+
+  static std::string only_with(const Key &key) {
+    return key.used.words.empty() ? "" : "; only with `" + key.used.words + "`";
   }
 
   struct Table {
@@ -160,18 +167,24 @@ class Page : public Visitor {
 
   void add(const Key &key, const Body &body, const char *open, const char *close) {
     const std::string path = path_.empty() ? key.name : path_ + "." + key.name;
-    Page inner(path);
+    Page inner(path, key);
     body(inner);
+    rows_ += inner.row_of_value_;
     const char *level = path_.empty() ? "##" : "###";
-    const char *required = key.required ? " Required." : "";
-    tables_.push_back(
-        {path,
-         fmt::format("\n{} {}{}{}\n\n{}.{}\n", level, open, path, close, key.description, required),
-         inner.rows_});
+    const std::string required = key.required ? " Required." : "",
+                      only = key.used.words.empty() ? "" : " Only with `" + key.used.words + "`.";
+    tables_.push_back({path,
+                       fmt::format("\n{} {}{}{}\n\n{}.{}{}\n", level, open, path, close,
+                                   key.description, required, only),
+                       inner.rows_});
     tables_.insert(tables_.end(), inner.tables_.begin(), inner.tables_.end());
   }
 
+  static constexpr const char *row = "| `{}` | {} | {} | {} | {} |\n";
+
   std::string path_, rows_;
+  Key table_;
+  std::string row_of_value_;  ///< among the keys around, where a value may stand for the table
   std::vector<Table> tables_;
 };
 

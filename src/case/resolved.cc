@@ -26,7 +26,10 @@ class Writer : public Visitor {
 
   bool given(const Key &, bool present) override { return present; }
 
-  void table(const Key &key, const Body &body) override { add(key, body, "[", "]"); }
+  void table(const Key &key, const Body &body) override {
+    if (key.used.holds)
+      add(key, body, "[", "]");
+  }
 
   int count(const Key &, int present) override { return present; }
 
@@ -38,8 +41,18 @@ class Writer : public Visitor {
     Writer inner(path);
     body(inner);
     const std::string text = inner.text();
-    if (!text.empty())
+    if (const std::string value = inner.alone(key.sole); !value.empty())
+      keys_ += key.name + " = " + value + "\n";
+    else if (!text.empty())
       tables_ += "\n" + (open + path) + close + "\n" + text;
+  }
+
+  // The value of that key, if the table says nothing else.
+  std::string alone(const std::string &name) const {
+    const std::string begin = name + " = ";
+    const bool is_all = !name.empty() && tables_.empty() && keys_.starts_with(begin) &&
+                        keys_.find('\n') == keys_.size() - 1;
+    return is_all ? keys_.substr(begin.size(), keys_.size() - begin.size() - 1) : "";
   }
 
   std::string path_, keys_, tables_;

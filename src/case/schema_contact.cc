@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "schema_parts.h"
 #include "sense.h"
 #include "tourmaline/case/contact_case.h"
@@ -7,16 +9,146 @@ namespace tourmaline::casefile {
 
 namespace {
 
+// The unit of c in the law; where there is none yet, in both.
+std::string unit_of_response(const std::string &law) {
+  if (law == "compliance")
+    return "N/m^(2+m)";
+  return law == "damped" ? "N s/m^3" : "N/m^(2+m) or N s/m^3";
+}
+
+void declare(Visitor &v, NormalCase &normal) {
+  v.key({.name = "law",
+         .description =
+             "with u_nu and u_f.nu the normal displacements of body and foundation, d = u_nu - "
+             "u_f.nu - gap how far they have closed beyond the gap, and p = -sigma_nu. bilateral: "
+             "contact is never lost, d = 0 (9); unilateral (Signorini's): d <= 0, p >= 0, p d = 0; "
+             "compliance: p = c (d+)^m, d+ being d where it is positive and else 0; damped: p = c "
+             "times the rate of d+ while it grows, else 0",
+         .choices = {"bilateral", "unilateral", "compliance", "damped"},
+         .also = {"type"},
+         .choices_also = {{"signorini", "unilateral"},
+                          {"normal_compliance", "compliance"},
+                          {"damped_response", "damped"}}},
+        &normal.law);
+  v.key({.name = "coefficient",
+         .description = "c of the law: of compliance in N/m^(2+m), of damped in N s/m^3",
+         .unit = unit_of_response(normal.law),
+         .required = true,
+         .range = positive(sense::contact_compliance),
+         .constant_in_time = true,
+         .used = with("law", normal.law, {"compliance", "damped"}),
+         .also = {"c", "c_nu", "stiffness"}},
+        &normal.coefficient);
+  v.key({.name = "exponent",
+         .description = "m of compliance",
+         .range = {.low = 1, .sense = sense::contact_exponent},
+         .used = with("law", normal.law, {"compliance"}),
+         .also = {"m", "m_nu"}},
+        &normal.exponent);
+}
+
+const std::string forms_of_coefficient =
+    "write coefficient = 0.3, or { static = 0.4, kinetic = 0.2, speed = 1e-3 }, or { static, "
+    "kinetic, distance }";
+
+std::string coefficient_complaint(const FrictionCoefficientCase &mu) {
+  if (mu.value && (mu.at_rest || mu.kinetic || mu.speed || mu.distance))
+    return "`value` is the whole coefficient, but `static`, `kinetic`, `speed` or `distance` are "
+           "given as well; " +
+           forms_of_coefficient;
+  if (!mu.value && !mu.at_rest && !mu.kinetic)
+    return "has no coefficient; " + forms_of_coefficient;
+  if (mu.value)
+    return "";
+  if (!mu.at_rest || !mu.kinetic)
+    return fmt::format("has `{}` but not `{}`; {}", mu.at_rest ? "static" : "kinetic",
+                       mu.at_rest ? "kinetic" : "static", forms_of_coefficient);
+  if (mu.speed && mu.distance)
+    return "both `speed` and `distance` are given; the coefficient falls with the one or the other";
+  if (!mu.speed && !mu.distance)
+    return "neither `speed` nor `distance` is given, over which the coefficient goes from static "
+           "to kinetic; " +
+           forms_of_coefficient;
+  return "";
+}
+
+void declare(Visitor &v, FrictionCoefficientCase &mu) {
+  const Range range = not_negative(sense::friction);
+  v.optional({.name = "value",
+              .description = "mu that does not depend on slip, of place and time",
+              .range = range,
+              .also = {"mu"}},
+             mu.value);
+  v.optional({.name = "static",
+              .description = "mu at rest: mu = kinetic + (static - kinetic) exp(-v/speed), v being "
+                             "the slip rate, or exp(-s/distance), s being the accumulated slip",
+              .range = range,
+              .also = {"mu_s", "at_rest"}},
+             mu.at_rest);
+  v.optional({.name = "kinetic",
+              .description = "mu of fast or long slip",
+              .range = range,
+              .also = {"mu_k", "mu_d", "dynamic"}},
+             mu.kinetic);
+  v.optional({.name = "speed",
+              .description = "slip rate at which 1/e of static - kinetic is left",
+              .unit = "m/s",
+              .range = positive(sense::slip_rate),
+              .also = {"v_c", "velocity"}},
+             mu.speed);
+  v.optional({.name = "distance",
+              .description = "accumulated slip at which 1/e of static - kinetic is left",
+              .unit = "m",
+              .range = positive(sense::slip),
+              .also = {"D_c", "length"}},
+             mu.distance);
+  v.one_group({{"value"}, {"static", "kinetic", "speed"}, {"static", "kinetic", "distance"}});
+  v.check("", [&] { return coefficient_complaint(mu); });
+}
+
+// Of formulas that vary, whoever evaluates them judges.
+std::string limit_complaint(const FrictionCase &friction) {
+  if (!friction.limit || !friction.limit->is_number() || !friction.cohesion.is_number() ||
+      friction.limit->value({}, 0) >= friction.cohesion.value({}, 0))
+    return "";
+  return fmt::format("must be at least the cohesion, which is {} N/m^2", friction.cohesion.text());
+}
+
+void declare_coulomb(Visitor &v, FrictionCase &friction) {
+  const Use coulomb = with("law", friction.law, {"coulomb"});
+  v.table({.name = "coefficient",
+           .description = "The coefficient mu of Coulomb's law: a number or formula of place and "
+                          "time, or what it goes from and to as the contact slips",
+           .required = true,
+           .used = coulomb,
+           .also = {"mu", "friction_coefficient"},
+           .sole = "value"},
+          [&](Visitor &inner) { declare(inner, friction.coefficient); });
+  v.key({.name = "cohesion",
+         .description = "part of Coulomb's bound that does not depend on the pressure",
+         .unit = "N/m^2",
+         .range = not_negative(sense::traction),
+         .used = coulomb,
+         .also = {"c"}},
+        &friction.cohesion);
+  v.optional({.name = "limit",
+              .description = "Coulomb's bound grows no further with the pressure",
+              .unit = "N/m^2",
+              .range = not_negative(sense::traction),
+              .default_words = "none",
+              .used = coulomb,
+              .also = {"tau_max", "cap"}},
+             friction.limit);
+  v.check("limit", [&] { return limit_complaint(friction); });
+}
+
 void declare(Visitor &v, FrictionCase &friction) {
-  for (const char *name : {"coefficient", "cohesion", "limit"})
-    v.refuse(name,
-             "belongs to Coulomb's law, which is not available in this version; law = \"tresca\" "
-             "has `bound`");
   v.key({.name = "law",
          .description = "none: the foundation is slippery; tresca: the tangential traction stays "
-                        "below a given bound, and slip is opposed by it (9)",
-         .choices = {"none", "tresca"},
-         .foreseen = {"coulomb", "slip_rate"}},
+                        "below a given bound, and slip is opposed by it (9); coulomb: likewise, "
+                        "with the bound min(cohesion + mu p, limit), p being the contact pressure "
+                        "-sigma_nu, and at least 0",
+         .choices = {"none", "tresca", "coulomb"}},
         &friction.law);
   v.key({.name = "bound",
          .description = "friction bound S of Tresca's law (9)",
@@ -26,6 +158,7 @@ void declare(Visitor &v, FrictionCase &friction) {
          .used = with("law", friction.law, {"tresca"}),
          .also = {"S"}},
         &friction.bound);
+  declare_coulomb(v, friction);
 }
 
 void declare(Visitor &v, HeatExchangeCase &heat) {
@@ -63,23 +196,36 @@ std::string weight_complaint(const MeshCase &mesh) {
          "no weight in the contact; give mesh.degree = 1, or hexahedra";
 }
 
-void declare(Visitor &v, ContactCase &contact, const MeshCase &mesh) {
+void declare(Visitor &v, ContactCase &contact, const MeshCase &mesh, int dimension) {
   v.place(contact.where);
   v.places(contact.places);
   v.key(on_sides("boundary, or list of boundaries, in contact with the foundation", mesh),
         &contact.on);
   v.check("on", [&] { return inside_complaint(contact.on, mesh); });
   v.check("on", [&] { return weight_complaint(mesh); });
-  v.key({.name = "normal",
-         .description = "bilateral: contact is never lost, u_nu = 0 (9)",
-         .choices = {"bilateral"},
-         .foreseen = {"unilateral", "signorini", "compliance", "normal_compliance", "damped",
-                      "damped_response"}},
-        &contact.normal);
+  v.key({.name = "gap",
+         .description = "g, by which body and foundation are apart along the normal at the time 0; "
+                        "negative: pressed into each other",
+         .unit = "m",
+         .range = any(sense::coordinate),
+         .constant_in_time = true,
+         .also = {"g"}},
+        &contact.gap);
+  v.key({.name = "foundation_displacement",
+         .description = "u_f, by which the foundation moves; slip and closing are measured to it",
+         .unit = "m",
+         .range = any(sense::coordinate),
+         .length = one_each_axis(dimension),
+         .default_words = "it rests",
+         .also = {"u_f"}},
+        &contact.foundation_displacement);
+  v.table({.name = "normal",
+           .description = "The contact law along the normal. One that needs no further key may be "
+                          "given as a text: normal = \"unilateral\"",
+           .sole = "law"},
+          [&](Visitor &inner) { declare(inner, contact.normal); });
   v.refuse("charge", "not available in this version; no charge crosses the contact boundary");
   v.refuse("electric", "not available in this version; no charge crosses the contact boundary");
-  v.refuse("gap", "not available in this version; body and foundation touch at the time 0");
-  v.refuse("foundation_displacement", "not available in this version; the foundation rests");
   v.table({.name = "friction", .description = "The tangential contact law"},
           [&](Visitor &inner) { declare(inner, contact.friction); });
   v.table({.name = "heat", .description = "The heat flow between body and foundation"},
@@ -88,13 +234,51 @@ void declare(Visitor &v, ContactCase &contact, const MeshCase &mesh) {
 
 }  // namespace
 
-void declare_contact(Visitor &v, std::optional<ContactCase> &contact, const MeshCase &mesh) {
+namespace {
+
+// `normal = "unilateral"` or `friction.law = "coulomb"`: the first law that changes with the
+// contact's state; empty: there is none.
+std::string law_of_the_state(const std::optional<ContactCase> &contact) {
+  if (!contact)
+    return "";
+  if (contact->normal.law != "bilateral")
+    return "normal = \"" + contact->normal.law + "\"";
+  return contact->friction.law == "coulomb" ? "friction.law = \"coulomb\"" : "";
+}
+
+}  // namespace
+
+std::string multiplier_complaint(const std::optional<ContactCase> &contact,
+                                 const std::string &multiplier) {
+  const std::string law = law_of_the_state(contact);
+  if (law.empty() || multiplier == "nodal")
+    return "";
+  return fmt::format(
+      "contact with {} is not available with solver.multiplier = \"{}\" in this version; take "
+      "\"nodal\"",
+      law, multiplier);
+}
+
+std::string body_complaint(const std::optional<ContactCase> &contact, const std::string &body) {
+  const std::string law = law_of_the_state(contact);
+  if (law.empty() || body != "iterative")
+    return "";
+  return fmt::format(
+      "contact with {} is not available with solver.body = \"iterative\" in this version; take "
+      "\"direct\"",
+      law);
+}
+
+void declare_contact(Visitor &v, std::optional<ContactCase> &contact, const MeshCase &mesh,
+                     int dimension) {
   const Key key = {.name = "contact",
                    .description =
                        "Contact with a foundation that does not deform. Without this table "
-                       "there is no contact"};
-  v.optional_table(key, contact,
-                   [&](Visitor &inner, ContactCase &value) { declare(inner, value, mesh); });
+                       "there is no contact",
+                   .no_array = "several contacts are not available in this version"};
+  v.optional_table(key, contact, [&](Visitor &inner, ContactCase &value) {
+    declare(inner, value, mesh, dimension);
+  });
 }
 
 }  // namespace tourmaline::casefile

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "case/given_table.h"
 #include "case/nearest.h"
 #include "case/schema.h"
 #include "case/toml_text.h"
@@ -32,7 +33,7 @@ bool Names::given(const Key &key, bool) {
 }
 
 void Names::table(const Key &key, const Body &) {
-  all.push_back(key.name);
+  add(key);
 }
 
 int Names::count(const Key &key, int) {
@@ -64,6 +65,8 @@ class TablesWith : public Visitor {
   bool given(const Key &, bool) override { return true; }
   void table(const Key &key, const Body &body) override {
     const std::string outside = path_;
+    if (!key.sole.empty() && key.name == name_)
+      found.push_back(path_);
     path_ += (path_.empty() ? "" : ".") + key.name;
     body(*this);
     path_ = outside;
@@ -119,7 +122,7 @@ struct Unknown {
 /// Looks through one table and those inside it, and reads what decides which keys there are.
 class Census : public Visitor {
  public:
-  Census(const toml::table &table, std::string path, std::vector<Unknown> &found)
+  Census(const GivenTable &table, std::string path, std::vector<Unknown> &found)
       : table_(table), path_(std::move(path)), found_(found) {}
 
   void look(const Body &body) {
@@ -128,10 +131,11 @@ class Census : public Visitor {
     if (!std::all_of(names.laws.begin(), names.laws.end(),
                      [&](const Key &law) { return exists(law); }))
       return;
-    for (const auto &[key, node] : table_)
-      if (!names.hold(std::string(key.str())))
-        found_.push_back({path_, key, &node, names.all, reason(names, std::string(key.str())),
-                          meant(names, std::string(key.str()))});
+    if (const toml::table *keys = table_.keys())
+      for (const auto &[key, node] : *keys)
+        if (!names.hold(std::string(key.str())))
+          found_.push_back({path_, key, &node, names.all, reason(names, std::string(key.str())),
+                            meant(names, std::string(key.str()))});
     body(*this);
   }
 
@@ -139,18 +143,19 @@ class Census : public Visitor {
     if (key.used.holds)
       read_if_right(key, value);
   }
-  bool given(const Key &key, bool) override { return table_.contains(key.name); }
+  bool given(const Key &key, bool) override { return table_.get(key.name) != nullptr; }
   void table(const Key &key, const Body &body) override {
-    if (const toml::table *inner = table_.get_as<toml::table>(key.name))
-      Census(*inner, path_to(key.name), found_).look(body);
+    if (const toml::node *node = table_.get(key.name))
+      if (const std::optional<GivenTable> inner = given_table(*node, key))
+        Census(*inner, path_to(key.name), found_).look(body);
   }
   int count(const Key &key, int) override {
-    const toml::array *array = table_.get_as<toml::array>(key.name);
-    return array && array->is_array_of_tables() ? static_cast<int>(array->size()) : 0;
+    const toml::node *node = table_.get(key.name);
+    return node && node->is_array_of_tables() ? static_cast<int>(node->as_array()->size()) : 0;
   }
   void entry(const Key &key, int index, const Body &body) override {
     const auto i = static_cast<std::size_t>(index);
-    Census(*table_.get_as<toml::array>(key.name)->get_as<toml::table>(i),
+    Census(GivenTable(*table_.get(key.name)->as_array()->get_as<toml::table>(i)),
            fmt::format("{}[{}]", path_to(key.name), index), found_)
         .look(body);
   }
@@ -190,7 +195,7 @@ class Census : public Visitor {
     return "";
   }
 
-  const toml::table &table_;
+  GivenTable table_;
   std::string path_;  // with dots
   std::vector<Unknown> &found_;
 };
@@ -200,7 +205,7 @@ class Census : public Visitor {
 std::string unknown_keys(const toml::table &root, const std::string &path,
                          const Visitor::Body &declare) {
   std::vector<Unknown> found;
-  Census(root, path, found).look(declare);
+  Census(GivenTable(root), path, found).look(declare);
   std::stable_sort(found.begin(), found.end(),
                    [](const Unknown &a, const Unknown &b) { return a.order() < b.order(); });
   constexpr std::size_t most = 20;  // of a file that is something else

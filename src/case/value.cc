@@ -69,7 +69,8 @@ std::string type_of(const toml::node &node) {
 }
 
 [[noreturn]] void fail_type(const Item &item, const std::string &wanted) {
-  fail(item, fmt::format("is {}, but must be {}", type_of(item.node), wanted));
+  fail(item, fmt::format("is {}, but must be {}{}", type_of(item.node), wanted,
+                         item.otherwise.empty() ? "" : ", or " + item.otherwise));
 }
 
 void check_range(const Item &item, double number) {
@@ -95,6 +96,10 @@ void check_choice(const Item &item, const std::string &text) {
     return;
   if (key.choices.empty())
     fail(item, "is not allowed; " + key.no_choices);
+  for (const auto &[other, choice] : key.choices_also)
+    if (edit_distance(other, text) == 0)
+      fail(item, "is not allowed; allowed: " + listed(key.choices) + "; did you mean \"" + choice +
+                     "\"?");
   if (among(key.foreseen))
     fail(item, "not available in this version; allowed: " + listed(key.choices));
   std::vector<std::string> known = key.choices;

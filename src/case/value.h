@@ -20,7 +20,8 @@ std::string quoted(const toml::node &node);
 struct Item {
   const toml::node &node;
   const Key &key;
-  std::string name;  ///< with its table: " [contact.friction] bound"
+  std::string name;            ///< with its table: " [contact.friction] bound"
+  std::string otherwise = {};  ///< what may be given instead of a value of the key's type
 
   /// What error texts begin with: place, table and key.
   std::string where() const { return place_of(node.source()) + name; }

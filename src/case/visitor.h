@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -53,6 +54,12 @@ struct Key {
   bool optional = false;               ///< not giving it differs from giving any value
   std::string no_choices = {};         ///< why no text is allowed where `choices` is empty
   std::vector<std::string> also = {};  ///< symbols and names by which others know it
+  /// Names that others have for choices, and the choice.
+  std::vector<std::pair<std::string, std::string>> choices_also = {};
+  /// Of a table: the key that a value stands for which is given instead of the table. With "law",
+  /// `normal = "unilateral"` is `normal = { law = "unilateral" }`.
+  std::string sole = {};
+  std::string no_array = {};  ///< of a table: why there cannot be several
 };
 
 /// One entry for each component; empty where the component is free.
@@ -73,7 +80,8 @@ class Visitor {
   virtual void key(const Key &key, Value value) = 0;
   /// Whether an optional key or table is to be visited; `present` says whether the case holds it.
   virtual bool given(const Key &key, bool present) = 0;
-  /// A table inside this one; `body` declares its keys, and may be called more than once.
+  /// A table inside this one; `body` declares its keys, and may be called more than once. Where
+  /// the table is not used, its keys need not be visited.
   virtual void table(const Key &key, const Body &body) = 0;
   /// An array of tables: how many entries there are to visit, where the case holds `present`.
   virtual int count(const Key &key, int present) = 0;
@@ -86,6 +94,9 @@ class Visitor {
   virtual void check(const std::string & /*name*/, const Complaint & /*complaint*/) {}
   /// Of these keys and tables a case gives exactly one; a `check` complains otherwise.
   virtual void exactly_one(const std::vector<std::string> & /*names*/) {}
+  /// Of these groups of keys a table gives one, all of it and nothing of the others; a `check`
+  /// complains otherwise.
+  virtual void one_group(const std::vector<std::vector<std::string>> & /*groups*/) {}
   /// The mesh that a file holds, so that what follows can be checked against its names.
   virtual void load(MeshCase & /*mesh*/) {}
   /// A file's name, to be found from the folder of the case.

@@ -1,8 +1,11 @@
 #include "contact/bilateral.h"
 
+#include <fmt/format.h>
+
 #include <vector>
 
 #include "body/fields.h"
+#include "tourmaline/error.h"
 
 namespace tourmaline::contact {
 
@@ -62,10 +65,8 @@ template <int dim>
 typename Admissible<dim>::Vector Admissible<dim>::support(const Vector &force,
                                                           const Vector &friction) const {
   const Vector rest = force - friction;
-  const Vector free_normal = in_free_components<dim>(normal, is_prescribed);
   const double size = free_normal.norm();
-  const double pressure =
-      size > no_normal ? rest.dot(free_normal) / (size * size) : rest.dot(normal);
+  const double pressure = size > 0 ? rest.dot(free_normal) / (size * size) : rest.dot(normal);
   Vector borne = rest - pressure * normal;
   for (int c = 0; c < dim; ++c)
     if (!is_prescribed[c])
@@ -75,8 +76,8 @@ typename Admissible<dim>::Vector Admissible<dim>::support(const Vector &force,
 
 template <int dim>
 Admissible<dim> bilateral(const Eigen::Matrix<double, dim, 1> &normal,
-                          const std::array<std::optional<double>, dim> &prescribed) {
-  Admissible<dim> admissible{Vector<dim>::Zero(), {}, {}, normal, {}};
+                          const std::array<std::optional<double>, dim> &prescribed, double reach) {
+  Admissible<dim> admissible{Vector<dim>::Zero(), {}, {}, normal, Vector<dim>::Zero(), {}};
   std::vector<Vector<dim>> known;  // orthonormal: directions in which the displacement is known
   for (int c = 0; c < dim; ++c)
     if (prescribed[c]) {
@@ -86,8 +87,9 @@ Admissible<dim> bilateral(const Eigen::Matrix<double, dim, 1> &normal,
     }
   const Vector<dim> free_normal = in_free_components<dim>(normal, admissible.is_prescribed);
   if (const double size = free_normal.norm(); size > no_normal) {
-    // (9): u_nu = 0 fixes the free components along the rest of the normal.
-    admissible.base -= normal.dot(admissible.base) / (size * size) * free_normal;
+    // (9): u_nu fixes the free components along the rest of the normal.
+    admissible.base -= (normal.dot(admissible.base) - reach) / (size * size) * free_normal;
+    admissible.free_normal = free_normal;
     known.push_back(free_normal / size);
   }
   admissible.directions = completion<dim>(known);
@@ -100,23 +102,38 @@ Admissible<dim> bilateral(const Eigen::Matrix<double, dim, 1> &normal,
 
 template <int dim>
 Admissible<dim> bilateral(const InterfaceNode<dim> &at, const std::vector<bool> &is_prescribed,
-                          std::span<const double> state) {
+                          std::span<const double> state, double reach) {
   std::array<std::optional<double>, dim> prescribed;
   for (int c = 0; c < dim; ++c)
     if (const std::size_t i = body::unknown<dim>(at.node, c); is_prescribed[i])
       prescribed[c] = state[i];
-  return bilateral<dim>(at.normal, prescribed);
+  return bilateral<dim>(at.normal, prescribed, reach);
+}
+
+template <int dim>
+void require_plain_normal(const InterfaceNode<dim> &at, const Admissible<dim> &admissible) {
+  const Vector<dim> &free_normal = admissible.free_normal;
+  if (free_normal.isZero(0) || (free_normal - at.normal).norm() <= no_normal)
+    return;
+  throw CaseError(fmt::format(
+      "[contact] at ({:g}, {:g}, {:g}) some components of the displacement are prescribed, and "
+      "the normal ({:g}, {:g}, {:g}) is oblique to them; contact that opens or whose friction "
+      "depends on the pressure is not available there",
+      at.point[0], at.point[1], at.point[2], at.normal[0], at.normal[1],
+      dim == 3 ? at.normal[dim - 1] : 0.));
 }
 
 template struct Admissible<2>;
+template void require_plain_normal<2>(const InterfaceNode<2> &, const Admissible<2> &);
+template void require_plain_normal<3>(const InterfaceNode<3> &, const Admissible<3> &);
 template struct Admissible<3>;
 template Admissible<2> bilateral<2>(const Eigen::Matrix<double, 2, 1> &,
-                                    const std::array<std::optional<double>, 2> &);
+                                    const std::array<std::optional<double>, 2> &, double);
 template Admissible<3> bilateral<3>(const Eigen::Matrix<double, 3, 1> &,
-                                    const std::array<std::optional<double>, 3> &);
+                                    const std::array<std::optional<double>, 3> &, double);
 template Admissible<2> bilateral<2>(const InterfaceNode<2> &, const std::vector<bool> &,
-                                    std::span<const double>);
+                                    std::span<const double>, double);
 template Admissible<3> bilateral<3>(const InterfaceNode<3> &, const std::vector<bool> &,
-                                    std::span<const double>);
+                                    std::span<const double>, double);
 
 }  // namespace tourmaline::contact

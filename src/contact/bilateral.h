@@ -11,10 +11,11 @@
 
 namespace tourmaline::contact {
 
-/// Bilateral contact (9), u_nu = 0, at one node of which some components may be prescribed as well:
-/// the admissible displacements are u = base + directions z with free z. What is tangential splits
-/// into the free part and a part that is known, because prescribed components move it, alone or
-/// with u_nu = 0 (a tilted foundation). The slip that friction (9) sees is both.
+/// Bilateral contact (9), u_nu = `reach` (0 in the paper), at one node of which some components may
+/// be prescribed as well: the admissible displacements are u = base + directions z with free z.
+/// What is tangential splits into the free part and a part that is known, because prescribed
+/// components move it, alone or with u_nu = 0 (a tilted foundation). The slip that friction (9)
+/// sees is both.
 template <int dim>
 struct Admissible {
   using Vector = Eigen::Matrix<double, dim, 1>;
@@ -27,6 +28,8 @@ struct Admissible {
   /// displacement is that of `base`
   Directions held;
   Vector normal;
+  /// the part of the normal in free components; zero where that is no more than round-off
+  Vector free_normal;
   std::array<bool, dim> is_prescribed;
 
   /// `directions`, then `held`: the columns that a law's components belong to (`PointLaw`).
@@ -44,14 +47,20 @@ struct Admissible {
 };
 
 /// `prescribed[c]` [m] where component c is prescribed. Where the normal lies in the span of
-/// prescribed components the prescribed values hold, not u_nu = 0.
+/// prescribed components the prescribed values hold, not u_nu = reach.
 template <int dim>
 Admissible<dim> bilateral(const Eigen::Matrix<double, dim, 1> &normal,
-                          const std::array<std::optional<double>, dim> &prescribed);
+                          const std::array<std::optional<double>, dim> &prescribed,
+                          double reach = 0);
+
+/// Throws CaseError where some components of a node are prescribed and its normal is oblique to
+/// them: what happens along the normal would then be a part of the slip. Where that counts.
+template <int dim>
+void require_plain_normal(const InterfaceNode<dim> &at, const Admissible<dim> &admissible);
 
 /// The same at a contact node of a body with the unknowns `state`.
 template <int dim>
 Admissible<dim> bilateral(const InterfaceNode<dim> &at, const std::vector<bool> &is_prescribed,
-                          std::span<const double> state);
+                          std::span<const double> state, double reach = 0);
 
 }  // namespace tourmaline::contact

@@ -22,7 +22,7 @@ double bound_at(const casefile::Formula &asked, const ContactPlace &place) {
 }  // namespace
 
 FrictionAt friction_of(const casefile::FrictionCase &asked) {
-  if (asked.law == "none")
+  if (asked.law != "tresca")
     return [](const ContactPlace &) { return Tresca{0}; };
   return
       [bound = asked.bound](const ContactPlace &place) { return Tresca{bound_at(bound, place)}; };

@@ -26,12 +26,14 @@ typename MultiplierPoint<dim>::Vector MultiplierPoint<dim>::mean_of(
 
 template <int dim>
 Local MultiplierPoint<dim>::displacement(std::span<const double> state,
-                                         std::span<const double> before) const {
+                                         std::span<const double> before,
+                                         std::span<const double> rest) const {
   Vector now = Vector::Zero(), change = Vector::Zero();
   for (const Share &share : mean) {
     const Eigen::Map<const Vector> u(&state[unknown<dim>(share.node, 0)]);
     const Eigen::Map<const Vector> u_before(&before[unknown<dim>(share.node, 0)]);
-    now += share.factor * u;
+    const Eigen::Map<const Vector> u_rest(&rest[unknown<dim>(share.node, 0)]);
+    now += share.factor * (u - u_rest);
     change += share.factor * (u - u_before);
   }
   Local y = directions.transpose() * change;
@@ -42,9 +44,10 @@ Local MultiplierPoint<dim>::displacement(std::span<const double> state,
 
 template <int dim>
 Tangent MultiplierPoint<dim>::held_slip(std::span<const double> state,
-                                        std::span<const double> before) const {
+                                        std::span<const double> before,
+                                        std::span<const double> rest) const {
   const Vector now = mean_of(state), then = mean_of(before);
-  const Tangent slip = held_now.transpose() * now - held.transpose() * then;
+  const Tangent slip = held_now.transpose() * (now - mean_of(rest)) - held.transpose() * then;
   return beyond_round_off(slip, std::max(now.norm(), then.norm()));
 }
 

@@ -34,11 +34,14 @@ struct MultiplierPoint {
 
   Eigen::Index n_multipliers() const { return directions.cols(); }
 
-  /// (u_nu, d) from the values of all unknowns now and at the last step.
-  Local displacement(std::span<const double> state, std::span<const double> before) const;
+  /// (u_nu, d) from the values of all unknowns now and at the last step, u_nu measured from `rest`,
+  /// in which the contact nodes touch the foundation.
+  Local displacement(std::span<const double> state, std::span<const double> before,
+                     std::span<const double> rest) const;
 
   /// The known slip (`Admissible::held_slip`) when `state` holds the prescribed values.
-  Tangent held_slip(std::span<const double> state, std::span<const double> before) const;
+  Tangent held_slip(std::span<const double> state, std::span<const double> before,
+                    std::span<const double> rest) const;
   /// Directions of the tangential multipliers, then `held`: those of a law's components.
   Directions tangent() const;
 

@@ -22,6 +22,7 @@ class PointLaw {
   template <std::convertible_to<Friction> Law>
   PointLaw(Law law, Tangent held = {}) : law_(std::move(law)), held_(std::move(held)) {}
 
+  const Friction &law() const { return law_; }
   const Tangent &held() const { return held_; }  ///< o [m]
 
   double dissipation(const Tangent &slip) const;  ///< j(z) [J/m^2]

@@ -7,7 +7,7 @@
 
 namespace tourmaline::output {
 
-/// {"boundaries": [{"name": ..., "facets": [[node, ...], ...]}, ...]}
+/// {"boundaries": [{"name": ..., "facets": [[node, ...], ...]}, ...]}; faces by their corners
 std::string boundaries_text(const std::vector<NamedBoundary> &boundaries);
 
 }  // namespace tourmaline::output

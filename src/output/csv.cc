@@ -90,7 +90,7 @@ std::string nodes_table(int dimension, const std::vector<Vector3> &points,
   return text;
 }
 
-std::string contact_header(int dimension) {
+std::string contact_header(int dimension, const ContactRow &row) {
   std::string text;
   Line line(text);
   line << "step"
@@ -101,7 +101,11 @@ std::string contact_header(int dimension) {
                                      << "status"
                                      << "temperature"
                                      << "potential"
-                                     << "heat_flux";
+                                     << "heat_flux"
+                                     << "gap"
+                                     << "charge_flux";
+  for (const auto &[name, value] : row.quantities)
+    line << name;
   line.end();
   return text;
 }
@@ -114,7 +118,9 @@ std::string contact_lines(int dimension, int step, double time, std::span<const 
     line.put(dimension, row.point) << row.normal_traction;
     line.put(dimension, row.tangential_traction) << row.normal_displacement;
     line.put(dimension, row.slip) << row.slip_rate << name_of(row.status) << row.temperature
-                                  << row.potential << row.heat_flux;
+                                  << row.potential << row.heat_flux << row.gap << row.charge_flux;
+    for (const auto &[name, value] : row.quantities)
+      line << value;
     line.end();
   }
   return text;

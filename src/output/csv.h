@@ -16,8 +16,9 @@ std::string nodes_table(int dimension, const std::vector<Vector3> &points,
                         const PointFields &fields);
 
 /// step,time,x,y[,z],normal_traction,tangential_traction_x,tangential_traction_y[,..._z],
-/// normal_displacement,slip_x,slip_y[,slip_z],slip_rate,status,temperature,potential,heat_flux
-std::string contact_header(int dimension);
+/// normal_displacement,slip_x,slip_y[,slip_z],slip_rate,status,temperature,potential,heat_flux,gap,
+/// charge_flux, then the row's own quantities
+std::string contact_header(int dimension, const ContactRow &row);
 std::string contact_lines(int dimension, int step, double time, std::span<const ContactRow> rows);
 
 /// step,time,newton_iterations,residual,stick,slip,open, then the row's own quantities

@@ -42,8 +42,8 @@ struct Grid {
 /// Takes out of a grid the points that none of its cells uses; returns which are left, ascending.
 std::vector<std::uint32_t> keep_used_points(Grid &grid);
 
-/// A part of the boundary that has a name, its facets by their nodes: corners in a circle; a line
-/// from end to end, with its middle node if it has one.
+/// A part of the boundary that has a name, its facets by their nodes: corners in a circle, then the
+/// middles of sides and faces of degree 2; a line from end to end, its middle node between.
 struct NamedBoundary {
   std::string name;
   std::vector<std::vector<std::uint32_t>> facets;
@@ -77,13 +77,17 @@ struct ContactRow {
   Vector3 point;
   double normal_traction;       // N/m^2
   Vector3 tangential_traction;  // N/m^2
-  double normal_displacement;   // m
-  Vector3 slip;                 // u_tau [m]
-  double slip_rate;             // |u_tau(n) - u_tau(n-1)| / k [m/s]
+  double normal_displacement;   // u_nu [m]
+  Vector3 slip;                 // u_tau, measured to the foundation [m]
+  double slip_rate;             // |slip(n) - slip(n-1)| / k [m/s]
   ContactStatus status;
   double temperature;  // K
   double potential;    // V
   double heat_flux;    // q.nu = k_c (theta - theta_f), positive leaves the body [W/m^2]
+  double gap;          // by which body and foundation are apart [m]
+  double charge_flux;  // D.nu [C/m^2]
+  // Named columns behind these; every row of a run has the same names in the same order.
+  std::vector<std::pair<std::string, double>> quantities;
 };
 
 /// One line of history.csv. `quantities` are the named columns behind the fixed ones; every step of

@@ -21,28 +21,36 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// How the names of field files begin.
+const std::string of_body = "result_", of_contact = "contact_";
+
+bool is_of_contact(const std::string &field_file) {
+  return field_file.starts_with(of_contact);
+}
+
 std::string piece_name(int step, int piece, int pieces) {
   return pieces == 1 ? fmt::format("result_{:04}.vtu", step)
                      : fmt::format("result_{:04}_{}.vtu", step, piece);
 }
 
-/// The step of result_NNNN.vtu, result_NNNN.pvtu or result_NNNN_PIECE.vtu, with at least four
-/// digits.
+/// The step of result_NNNN.vtu, result_NNNN.pvtu, result_NNNN_PIECE.vtu or contact_NNNN.vtu, with
+/// at least four digits.
 std::optional<unsigned long long> step_of_field_file(const std::string &name) {
-  static const std::regex pattern("result_([0-9]{4,})(\\.p?vtu|_[0-9]+\\.vtu)");
+  static const std::regex pattern(
+      "(?:result_([0-9]{4,})(?:\\.p?vtu|_[0-9]+\\.vtu)|contact_([0-9]{4,})\\.vtu)");
   std::smatch parts;
   if (!std::regex_match(name, parts, pattern))
     return std::nullopt;
-  return std::strtoull(parts[1].str().c_str(), nullptr, 10);
+  return std::strtoull(parts[parts[1].matched ? 1 : 2].str().c_str(), nullptr, 10);
 }
 
 constexpr std::string_view part = ".part";
 
 /// Whether a run gives a file this name, in its place or while it is being written.
 bool is_ours(std::string_view name) {
-  constexpr std::array<std::string_view, 9> others{
-      "result.pvd",    "nodes.csv",       "contact.csv", "history.csv",  "summary.json",
-      "resolved.toml", "boundaries.json", "report.html", checkpoint_name};
+  constexpr std::array<std::string_view, 10> others{
+      "result.pvd",   "contact.pvd",   "nodes.csv",       "contact.csv", "history.csv",
+      "summary.json", "resolved.toml", "boundaries.json", "report.html", checkpoint_name};
   if (name.ends_with(part))
     name.remove_suffix(part.size());
   return step_of_field_file(std::string(name)) ||
@@ -85,15 +93,18 @@ bool is_later(const std::string &name, std::uint64_t step) {
          name == "report.html" || name == "summary.json";
 }
 
-/// Of the field files up to that step, of all pieces.
-std::uint64_t field_bytes(const fs::path &directory, std::uint64_t last_step) {
+/// Of the field files up to that step whose names begin so, of all pieces.
+std::uint64_t field_bytes(const fs::path &directory, std::uint64_t last_step,
+                          std::string_view beginning = "") {
   std::uint64_t bytes = 0;
   std::error_code error;
   for (fs::directory_iterator entry(directory, error), end; !error && entry != end;
        entry.increment(error)) {
-    const auto step = step_of_field_file(entry->path().filename().string());
+    const std::string name = entry->path().filename().string();
+    const auto step = step_of_field_file(name);
     std::error_code gone;
-    if (const std::uint64_t size = entry->file_size(gone); step && *step <= last_step && !gone)
+    if (const std::uint64_t size = entry->file_size(gone);
+        step && *step <= last_step && name.starts_with(beginning) && !gone)
       bytes += size;
   }
   return bytes;
@@ -123,9 +134,11 @@ std::map<std::string, std::uint64_t> file_sizes(const fs::path &directory) {
     if (const std::uint64_t size = fs::file_size(directory / name, missing); !missing)
       sizes[name] = size;
   }
-  if (const std::uint64_t bytes = field_bytes(directory, std::numeric_limits<std::uint64_t>::max());
-      bytes > 0)
-    sizes["result_*"] = bytes;
+  for (const std::string &beginning : {of_body, of_contact})
+    if (const std::uint64_t bytes =
+            field_bytes(directory, std::numeric_limits<std::uint64_t>::max(), beginning);
+        bytes > 0)
+      sizes[beginning + "*"] = bytes;
   return sizes;
 }
 
@@ -136,6 +149,10 @@ std::vector<std::string> field_files(int step, int pieces) {
   if (pieces > 1)
     names.push_back(fmt::format("result_{:04}.pvtu", step));
   return names;
+}
+
+std::string contact_field_file(int step) {
+  return fmt::format("{}{:04}.vtu", of_contact, step);
 }
 
 ResultFolder::ResultFolder(fs::path directory, int dimension, Piece piece,
@@ -174,9 +191,14 @@ ResultFolder::ResultFolder(fs::path directory, int dimension, Piece piece,
     history_.emplace(directory_ / "history.csv", position.history);
   remove_files(directory_,
                [&](const std::string &name) { return is_later(name, checkpoint.step); });
-  series_ = position.series;
-  if (!series_.empty())
-    write_file(directory_ / "result.pvd", pvd_text(series_));
+  for (const PvdEntry &entry : position.series)
+    (is_of_contact(entry.file) ? contact_series_ : series_).push_back(entry);
+  for (const auto &[series, name] :
+       {std::pair{&series_, "result.pvd"}, std::pair{&contact_series_, "contact.pvd"}})
+    if (series->empty())
+      remove_if_there(directory_ / name);
+    else
+      write_file(directory_ / name, pvd_text(*series));
 }
 
 void ResultFolder::put_case(const std::string &resolved_toml) {
@@ -209,8 +231,20 @@ void ResultFolder::list_fields(int step, double time) {
 
 void ResultFolder::put_contact(int step, double time, std::span<const ContactRow> rows) {
   if (!contact_)
-    contact_.emplace(directory_ / "contact.csv", contact_header(dimension_));
+    contact_.emplace(directory_ / "contact.csv",
+                     contact_header(dimension_, rows.empty() ? ContactRow{} : rows.front()));
   contact_->append(contact_lines(dimension_, step, time, rows));
+}
+
+void ResultFolder::put_contact_fields(int step, double time, const ContactFacets &facets,
+                                      std::span<const ContactRow> rows) {
+  if (!contact_surface_)
+    contact_surface_.emplace(dimension_, rows, facets);
+  const std::string name = contact_field_file(step);
+  contact_surface_->write(directory_ / name, time, rows);
+  contact_series_.push_back({time, name});
+  unsynced_.push_back(name);
+  write_file(directory_ / "contact.pvd", pvd_text(contact_series_));
 }
 
 void ResultFolder::put_history(const HistoryRow &row) {
@@ -265,7 +299,9 @@ void ResultFolder::put_checkpoint(Checkpoint checkpoint) {
       table->sync();
     return table ? table->position() : TablePosition{};
   };
-  checkpoint.position = {synced(contact_), synced(history_), series_,
+  std::vector<PvdEntry> all = contact_series_;
+  all.insert(all.end(), series_.begin(), series_.end());
+  checkpoint.position = {synced(contact_), synced(history_), all,
                          field_bytes(directory_, checkpoint.step)};
   write_checkpoint(directory_ / checkpoint_name, checkpoint);
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "output/checkpoint.h"
+#include "output/contact_surface.h"
 #include "output/folder_lock.h"
 #include "output/growing_table.h"
 #include "output/pvd.h"
@@ -29,11 +30,14 @@ struct Piece {
 void require_position(const std::filesystem::path &directory, const FolderPosition &position);
 
 /// What stands in summary.json of the files of a complete run: the bytes of each table and of
-/// boundaries.json by their names, and those of all field files together as "result_*".
+/// boundaries.json by their names, and those of all field files together as "result_*", of the
+/// contact's as "contact_*".
 std::map<std::string, std::uint64_t> file_sizes(const std::filesystem::path &directory);
 
 /// The names of a step's field files: of several pieces each of them and the one that joins them.
 std::vector<std::string> field_files(int step, int pieces);
+/// And that of its contact's.
+std::string contact_field_file(int step);
 
 /// The folder that a run leaves behind, and has for itself meanwhile. Every file in it is whole at
 /// every moment: one that is being written is called NAME.part. Whatever fails to be written is a
@@ -73,6 +77,12 @@ class ResultFolder {
   /// not.
   void put_contact(int step, double time, std::span<const ContactRow> rows);
 
+  /// contact_NNNN.vtu with the rows of contact.csv of that step on the facets of the contact, and
+  /// contact.pvd with all of these so far. The facets are encoded at the first call: every call of
+  /// a run passes the same ones. Throws std::invalid_argument when sizes disagree.
+  void put_contact_fields(int step, double time, const ContactFacets &facets,
+                          std::span<const ContactRow> rows);
+
   /// A row of history.csv. Throws std::invalid_argument when its quantities are not those of the
   /// first row.
   void put_history(const HistoryRow &row);
@@ -106,7 +116,8 @@ class ResultFolder {
   Piece piece_;
   std::optional<VtuWriter> vtu_;
   OptionalArrays optional_;
-  std::vector<PvdEntry> series_;
+  std::optional<ContactSurface> contact_surface_;
+  std::vector<PvdEntry> series_, contact_series_;
   std::vector<std::string> unsynced_;  // field files since the last checkpoint
   std::optional<GrowingTable> contact_, history_;
   std::string history_header_;

@@ -8,93 +8,23 @@
 #include <span>
 #include <stdexcept>
 #include <string_view>
-#include <type_traits>
 #include <vector>
 
 #include "output/atomic_file.h"
-#include "output/vtk_binary.h"
+#include "output/vtu_elements.h"
 
 namespace tourmaline::output {
 namespace {
 
-template <typename Number>
-constexpr const char *vtk_type() {
-  if constexpr (std::is_same_v<Number, double>)
-    return "Float64";
-  else if constexpr (std::is_same_v<Number, std::int64_t>)
-    return "Int64";
-  else
-    return "UInt8";
-}
-
-template <typename Number>
-std::string data_array(const char *name, std::string_view attributes,
-                       std::span<const Number> numbers) {
-  return fmt::format("<DataArray type=\"{}\" Name=\"{}\"{} format=\"binary\">\n{}\n</DataArray>\n",
-                     vtk_type<Number>(), name, attributes, vtk_binary(std::as_bytes(numbers)));
-}
-
-/// Component names in ParaView's own order of vectors and symmetric tensors.
-constexpr std::string_view vector_components =
-    R"( NumberOfComponents="3" ComponentName0="X" ComponentName1="Y" ComponentName2="Z")";
-constexpr std::string_view tensor_components =
-    R"( NumberOfComponents="6" ComponentName0="XX" ComponentName1="YY" ComponentName2="ZZ")"
-    R"( ComponentName3="XY" ComponentName4="YZ" ComponentName5="XZ")";
-
-std::span<const double> flat(const std::vector<double> &values) {
-  return values;
-}
-
-template <std::size_t n>
-std::span<const double> flat(const std::vector<std::array<double, n>> &values) {
-  static_assert(sizeof(std::array<double, n>) == n * sizeof(double));
-  return {values.empty() ? nullptr : values.front().data(), values.size() * n};
-}
-
-template <typename Value>
-std::string field(const char *name, const std::vector<Value> &values, std::size_t expected) {
-  if (values.size() != expected)
-    throw std::invalid_argument(
-        fmt::format("field {}: {} values for {} places", name, values.size(), expected));
-  constexpr std::string_view attributes = std::is_same_v<Value, Vector3> ? vector_components
-                                          : std::is_same_v<Value, SymmetricTensor>
-                                              ? tensor_components
-                                              : "";
-  return data_array(name, attributes, flat(values));
-}
-
-std::string points_element(const Grid &grid) {
-  return "<Points>\n" + data_array("Points", vector_components, flat(grid.points)) + "</Points>\n";
-}
-
-std::string cells_element(const Grid &grid) {
+std::string cells_of(const Grid &grid) {
   // VTK holds these as 64-bit integers and would convert anything narrower.
   const std::vector<std::int64_t> nodes(grid.connectivity.begin(), grid.connectivity.end());
   std::vector<std::int64_t> ends(grid.n_cells());
   for (std::size_t i = 0; i < ends.size(); ++i)
     ends[i] = static_cast<std::int64_t>((i + 1) * grid.nodes_per_cell);
   const std::vector<std::uint8_t> types(grid.n_cells(), static_cast<std::uint8_t>(grid.cell));
-  return "<Cells>\n" + data_array<std::int64_t>("connectivity", "", nodes) +
-         data_array<std::int64_t>("offsets", "", ends) +
-         data_array<std::uint8_t>("types", "", types) + "</Cells>\n";
+  return cells_element(nodes, ends, types);
 }
-
-std::string opening(double time, std::size_t n_points, std::size_t n_cells) {
-  return fmt::format(
-      "<?xml version=\"1.0\"?>\n"
-      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" header_type=\"UInt64\" "
-      "compressor=\"vtkZLibDataCompressor\">\n"
-      "<UnstructuredGrid>\n"
-      "<FieldData>\n"
-      "<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">\n"
-      "{:.17g}\n</DataArray>\n"
-      "</FieldData>\n"
-      "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
-      std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian", time, n_points,
-      n_cells);
-}
-
-constexpr std::string_view closing = "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 
 void check_topology(const Grid &grid) {
   const auto outside = [&](std::uint32_t node) { return node >= grid.points.size(); };
@@ -109,14 +39,14 @@ void check_topology(const Grid &grid) {
 VtuWriter::VtuWriter(const Grid &grid) : n_points_(grid.points.size()), n_cells_(0) {
   check_topology(grid);
   n_cells_ = grid.n_cells();
-  topology_ = points_element(grid) + cells_element(grid);
+  topology_ = points_element(grid.points) + cells_of(grid);
 }
 
 void VtuWriter::write(const std::filesystem::path &path, double time, const PointFields &points,
                       const CellFields &cells) const {
   // One array at a time, so that the text of a large body is never in memory as a whole.
   AtomicFile file(path);
-  file.append(opening(time, n_points_, n_cells_));
+  file.append(vtu_opening(time, n_points_, n_cells_));
   file.append("<PointData Scalars=\"potential\" Vectors=\"displacement\">\n");
   file.append(field("displacement", points.displacement, n_points_));
   file.append(field("potential", points.potential, n_points_));
@@ -138,7 +68,7 @@ void VtuWriter::write(const std::filesystem::path &path, double time, const Poin
     file.append(field("poling", cells.poling, n_cells_));
   file.append("</CellData>\n");
   file.append(topology_);
-  file.append(closing);
+  file.append(vtu_closing);
   file.finish();
 }
 

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <system_error>
 
 #include "figure.h"
+#include "report/contact_curves.h"
 #include "report/number_text.h"
 #include "report/scale.h"
 #include "tourmaline/error.h"
@@ -91,7 +93,8 @@ std::string all_fields(const Result &result) {
   std::string list;
   for (const Field &field : result.fields)
     list += (list.empty() ? "" : ", ") + all_of(field);
-  return list;
+  const std::string curves = contact_curve_names(result);
+  return list + (curves.empty() ? "" : "; along the contact " + curves);
 }
 
 /// NAME or NAME.COMPONENT
@@ -126,15 +129,28 @@ void make(const fs::path &directory) {
 std::vector<fs::path> write_figures(const fs::path &folder, const fs::path &directory,
                                     const FigureRequest &request) {
   const Result result = read_result(folder, {0, request.time, true});
-  if (result.points.empty())
+  std::vector<std::string> fields = request.fields, curves;
+  std::copy_if(fields.begin(), fields.end(), std::back_inserter(curves), is_contact_curve);
+  std::erase_if(fields, is_contact_curve);
+  if (result.points.empty() && (!fields.empty() || curves.empty()))
     throw CaseError(folder.string() +
                     ": holds no fields to draw; run the case with output.fields = true");
   make(directory);
+  std::vector<fs::path> drawn;
+  for (const std::string &wanted : curves) {
+    const auto files =
+        write_contact_curves(result, wanted, request.time, directory, request.format);
+    drawn.insert(drawn.end(), files.begin(), files.end());
+  }
+  if (fields.empty() && !curves.empty())
+    return drawn;
   Set set(result, directory, request.format);
-  for (const std::string &wanted : request.fields)
+  for (const std::string &wanted : fields)
     draw_named(set, result, wanted);
-  if (!request.fields.empty())
-    return set.files;
+  if (!fields.empty()) {
+    drawn.insert(drawn.begin(), set.files.begin(), set.files.end());
+    return drawn;
+  }
   set.setting();
   set.deformed();
   for (const char *name : {"potential", "temperature"})

@@ -157,7 +157,7 @@ Json result_json(Packing &packing, const Result &result) {
     json["history"] = table_json(packing, *result.history);
   if (result.contact)
     json["contact"] = table_json(packing, *result.contact);
-  if (!result.friction_bound.empty())
+  if (!result.friction_bound.empty() && !result.contact->find("friction_bound"))
     json["frictionBound"] = packing.floats(as_floats(result.friction_bound), 1);
   return json;
 }

@@ -1,5 +1,6 @@
 #include "run/account.h"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -27,6 +28,8 @@ void Account::step(int n, const solve::StepOutcome &outcome, double seconds) {
   if (n == 1)
     newton_first_ = outcome.newton_iterations;
   in_steps_ += seconds;
+  if (outcome.friction_bound.size() > 0)
+    ++stages_[static_cast<std::size_t>(outcome.stage)];
 }
 
 void Account::put(const solve::RouteReport &report, int steps, output::Summary &summary) const {
@@ -51,6 +54,12 @@ void Account::put_iterations(const solve::RouteReport &report, output::Summary &
   summary.iterations = {{"newton_total", newton_total_},
                         {"newton_max", newton_max_},
                         {"newton_first", newton_first_}};
+  const bool has_stages =
+      std::any_of(stages_.begin(), stages_.end(), [](double n) { return n > 0; });
+  for (int stage = 1; has_stages && stage < solve::n_contact_stages; ++stage)
+    summary
+        .iterations[fmt::format("steps_by_{}", name_of(static_cast<solve::ContactStage>(stage)))] =
+        static_cast<std::int64_t>(stages_[static_cast<std::size_t>(stage)]);
   if (report.krylov_iterations > 0) {
     summary.iterations["krylov_total"] = static_cast<std::int64_t>(report.krylov_iterations);
     summary.iterations["krylov_max"] = report.krylov_largest;
@@ -60,11 +69,14 @@ void Account::put_iterations(const solve::RouteReport &report, output::Summary &
 }
 
 void Account::save(output::SavedNumbers &numbers) const {
+  numbers.put("contact stages", stages_);
   numbers.put("newton", {double(newton_total_), double(newton_max_), double(newton_first_)});
   numbers.put("seconds", {in_steps_, before_ + process_age()});
 }
 
 void Account::restore(const output::SavedNumbers &numbers) {
+  const auto stages = numbers.get("contact stages", stages_.size());
+  std::copy(stages.begin(), stages.end(), stages_.begin());
   const auto newton = numbers.get("newton", 3);
   newton_total_ = static_cast<int>(newton[0]);
   newton_max_ = static_cast<int>(newton[1]);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "output/checkpoint.h"
 #include "output/summary.h"
 #include "solve/route.h"
@@ -28,6 +30,8 @@ class Account {
   double before_ = 0;    // seconds of the processes that it goes on from
   double in_steps_ = 0;  // seconds
   int newton_total_ = 0, newton_max_ = 0, newton_first_ = 0;
+  // Steps by the stage that has found their contact, where friction depends on the pressure.
+  std::array<double, solve::n_contact_stages> stages_{};
 };
 
 }  // namespace tourmaline::run

@@ -53,7 +53,15 @@ void Recorder<dim>::initial(std::span<const double> state) {
 template <int dim>
 void Recorder<dim>::put_boundaries() {
   const std::vector<output::NamedBoundary> boundaries = model_.body.boundaries();
-  parallel::on_first([&] { folder_.put_boundaries(boundaries); });
+  parallel::on_first([&] {
+    folder_.put_boundaries(boundaries);
+    if (!model_.asked.contact)
+      return;
+    std::vector<std::uint32_t> nodes;
+    for (const contact::InterfaceNode<dim> &at : model_.interface)
+      nodes.push_back(at.node);
+    contact_facets_ = output::contact_facets(boundaries, model_.asked.contact->on, nodes);
+  });
 }
 
 template <int dim>
@@ -95,6 +103,8 @@ output::HistoryRow Recorder<dim>::step(int n, const solve::StepOutcome &outcome,
     rows = contact_rows(n, outcome, before, state);
   check.contact(rows);
   row.quantities = balance_->step(time, loads, outcome, state, route.is_refined());
+  if (outcome.friction_bound.size() > 0)
+    row.quantities.emplace_back("contact_stage", static_cast<double>(outcome.stage));
   for (const output::Extreme &e : extremes(state)) {
     row.quantities.emplace_back("min_" + e.field, e.minimum);
     row.quantities.emplace_back("max_" + e.field, e.maximum);
@@ -109,6 +119,8 @@ output::HistoryRow Recorder<dim>::step(int n, const solve::StepOutcome &outcome,
   parallel::on_first([&] {
     if (model_.asked.contact)
       folder_.put_contact(n, time, rows);
+    if (model_.asked.contact && has_fields(n))
+      folder_.put_contact_fields(n, time, contact_facets_, rows);
     folder_.put_history(row);
   });
   if (has_fields(n))
@@ -200,22 +212,38 @@ std::vector<output::ContactRow> Recorder<dim>::contact_rows(int n,
                                                             std::span<const double> state) const {
   std::vector<output::ContactRow> rows;
   const casefile::HeatExchangeCase &heat = model_.asked.contact->heat;
+  std::vector<double> storage;
+  const std::span<const double> carried = model_.carried(before, model_.time(n), storage);
   for (std::size_t i = 0; i < model_.interface.size(); ++i) {
     const contact::InterfaceNode<dim> &at = model_.interface[i];
     // Tractions are the multipliers: nodal force over lumped weight.
     const Vector<dim> traction =
         outcome.contact_forces.segment<dim>(dim * static_cast<Eigen::Index>(i)) / at.weight;
     const Vector<dim> u = displacement<dim>(state, at.node);
-    const Vector<dim> change = u - displacement<dim>(before, at.node);
+    const Vector<dim> to_foundation = u - model_.foundation(at, model_.time(n));
+    const Vector<dim> change = u - displacement<dim>(carried, at.node);
     const double theta = state[body::unknown<dim>(at.node, body::Fields<dim>::temperature)];
     const double k_c = heat_coefficient(at.point);
     rows.push_back(
-        {at.point, traction.dot(at.normal), in_space<dim>(tangential<dim>(traction, at.normal)),
-         u.dot(at.normal), in_space<dim>(tangential<dim>(u, at.normal)),
-         tangential<dim>(change, at.normal).norm() / model_.step, outcome.status[i], theta,
+        {at.point,
+         traction.dot(at.normal),
+         in_space<dim>(tangential<dim>(traction, at.normal)),
+         u.dot(at.normal),
+         in_space<dim>(tangential<dim>(to_foundation, at.normal)),
+         tangential<dim>(change, at.normal).norm() / model_.step,
+         outcome.status[i],
+         theta,
          state[body::unknown<dim>(at.node, body::Fields<dim>::potential)],
-         k_c == 0 ? 0
-                  : k_c * (theta - heat.foundation_temperature.value(at.point, model_.time(n)))});
+         k_c == 0 ? 0 : k_c * (theta - heat.foundation_temperature.value(at.point, model_.time(n))),
+         model_.laws->gap(at.point) - to_foundation.dot(at.normal),
+         0.,
+         {}});
+    const auto put = [&](const char *name, const Eigen::VectorXd &by_node) {
+      if (by_node.size() > 0)
+        rows.back().quantities.emplace_back(name, by_node[static_cast<Eigen::Index>(i)]);
+    };
+    put("friction_bound", outcome.friction_bound);
+    put("accumulated_slip", outcome.accumulated_slip);
   }
   return rows;
 }

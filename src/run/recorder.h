@@ -58,8 +58,9 @@ class Recorder {
   output::ResultFolder &folder_;
   // Of the field files, if any are written.
   std::optional<body::Recovery<dim>> recovery_;
-  output::Grid grid_;                 // this rank's cells and the nodes they use, by region
-  std::vector<std::uint32_t> nodes_;  // of the grid: regional nodes
+  output::Grid grid_;                     // this rank's cells and the nodes they use, by region
+  std::vector<std::uint32_t> nodes_;      // of the grid: regional nodes
+  output::ContactFacets contact_facets_;  // on the first rank
   std::optional<solve::Balance<dim>> balance_;
   solve::Judgement judgement_;
   double seconds_ = 0;

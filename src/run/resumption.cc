@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -133,7 +135,12 @@ void require_same_program(const output::Checkpoint &checkpoint, const fs::path &
         directory.string(), checkpoint.program, program_version()));
 }
 
-constexpr const char *fields = "result_*";  // all field files, among the summary's files
+// All field files together, among the summary's files.
+constexpr std::array field_groups{"result_*", "contact_*"};
+
+bool is_of_fields(const std::string &name) {
+  return std::find(field_groups.begin(), field_groups.end(), name) != field_groups.end();
+}
 
 int ranks_of(const nlohmann::json &summary) {
   const auto sizes = summary.value("sizes", nlohmann::json::object());
@@ -142,18 +149,25 @@ int ranks_of(const nlohmann::json &summary) {
              : 1;
 }
 
-std::vector<std::string> missing_fields(const casefile::Case &asked, int ranks,
+std::vector<std::string> field_names(const casefile::Case &asked, bool of_contact, int ranks) {
+  std::vector<std::string> names;
+  for (int n = of_contact ? 1 : 0; n <= asked.time.steps; ++n)
+    if (writes_fields(asked, n) && of_contact)
+      names.push_back(output::contact_field_file(n));
+    else if (writes_fields(asked, n))
+      std::ranges::copy(output::field_files(n, ranks), std::back_inserter(names));
+  names.emplace_back(of_contact ? "contact.pvd" : "result.pvd");
+  return names;
+}
+
+std::vector<std::string> missing_fields(const casefile::Case &asked, const nlohmann::json &summary,
                                         const fs::path &directory) {
   std::vector<std::string> missing;
-  const auto look_for = [&](const std::string &name) {
-    if (std::error_code error; !fs::exists(directory / name, error))
-      missing.push_back(name);
-  };
-  for (int n = 0; n <= asked.time.steps; ++n)
-    if (writes_fields(asked, n))
-      for (const std::string &name : output::field_files(n, ranks))
-        look_for(name);
-  look_for("result.pvd");
+  for (const char *group : field_groups)
+    if (summary["files"].contains(group))
+      for (const std::string &name : field_names(asked, group[0] == 'c', ranks_of(summary)))
+        if (std::error_code error; !fs::exists(directory / name, error))
+          missing.push_back(name);
   return missing;
 }
 
@@ -172,24 +186,25 @@ std::string list_of(const std::vector<std::string> &names) {
 
 // "" where all is there.
 std::string trouble_with_fields(const casefile::Case &asked, const nlohmann::json &summary,
-                                std::uint64_t there, const fs::path &directory) {
-  const auto missing = missing_fields(asked, ranks_of(summary), directory);
+                                std::map<std::string, std::uint64_t> &sizes,
+                                const fs::path &directory) {
+  const auto missing = missing_fields(asked, summary, directory);
   if (!missing.empty())
     return fmt::format("{} of the complete run in {} {} missing", list_of(missing),
                        directory.string(), missing.size() == 1 ? "is" : "are");
-  const auto &bytes = summary["files"][fields];
-  return bytes == there ? ""
-                        : fmt::format(
-                              "the field files of the complete run in {} have {} bytes, "
-                              "and should have {}",
-                              directory.string(), there, bytes.dump());
+  for (const auto &[name, bytes] : summary["files"].items())
+    if (is_of_fields(name) && bytes != sizes[name])
+      return fmt::format(
+          "the field files {} of the complete run in {} have {} bytes, and should have {}", name,
+          directory.string(), sizes[name], bytes.dump());
+  return "";
 }
 
 void require_tables(const nlohmann::json &files, const std::map<std::string, std::uint64_t> &sizes,
                     const fs::path &directory) {
   for (const auto &[name, bytes] : files.items()) {
     const auto found = sizes.find(name);
-    if (name != fields && (found == sizes.end() || bytes != found->second))
+    if (!is_of_fields(name) && (found == sizes.end() || bytes != found->second))
       throw MachineError(fmt::format(
           "{} of the complete run in {} {}, and should have {} bytes; start again without --resume",
           name, directory.string(),
@@ -201,12 +216,11 @@ void require_tables(const nlohmann::json &files, const std::map<std::string, std
 // Field files may have been taken away to make room, unless the page is still to be made of them.
 void require_whole(const casefile::Case &asked, const nlohmann::json &summary,
                    const fs::path &directory, Resumption &found) {
-  auto sizes = output::file_sizes(directory);
-  const nlohmann::json files = summary.value("files", nlohmann::json::object());
-  require_tables(files, sizes, directory);
-  if (!files.contains(fields))
+  if (!summary.contains("files"))
     return;
-  const std::string trouble = trouble_with_fields(asked, summary, sizes[fields], directory);
+  auto sizes = output::file_sizes(directory);
+  require_tables(summary["files"], sizes, directory);
+  const std::string trouble = trouble_with_fields(asked, summary, sizes, directory);
   if (!trouble.empty() && !found.has_report)
     throw MachineError(trouble +
                        ", and its page is to be made of them; start again without --resume");

@@ -72,7 +72,8 @@ void StepCheck::contact(const std::vector<output::ContactRow> &rows) const {
         {"the contact's slip rate", {&row.slip_rate, 1}},
         {"the contact's temperature", {&row.temperature, 1}},
         {"the contact's potential", {&row.potential, 1}},
-        {"the contact's heat flux", {&row.heat_flux, 1}}};
+        {"the contact's heat flux", {&row.heat_flux, 1}},
+        {"the contact's gap", {&row.gap, 1}}};
     for (const auto &[name, values] : numbers)
       if (const auto wrong = first_wrong(values); wrong != values.end())
         refuse(name + at(row.point), *wrong);

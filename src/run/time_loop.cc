@@ -7,6 +7,7 @@
 
 #include "case/interval.h"
 #include "case/resolved.h"
+#include "case/snapping.h"
 #include "contact/checked_law.h"
 #include "parallel/ranks.h"
 #include "report/page.h"
@@ -66,8 +67,10 @@ TimeLoop<dim>::TimeLoop(const casefile::Case &asked, const std::filesystem::path
   for (const auto &node : model_.interface)
     model_.friction(
         contact::contact_place(node.point, model_.time(1), Eigen::Matrix<double, dim, 0>{}));
-  if (options.friction)
+  if (options.friction) {
     model_.friction = contact::checked(options.friction, options.friction_name);
+    model_.laws->replace_friction();
+  }
   open_folder(directory, std::move(lock));
   recorder_.emplace(model_, *folder_);
   route_.emplace(model_, iterative_, progress_);
@@ -360,6 +363,7 @@ std::vector<std::string> TimeLoop<dim>::warnings() const {
     add(locking_warning(model_, most_strained_.state()));
   for (const std::string &text : material_warnings(model_.asked))
     add(text);
+  add(casefile::snapping_warning(model_.asked));
   const std::vector<std::string> given = temperature_warnings(model_.asked);
   all.insert(all.end(), given.begin(), given.end());
   if (given.empty())

@@ -36,7 +36,8 @@ void ActiveSet<dim>::begin_step(double time, std::span<const double> before,
   Index offset = 0;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     Point &p = points_[i];
-    p.admissible = contact::bilateral(model_.interface[i], is_prescribed_, state);
+    p.admissible = contact::bilateral(model_.interface[i], is_prescribed_, state,
+                                      model_.reach(model_.interface[i], time));
     p.offset = offset;
     offset += p.size();
     p.friction = {model_.friction(contact::contact_place(model_.interface[i].point, time,

@@ -35,7 +35,8 @@ class ActiveSet {
   bool is_empty() const { return points_.empty(); }
 
   /// The laws and admissible displacements at `time`. `state` is predicted, with its prescribed
-  /// values: a point goes on as it did, unless the prediction turns its slip.
+  /// values: a point goes on as it did, unless the prediction turns its slip. `before` is carried
+  /// along with the foundation (`Model::carried`).
   void begin_step(double time, std::span<const double> before, std::span<const double> state);
 
   /// Puts the contact displacements of the slips into the state: a sticking point has none.

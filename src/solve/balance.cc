@@ -35,7 +35,7 @@ bool add_once(std::vector<std::string> &names, const std::string &name) {
 }
 
 // A balance that lacks less is not looked at any closer.
-constexpr double unquestioned = 1e-6;
+constexpr double unquestioned = 1e-10;
 
 const char *const axes[] = {"x", "y", "z"};
 
@@ -151,6 +151,8 @@ template <int dim>
 void Balance<dim>::add_energy(const Step &step, Columns &columns) {
   const double per_watt = -model_.step / model_.op.reference_temperature();
   double load = 0, friction = 0, electric = 0, thermal = 0, conduction = 0;
+  double foundation = step.normal.pressed_in;
+  const bool can_open = model_.laws && model_.laws->can_open();
   for (std::size_t i = 0; i < step.now.unknowns.size(); ++i) {
     const int field = field_of<dim>(i);
     if (field == 0) {
@@ -158,9 +160,11 @@ void Balance<dim>::add_energy(const Step &step, Columns &columns) {
       // along the normal: together it is zero where u_nu = 0. Friction is worked against.
       const double moving =
           is_prescribed_[i] ? step.now.products.sum(i) - step.contact[i] : step.loads[i];
-      const double pressing = step.contact[i] - step.friction[i];
-      load += (moving + pressing) * step.change(i);
-      friction -= step.friction[i] * step.change(i);
+      const double pressing = can_open ? 0 : step.contact[i] - step.friction[i];
+      const double carried = step.carried_by(i), along = step.change(i) - carried;
+      load += moving * carried + (moving + pressing) * along;
+      friction -= step.friction[i] * along;
+      foundation += step.contact[i] * carried;
     } else if (field == 1) {
       electric -= step.now.unknowns[i] * (step.now.charges[i] - step.before.charges[i]);
     } else {
@@ -171,9 +175,12 @@ void Balance<dim>::add_energy(const Step &step, Columns &columns) {
   }
   const Energies energy = step.now.stored, shift = model_.op.energy_shift(step.now.unknowns);
   const Energies loss = step.energy_of_change(), gain = step.change_of_energy();
-  const double lost = loss.sum(), before = step.before.stored.sum(), gained = gain.sum();
+  const NormalEnergy &normal = step.normal;
+  const double lost = loss.sum() + normal.lost(), before = step.before.stored.sum(),
+               gained = gain.sum();
   Sum imbalance;
-  for (const double term : {gained, lost, -load, -electric, -thermal, friction, conduction})
+  for (const double term : {gained, lost, -load, -electric, -thermal, friction, conduction,
+                            -foundation, normal.gained, normal.dissipated})
     imbalance.add(term);
   imbalance.size += std::abs(energy.sum()) + std::abs(before);
   const double k = model_.step;
@@ -188,14 +195,19 @@ void Balance<dim>::add_energy(const Step &step, Columns &columns) {
                                  {"friction_dissipation", friction / k},
                                  {"conduction_loss", conduction / k},
                                  {"time_step_loss", lost / k}});
+  if (has_foundation_columns())
+    columns.emplace_back("foundation_power", foundation / k);
+  if (can_open)
+    columns.insert(columns.end(), {{"contact_energy", normal.stored},
+                                   {"contact_dissipation", normal.dissipated / k}});
   double round_off = 0;
   for (const double of_field : step.round_off.energy)
     if (std::isfinite(of_field))
       round_off += of_field;
   put_imbalance("energy_imbalance", imbalance.value, imbalance.size, round_off, columns);
-  judged_.back().second =
-      lack_of_energy(step, imbalance.size, by_field(gain), by_field(loss),
-                     {{{-load, friction}, {-electric}, {-thermal, conduction}}});
+  judged_.back().second = lack_of_energy(
+      step, imbalance.size, by_field(gain), by_field(loss),
+      {{{-load, friction, -foundation, normal.received}, {-electric}, {-thermal, conduction}}});
 }
 
 // Energy that does not change hides no lack, and neither does that of fields, such as a
@@ -254,7 +266,23 @@ void Balance<dim>::add_forces(const Step &step, Columns &columns) {
     worst = larger(worst, std::abs(load[c].value + reaction[c].value + contact[c].value));
     size += load[c].size + reaction[c].size + contact[c].size;
   }
+  if (has_foundation_columns())
+    add_moment(step, columns);
   put_imbalance("force_imbalance", worst, size, step.round_off.force, columns);
+}
+
+// Of the contact forces about the origin.
+template <int dim>
+void Balance<dim>::add_moment(const Step &step, Columns &columns) const {
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  for (const contact::InterfaceNode<dim> &at : model_.interface) {
+    Eigen::Vector3d force = Eigen::Vector3d::Zero();
+    for (int c = 0; c < dim; ++c)
+      force[c] = step.contact[body::unknown<dim>(at.node, c)];
+    moment += Eigen::Vector3d(at.point.data()).cross(force);
+  }
+  for (int c = dim == 2 ? 2 : 0; c < 3; ++c)
+    columns.emplace_back(std::string("contact_moment_") + axes[c], moment[c]);
 }
 
 // Gauss's law for the whole body: the integral of D.nu over all boundaries is the charge inside.

@@ -56,6 +56,7 @@ class Balance {
   void put_imbalance(const std::string &name, double value, double size, double round_off,
                      Columns &columns);
   void add_forces(const Step &step, Columns &columns);
+  void add_moment(const Step &step, Columns &columns) const;
   void add_charges(const Step &step, Columns &columns);
   void add_electrodes(const Step &step, Columns &columns) const;
   void add_heat(const Step &step, Columns &columns);
@@ -64,6 +65,11 @@ class Balance {
                         const std::array<double, 3> &lost,
                         const std::array<std::vector<double>, 3> &works) const;
   std::vector<std::pair<body::Node, double>> exchange_weights(const std::string &boundary) const;
+  /// Whether the foundation is more than the paper's.
+  bool has_foundation_columns() const {
+    return model_.laws &&
+           (model_.laws->has_moving_foundation() || model_.laws->has_normal_unknowns());
+  }
   double smallest_heat() const;
   double exchanged(const std::string &boundary, const Step &step) const;
 

@@ -87,6 +87,48 @@ std::vector<double> heat_supplied(const Model<dim> &model, const std::vector<boo
   return supplied;
 }
 
+template <int dim>
+std::vector<double> carried(const Model<dim> &model, double time,
+                            const std::vector<double> &before) {
+  std::vector<double> moved;
+  model.carried(before, time, moved);
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    moved[i] -= before[i];
+  return moved;
+}
+
+// A rigid foundation that reaches into the body at the start gets out of it in the first step: it
+// presses the body by as much as the two have overlapped.
+template <int dim>
+NormalEnergy normal_energy(const Model<dim> &model, const BalanceStep<dim> &step) {
+  NormalEnergy energy;
+  if (!model.laws || !model.laws->can_open())
+    return energy;
+  const double earlier = model.time_before(step.time);
+  for (const contact::InterfaceNode<dim> &at : model.interface) {
+    double received = 0, force = 0;
+    typename Model<dim>::Vector then, now;
+    for (int c = 0; c < dim; ++c) {
+      const std::size_t i = body::unknown<dim>(at.node, c);
+      then[c] = step.before.unknowns[i];
+      now[c] = step.now.unknowns[i];
+      const double pressing = step.contact[i] - step.friction[i];
+      received -= pressing * (step.change(i) - step.carried_by(i));
+      force -= pressing * at.normal[c];
+    }
+    const double before = then.dot(at.normal) - model.reach(at, earlier),
+                 after = now.dot(at.normal) - model.reach(at, step.time);
+    const auto law = model.laws->normal(at.point, before);
+    const double pressed_in = std::isinf(law->potential(before)) ? force * before : 0;
+    energy.pressed_in += pressed_in;
+    energy.received += received + pressed_in;
+    energy.stored += at.weight * law->stored(after);
+    energy.gained += at.weight * (law->stored(after) - law->stored(before));
+    energy.dissipated += at.weight * law->dissipated(after);
+  }
+  return energy;
+}
+
 // By field, the largest scaled unknown of all that it is coupled to.
 template <int dim>
 std::array<double, 3> coupled_sizes(const CoupledFields &coupled, const BalanceStep<dim> &step,
@@ -204,6 +246,8 @@ BalanceStep<dim> balance_step(const Model<dim> &model, const std::vector<bool> &
   step.conducted = cell_by_cell ? model.cells.conducted(now) : model.op.conducted(now);
   step.contact = by_unknown(model, outcome.contact_forces);
   step.friction = by_unknown(model, outcome.friction_forces);
+  step.carried = carried(model, time, step.before.unknowns);
+  step.normal = normal_energy(model, step);
   find_charges(is_prescribed, cell_by_cell, step);
   step.heat_supplied = heat_supplied(model, is_prescribed, step);
   return step;

@@ -27,6 +27,19 @@ struct BalanceRoundOff {
   std::array<double, 3> energy{};  ///< by field [J]
 };
 
+/// Of the response of a foundation that the body can leave [J].
+struct NormalEnergy {
+  double pressed_in =
+      0;                ///< what the foundation does as it takes away an interference at the start
+  double received = 0;  ///< from the body and by that in this step
+  double stored = 0;    ///< held at its end
+  double gained = 0;    ///< of it in this step
+  double dissipated = 0;  ///< in this step
+
+  /// What the step loses as the contact closes or is pressed, never negative.
+  double lost() const { return received - gained - dissipated; }
+};
+
 /// The numbers of one step that its balances share.
 template <int dim>
 struct BalanceStep {
@@ -37,9 +50,12 @@ struct BalanceStep {
   std::vector<double> heat_supplied;  ///< by node, at prescribed temperatures [W]
   std::vector<double> contact;        ///< by unknown [N]
   std::vector<double> friction;       ///< the part of it that opposes the slip [N]
+  std::vector<double> carried;  ///< by unknown: how the foundation has moved [m]; empty: it rests
+  NormalEnergy normal;          ///< of the foundation's response
   BalanceRoundOff round_off;
 
   double change(std::size_t i) const { return now.unknowns[i] - before.unknowns[i]; }
+  double carried_by(std::size_t i) const { return carried.empty() ? 0 : carried[i]; }
   double product_change(int field, std::size_t i) const {
     return now.products.of[field][i] - before.products.of[field][i];
   }

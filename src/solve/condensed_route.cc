@@ -2,17 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Sparse>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <string>
 
-#include "contact/bilateral.h"
+#include "case/holding.h"
 #include "larger.h"
 #include "parallel/ranks.h"
 #include "solve/connected_body.h"
+#include "solve/contact_nodes.h"
+#include "solve/coupled_programme.h"
 #include "solve/first_places.h"
-#include "solve/interface_newton.h"
 #include "solve/judgement.h"
 #include "stopwatch.h"
 #include "tourmaline/error.h"
@@ -30,20 +32,24 @@ constexpr double worth_refining = 1e-8;
 
 // From the first rank to the others.
 void share(StepOutcome &outcome) {
-  std::vector<double> numbers{static_cast<double>(outcome.newton_iterations), outcome.residual};
+  std::vector<double> numbers{static_cast<double>(outcome.newton_iterations), outcome.residual,
+                              static_cast<double>(outcome.stage)};
   for (const auto status : outcome.status)
     numbers.push_back(static_cast<double>(status));
-  for (const VectorXd &forces : {outcome.contact_forces, outcome.friction_forces})
-    numbers.insert(numbers.end(), forces.begin(), forces.end());
+  for (const VectorXd &by_node : {outcome.contact_forces, outcome.friction_forces,
+                                  outcome.friction_bound, outcome.accumulated_slip})
+    numbers.insert(numbers.end(), by_node.begin(), by_node.end());
   parallel::from_first(std::span<double>(numbers));
   outcome.newton_iterations = static_cast<int>(numbers[0]);
   outcome.residual = numbers[1];
-  const double *next = &numbers[2];
+  outcome.stage = static_cast<ContactStage>(numbers[2]);
+  const double *next = &numbers[3];
   for (auto &status : outcome.status)
     status = static_cast<ContactStatus>(*next++);
-  for (VectorXd *forces : {&outcome.contact_forces, &outcome.friction_forces}) {
-    std::copy_n(next, forces->size(), forces->begin());
-    next += forces->size();
+  for (VectorXd *by_node : {&outcome.contact_forces, &outcome.friction_forces,
+                            &outcome.friction_bound, &outcome.accumulated_slip}) {
+    std::copy_n(next, by_node->size(), by_node->begin());
+    next += by_node->size();
   }
 }
 
@@ -66,16 +72,10 @@ class CondensedRoute : public Route {
                const StepOutcome &outcome);
   StepOutcome solve(double time, std::span<const double> right_side, std::span<const double> before,
                     std::span<double> state);
-  VectorXd contact_displacements(std::span<const double> state) const;
-  std::vector<contact::Admissible<dim>> admissible(std::span<const double> state) const;
-  void set_laws(double time, const std::vector<contact::Admissible<dim>> &nodes,
-                const VectorXd &before);
-  void share_forces(const std::vector<contact::Admissible<dim>> &nodes,
-                    const InterfaceSolution &solution, StepOutcome &outcome) const;
   void advance_contact(double time, const VectorXd &s, std::span<const double> before,
                        std::span<const double> state, VectorXd &c, StepOutcome &outcome);
-  InterfaceSolution solve_contact(double time, const VectorXd &s, const VectorXd &held,
-                                  const VectorXd &before);
+  CoupledSolution solve_contact(double time, const VectorXd &s);
+  CoupledSolution solve_programme(const InterfaceProgramme &programme) const;
   [[noreturn]] void give_up(double time, const InterfaceSolution &solution) const;
 
   void describe(RouteReport &report) const override;
@@ -84,11 +84,11 @@ class CondensedRoute : public Route {
   void restore_memory(const output::SavedNumbers &numbers) override;
 
   const Model<dim> &model_;
+  std::string left_to_contact_;  // rigid motions
   std::vector<bool> is_prescribed_;
   ConnectedBody<dim> condensed_;
-  Eigen::SparseMatrix<double> directions_;  // T: admissible slips of all nodes, block diagonal
-  MatrixXd slip_stiffness_;                 // T^T S T
-  std::vector<ContactPoint> points_;
+  std::optional<ContactNodes<dim>> contact_;
+  MatrixXd slip_stiffness_;  // T^T S T, T the directions of the contact's unknowns
   VectorXd last_increment_;
   double error_of_slips_ = 0;  // the contact's own share of the forward error
 };
@@ -96,8 +96,11 @@ class CondensedRoute : public Route {
 template <int dim>
 CondensedRoute<dim>::CondensedRoute(const Model<dim> &model)
     : model_(model),
+      left_to_contact_(casefile::left_to_contact(model.asked)),
       is_prescribed_(body::mask_of(model.prescribed, model.n_unknowns())),
       condensed_(model) {
+  if (!model.interface.empty())
+    contact_.emplace(model, is_prescribed_);
   Stopwatch watch;
   parallel::on_first([&] { condense_onto_slips(); });
   so_far_.condense_seconds = watch.lap();
@@ -106,11 +109,12 @@ CondensedRoute<dim>::CondensedRoute(const Model<dim> &model)
     refine();
 }
 
-// What round-off of the size of S's entries does to the solution of T^T S T.
+// What round-off of the size of S's entries does to the solution of T^T S T. Where that is singular
+// by itself, as only the contact holds the body, it says nothing.
 template <int dim>
 double CondensedRoute<dim>::error_of_slips() const {
   double error = 0;
-  if (parallel::is_first() && slip_stiffness_.size() > 0) {
+  if (parallel::is_first() && slip_stiffness_.size() > 0 && left_to_contact_.empty()) {
     const Eigen::LLT<MatrixXd> factor(slip_stiffness_);
     error = factor.info() == Eigen::Success
                 ? std::numeric_limits<double>::epsilon() / factor.rcond()
@@ -131,68 +135,35 @@ void CondensedRoute<dim>::refine() {
 
 template <int dim>
 void CondensedRoute<dim>::condense_onto_slips() {
-  const std::vector<double> zero(model_.n_unknowns(), 0.);
-  std::vector<Eigen::Triplet<double>> triplets;
-  Index n_slips = 0;
-  points_.clear();
-  for (std::size_t i = 0; i < model_.interface.size(); ++i) {
-    const auto directions =
-        contact::bilateral<dim>(model_.interface[i], is_prescribed_, zero).directions;
-    points_.push_back({n_slips, directions.cols(), model_.interface[i].weight, {}});
-    for (Index k = 0; k < directions.cols(); ++k)
-      for (int c = 0; c < dim; ++c)
-        triplets.emplace_back(dim * static_cast<Index>(i) + c, n_slips + k, directions(c, k));
-    n_slips += directions.cols();
-  }
-  directions_.resize(condensed_.stiffness().rows(), n_slips);
-  directions_.setFromTriplets(triplets.begin(), triplets.end());
-  slip_stiffness_ = directions_.transpose() * (condensed_.stiffness() * directions_);
+  if (!contact_)
+    return;
+  const Eigen::SparseMatrix<double> &directions = contact_->directions();
+  slip_stiffness_ = directions.transpose() * (condensed_.stiffness() * directions);
   slip_stiffness_ = (slip_stiffness_ + slip_stiffness_.transpose()).eval() / 2;
-  last_increment_ = VectorXd::Zero(n_slips);
+  last_increment_ = VectorXd::Zero(contact_->n_unknowns());
 }
 
 template <int dim>
-VectorXd CondensedRoute<dim>::contact_displacements(std::span<const double> state) const {
-  VectorXd c(dim * static_cast<Index>(model_.interface.size()));
-  for (std::size_t i = 0; i < model_.interface.size(); ++i)
-    for (int k = 0; k < dim; ++k)
-      c[dim * static_cast<Index>(i) + k] = state[body::unknown<dim>(model_.interface[i].node, k)];
-  return c;
+CoupledSolution CondensedRoute<dim>::solve_programme(const InterfaceProgramme &programme) const {
+  const InterfaceSettings settings{model_.asked.solver.tolerance,
+                                   model_.asked.solver.max_iterations, left_to_contact_.empty()};
+  if (contact_->is_coupled())
+    return solve_coupled({programme, contact_->couplings()}, last_increment_, settings);
+  CoupledSolution solution;
+  solution.interface = minimise(programme, last_increment_, settings);
+  solution.stage = ContactStage::convex;
+  return solution;
 }
 
 template <int dim>
-std::vector<contact::Admissible<dim>> CondensedRoute<dim>::admissible(
-    std::span<const double> state) const {
-  std::vector<contact::Admissible<dim>> nodes;
-  for (const contact::InterfaceNode<dim> &at : model_.interface)
-    nodes.push_back(contact::bilateral(at, is_prescribed_, state));
-  return nodes;
-}
-
-// The laws of this step, each with the slip that is known at its node.
-template <int dim>
-void CondensedRoute<dim>::set_laws(double time, const std::vector<contact::Admissible<dim>> &nodes,
-                                   const VectorXd &before) {
-  for (std::size_t i = 0; i < points_.size(); ++i)
-    points_[i].friction = {model_.friction(contact::contact_place(model_.interface[i].point, time,
-                                                                  nodes[i].tangent())),
-                           nodes[i].held_slip(before.segment<dim>(dim * static_cast<Index>(i)))};
-}
-
-template <int dim>
-InterfaceSolution CondensedRoute<dim>::solve_contact(double time, const VectorXd &s,
-                                                     const VectorXd &held, const VectorXd &before) {
-  const VectorXd slips_before = directions_.transpose() * before;
-  const VectorXd stuck = held + directions_ * slips_before;  // the contact if no point slipped
-  const VectorXd resisted = condensed_.stiffness() * stuck;
-  const VectorXd force = directions_.transpose() * (s - resisted);
+CoupledSolution CondensedRoute<dim>::solve_contact(double time, const VectorXd &s) {
+  const VectorXd resisted = condensed_.stiffness() * contact_->stuck();
+  const VectorXd force = contact_->directions().transpose() * (s - resisted);
   const double scale = larger(s.cwiseAbs().maxCoeff<Eigen::PropagateNaN>(),
                               resisted.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
-  InterfaceSolution solution =
-      minimise({slip_stiffness_, force, points_, scale}, last_increment_,
-               {model_.asked.solver.tolerance, model_.asked.solver.max_iterations});
-  if (!solution.converged)
-    give_up(time, solution);
+  CoupledSolution solution = solve_programme({slip_stiffness_, force, contact_->points(), scale});
+  if (!solution.interface.converged)
+    give_up(time, solution.interface);
   return solution;
 }
 
@@ -204,21 +175,29 @@ void CondensedRoute<dim>::give_up(double time, const InterfaceSolution &solution
         "for a load, a prescribed value or a constant that is too large by many powers "
         "of ten, often a unit",
         time));
+  if (!left_to_contact_.empty())
+    throw SolveError(fmt::format(
+        "the contact problem at t = {:g} s has no solution that was found: residual {:.3g} of the "
+        "largest force after {} iterations. Nothing but the contact keeps the body from {}, and "
+        "with these loads it may not: the body would move rigidly. Prescribe further components "
+        "of `displacement`, or press the body to the foundation in every step",
+        time, solution.residual, solution.iterations, left_to_contact_));
   if (!solution.is_definite || !(error_of_slips_ <= 1e-2))
     throw SolveError(fmt::format(
         "the contact problem at t = {:g} s is too badly conditioned to be solved: round-off leaves "
         "no digit of the slips certain; {}",
         time, ill_conditioned_advice));
   const std::vector<std::size_t> &unsettled = solution.unsettled;
-  throw SolveError(fmt::format(
-      "the contact iteration did not converge at t = {:g} s: residual {:.3g} of the "
-      "largest force after "
-      "{} iterations, wanted {:.3g}; {} points are unsettled, among them{}; raise "
-      "solver.max_iterations or "
-      "solver.tolerance, or take smaller time steps",
-      time, solution.residual, solution.iterations, model_.asked.solver.tolerance, unsettled.size(),
-      first_places(unsettled.size(),
-                   [&](std::size_t i) { return model_.interface[unsettled[i]].point; })));
+  throw SolveError(
+      fmt::format("the contact iteration did not converge at t = {:g} s: residual {:.3g} of the "
+                  "largest force after "
+                  "{} iterations, wanted {:.3g}; {} points are unsettled, among them{}; raise "
+                  "solver.max_iterations or "
+                  "solver.tolerance, or take smaller time steps",
+                  time, solution.residual, solution.iterations, model_.asked.solver.tolerance,
+                  unsettled.size(), first_places(unsettled.size(), [&](std::size_t i) {
+                    return model_.interface[contact_->node_of(unsettled[i])].point;
+                  })));
 }
 
 // On the first rank, which holds the condensed stiffness: c and what is known with it.
@@ -227,44 +206,14 @@ void CondensedRoute<dim>::advance_contact(double time, const VectorXd &s,
                                           std::span<const double> before,
                                           std::span<const double> state, VectorXd &c,
                                           StepOutcome &outcome) {
-  const auto nodes = admissible(state);
-  VectorXd held(s.size());
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    held.segment<dim>(dim * static_cast<Index>(i)) = nodes[i].base;
-  const VectorXd c_before = contact_displacements(before);
-  set_laws(time, nodes, c_before);
-  const InterfaceSolution solution = solve_contact(time, s, held, c_before);
-  last_increment_ = solution.increment;
+  contact_->begin_step(time, before, state);
+  const CoupledSolution solution = solve_contact(time, s);
+  last_increment_ = solution.interface.increment;
   // Adding the increment to the very values of the last step keeps a sticking point in its place
   // exactly.
-  const VectorXd slips = directions_.transpose() * c_before + solution.increment;
-  c = held + directions_ * slips;
+  c = contact_->displacements(last_increment_);
   outcome.contact_forces = condensed_.stiffness() * c - s;
-  share_forces(nodes, solution, outcome);
-  outcome.status = solution.status;
-  outcome.newton_iterations = solution.iterations;
-  outcome.residual = solution.residual;
-}
-
-// Of the forces q that hold the contact nodes friction is the law's; of the rest the foundation has
-// what is normal, and supports have what is left in prescribed components.
-template <int dim>
-void CondensedRoute<dim>::share_forces(const std::vector<contact::Admissible<dim>> &nodes,
-                                       const InterfaceSolution &solution,
-                                       StepOutcome &outcome) const {
-  outcome.contact_forces -=
-      directions_ * (directions_.transpose() * outcome.contact_forces + solution.force);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const ContactPoint &p = points_[i];
-    auto q = outcome.contact_forces.segment<dim>(dim * static_cast<Index>(i));
-    const contact::Tangent borne = -nodes[i].held.transpose() * q / p.weight;
-    const contact::Tangent lambda =
-        p.friction.whole_traction(solution.increment.segment(p.offset, p.size),
-                                  solution.force.segment(p.offset, p.size) / p.weight, borne);
-    const Eigen::Matrix<double, dim, 1> friction = -p.weight * nodes[i].tangent() * lambda;
-    outcome.friction_forces.segment<dim>(dim * static_cast<Index>(i)) = friction;
-    q -= nodes[i].support(q, friction);
-  }
+  contact_->end_step(solution, outcome);
 }
 
 template <int dim>
@@ -278,6 +227,11 @@ StepOutcome CondensedRoute<dim>::solve(double time, std::span<const double> righ
   if (!model_.interface.empty()) {
     outcome.contact_forces = outcome.friction_forces = VectorXd::Zero(s.size());
     outcome.status.resize(model_.interface.size());
+    const auto n_nodes = static_cast<Index>(model_.interface.size());
+    if (contact_->is_coupled())
+      outcome.friction_bound = VectorXd::Zero(n_nodes);
+    if (model_.laws->remembers_slip())
+      outcome.accumulated_slip = VectorXd::Zero(n_nodes);
     parallel::on_first([&] { advance_contact(time, s, before, state, c, outcome); });
     share(outcome);
   }
@@ -339,6 +293,8 @@ template <int dim>
 void CondensedRoute<dim>::save_memory(output::SavedNumbers &numbers) const {
   condensed_.save(numbers);
   numbers.put("last increment", last_increment_);
+  if (contact_)
+    contact_->save(numbers);
 }
 
 template <int dim>
@@ -346,6 +302,8 @@ void CondensedRoute<dim>::restore_memory(const output::SavedNumbers &numbers) {
   condensed_.restore(numbers);
   if (parallel::is_first())
     numbers.fill("last increment", last_increment_);
+  if (parallel::is_first() && contact_)
+    contact_->restore(numbers);
 }
 
 }  // namespace

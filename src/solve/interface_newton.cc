@@ -24,8 +24,8 @@ double largest_of(const VectorXd &v) {
 
 class Iteration {
  public:
-  Iteration(const InterfaceProgramme &programme, VectorXd start)
-      : programme_(programme), d_(std::move(start)) {
+  Iteration(const InterfaceProgramme &programme, VectorXd start, bool is_definite)
+      : programme_(programme), d_(std::move(start)), may_be_singular_(!is_definite) {
     for (const ContactPoint &p : programme.points)
       curvature_.push_back(largest_eigenvalue(p));
     update_residual_force();
@@ -67,6 +67,7 @@ class Iteration {
   VectorXd d_;      // slip increments
   VectorXd force_;  // f - A d
   std::vector<double> curvature_;
+  bool may_be_singular_;
   bool is_definite_ = true;
 };
 
@@ -87,7 +88,7 @@ Tangent Iteration::trial(std::size_t i) const {
 
 Tangent Iteration::friction_force(std::size_t i) const {
   const ContactPoint &p = programme_.points[i];
-  return p.weight * p.friction.traction(trial(i), curvature_[i] / p.weight);
+  return p.weight * p.law.traction(trial(i), curvature_[i] / p.weight);
 }
 
 // The point's own problem with all others held, its block of A replaced by its largest eigenvalue:
@@ -100,7 +101,7 @@ void Iteration::sweep(bool backwards) {
     if (p.size == 0)
       continue;
     const Tangent x = trial(i);
-    const Tangent lambda = p.friction.traction(x, curvature_[i] / p.weight);
+    const Tangent lambda = p.law.traction(x, curvature_[i] / p.weight);
     const Tangent after = (x - lambda) * (p.weight / curvature_[i]);
     const Tangent change = after - d_.segment(p.offset, p.size);
     if (change.isZero(0))
@@ -114,8 +115,8 @@ void Iteration::sweep(bool backwards) {
 // Newton's method until a sweep takes it away from there.
 bool Iteration::is_smooth(const ContactPoint &p) const {
   const Tangent d = d_.segment(p.offset, p.size);
-  const bool at_bend = d.isZero(0) && p.friction.has_bend(p.size);
-  return p.size > 0 && !at_bend && p.friction.is_smooth_at(d);
+  const bool at_bend = d.isZero(0) && p.law.has_bend(p.size);
+  return p.size > 0 && !at_bend && p.law.is_smooth_at(d);
 }
 
 std::vector<std::size_t> Iteration::smooth_points() const {
@@ -137,13 +138,12 @@ Iteration::Dissipated Iteration::dissipated(const VectorXd &next) const {
       continue;
     const Tangent before = d_.segment(p.offset, p.size), after = next.segment(p.offset, p.size);
     const Tangent change = after - before;
-    if (change.norm() < small * p.friction.held().norm() && p.friction.is_smooth_at(before) &&
-        p.friction.is_smooth_at(after)) {
-      sum.change +=
-          p.weight / 2 * (p.friction.gradient(before) + p.friction.gradient(after)).dot(change);
+    if (change.norm() < small * p.law.held().norm() && p.law.is_smooth_at(before) &&
+        p.law.is_smooth_at(after)) {
+      sum.change += p.weight / 2 * (p.law.gradient(before) + p.law.gradient(after)).dot(change);
     } else {
-      const double value = p.friction.dissipation(before);
-      sum.change += p.weight * (p.friction.dissipation(after) - value);
+      const double value = p.law.potential(before);
+      sum.change += p.weight * (p.law.potential(after) - value);
       sum.round_off += p.weight * value;
     }
   }
@@ -162,9 +162,13 @@ std::optional<VectorXd> Iteration::newton_direction(const std::vector<std::size_
   for (const std::size_t i : smooth) {
     const ContactPoint &p = programme_.points[i];
     const Tangent d = d_.segment(p.offset, p.size);
-    hessian.block(row, row, p.size, p.size) += p.weight * p.friction.hessian(d);
-    descent.segment(row, p.size) -= p.weight * p.friction.gradient(d);
+    hessian.block(row, row, p.size, p.size) += p.weight * p.law.hessian(d);
+    descent.segment(row, p.size) -= p.weight * p.law.gradient(d);
     row += p.size;
+  }
+  if (may_be_singular_) {
+    constexpr double slightly = 1e-10;
+    hessian.diagonal() *= 1 + slightly;
   }
   const Eigen::LLT<Eigen::MatrixXd> factor(hessian);
   if (factor.info() != Eigen::Success)
@@ -227,11 +231,7 @@ double Iteration::largest_residual() const {
 }
 
 double Iteration::force_size() const {
-  double size = programme_.force_scale;
-  if (d_.size() > 0)
-    size = larger(larger(size, largest_of(programme_.force)),
-                  largest_of(programme_.stiffness.cwiseAbs() * d_.cwiseAbs()));
-  return size == 0 ? 1 : size;
+  return size_of_forces(programme_, d_);
 }
 
 InterfaceSolution Iteration::solution() const {
@@ -241,7 +241,7 @@ InterfaceSolution Iteration::solution() const {
   for (std::size_t i = 0; i < programme_.points.size(); ++i) {
     const ContactPoint &p = programme_.points[i];
     solution.force.segment(p.offset, p.size) = friction_force(i);
-    solution.status.push_back(p.friction.status(trial(i), curvature_[i] / p.weight));
+    solution.status.push_back(p.law.status(trial(i), curvature_[i] / p.weight));
   }
   solution.residual = relative_to(largest_residual(), force_size());
   solution.is_definite = is_definite_;
@@ -252,18 +252,26 @@ InterfaceSolution Iteration::solution() const {
 InterfaceSolution nothing_to_slip(const InterfaceProgramme &programme) {
   InterfaceSolution solution;
   for (const ContactPoint &p : programme.points)
-    solution.status.push_back(p.friction.status(Tangent(0), 1));
+    solution.status.push_back(p.law.status(Tangent(0), 1));
   solution.converged = true;
   return solution;
 }
 
 }  // namespace
 
+double size_of_forces(const InterfaceProgramme &programme, const VectorXd &d) {
+  double size = programme.force_scale;
+  if (d.size() > 0)
+    size = larger(larger(size, largest_of(programme.force)),
+                  largest_of(programme.stiffness.cwiseAbs() * d.cwiseAbs()));
+  return size == 0 ? 1 : size;
+}
+
 InterfaceSolution minimise(const InterfaceProgramme &programme, VectorXd start,
                            const InterfaceSettings &settings) {
   if (programme.force.size() == 0)
     return nothing_to_slip(programme);
-  Iteration iteration(programme, std::move(start));
+  Iteration iteration(programme, std::move(start), settings.is_definite);
   int solved = 0;
   bool converged = false;
   while (true) {

@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "contact/point_law.h"
+#include "contact/local_law.h"
 
 namespace tourmaline::solve {
 
@@ -12,7 +12,7 @@ namespace tourmaline::solve {
 struct ContactPoint {
   Eigen::Index offset = 0, size = 0;
   double weight = 0;
-  contact::PointLaw friction;
+  contact::LocalLaw law;
 };
 
 /// The contact problem of one step in the slip increments d:
@@ -32,6 +32,9 @@ struct InterfaceProgramme {
 struct InterfaceSettings {
   double tolerance = 1e-12;  ///< of the natural residual over the size of the forces
   int max_iterations = 100;
+  /// Whether A is definite. If not, the contact itself may hold what A leaves free, and directions
+  /// are found for slightly more than A.
+  bool is_definite = true;
 };
 
 struct InterfaceSolution {
@@ -44,6 +47,10 @@ struct InterfaceSolution {
   bool is_definite = true;             ///< false: a linear system could not be factorised
   std::vector<std::size_t> unsettled;  ///< points that carry the residual, if not converged
 };
+
+/// What a residual of the programme at d is compared to: the largest of the terms of its forces
+/// [N].
+double size_of_forces(const InterfaceProgramme &programme, const Eigen::VectorXd &d);
 
 /// Truncated nonsmooth Newton iteration: block Gauss-Seidel sweeps, which alone converge from any
 /// start because the programme is strictly convex and its nonsmooth part separates by points, then

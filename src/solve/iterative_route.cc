@@ -70,6 +70,7 @@ class IterativeRoute : public Route, private SlipResponse {
   ActiveSet<dim> contact_;
   BodyEquations<dim> body_;
   std::vector<double> two_before_;
+  std::vector<double> carried_;  // storage for `Model::carried`
   // Of the step at hand:
   double time_ = 0;
   std::span<double> state_;
@@ -93,7 +94,7 @@ void IterativeRoute<dim>::begin_step(double time, std::span<const double> right_
   state_ = state;
   iterations_ = 0;
   predict(before);
-  contact_.begin_step(time, before, state);
+  contact_.begin_step(time, model_.carried(before, time, carried_), state);
   body_.begin_step(right_side, state);
   impose();
   terms_at_contact_ = terms_at_contact();

@@ -1,5 +1,6 @@
 #include "solve/model.h"
 
+#include <cmath>
 #include <functional>
 
 #include "body/conductors.h"
@@ -56,13 +57,45 @@ Model<dim>::Model(const casefile::Case &asked_for, Built built)
   body::check_conductors(body, composition, asked, prescribed);
   if (asked.contact) {
     interface = contact::interface_nodes(body, asked.contact->on);
-    friction = contact::friction_of(asked.contact->friction);
+    laws.emplace(*asked.contact, step);
+    friction = laws->friction();
     if (asked.contact->heat.law == "exchange") {
       op.add_exchange(body, asked.contact->on, asked.contact->heat.coefficient);
       cells.add_exchange(asked.contact->on, asked.contact->heat.coefficient);
     }
   }
   assemble_seconds = built.since_mesh.lap();
+}
+
+template <int dim>
+double Model<dim>::time_before(double time) const {
+  return this->time(static_cast<int>(std::lround(time / step)) - 1);
+}
+
+template <int dim>
+typename Model<dim>::Vector Model<dim>::foundation(const contact::InterfaceNode<dim> &at,
+                                                   double time) const {
+  const Vector3 moved = laws->foundation(at.point, time);
+  return Vector::Map(moved.data());
+}
+
+template <int dim>
+double Model<dim>::reach(const contact::InterfaceNode<dim> &at, double time) const {
+  return laws->gap(at.point) + foundation(at, time).dot(at.normal);
+}
+
+template <int dim>
+std::span<const double> Model<dim>::carried(std::span<const double> before, double time,
+                                            std::vector<double> &carried) const {
+  if (!laws || !laws->has_moving_foundation())
+    return before;
+  carried.assign(before.begin(), before.end());
+  for (const contact::InterfaceNode<dim> &at : interface) {
+    const Vector moved = foundation(at, time) - foundation(at, time_before(time));
+    for (int c = 0; c < dim; ++c)
+      carried[body::unknown<dim>(at.node, c)] += moved[c];
+  }
+  return carried;
 }
 
 template struct Model<2>;

@@ -1,10 +1,15 @@
 #pragma once
 
+#include <optional>
+#include <span>
+#include <vector>
+
 #include "body/cell_products.h"
 #include "body/loads.h"
 #include "body/operator.h"
 #include "body/prescribed.h"
 #include "contact/interface.h"
+#include "contact/laws.h"
 #include "material/composition.h"
 #include "tourmaline/case/case.h"
 #include "tourmaline/contact/friction.h"
@@ -30,11 +35,23 @@ struct Model {
   std::vector<std::vector<body::Node>> electrodes;  ///< nodes by electrode of the case
   body::Loads<dim> loads;
   std::vector<contact::InterfaceNode<dim>> interface;  ///< empty without contact
+  std::optional<contact::ContactLaws> laws;            ///< the case's; nothing without contact
   contact::FrictionAt friction;                        ///< the case's, unless replaced
   double mesh_seconds = 0, assemble_seconds = 0;
 
   double time(int n) const { return asked.time.end * n / asked.time.steps; }
+  /// Of the step before the one that ends then.
+  double time_before(double time) const;
   std::size_t n_unknowns() const { return body.n_nodes() * body::Fields<dim>::count; }
+
+  using Vector = Eigen::Matrix<double, dim, 1>;
+  /// Where the foundation has moved to [m]; and u_nu at which a contact node touches it.
+  Vector foundation(const contact::InterfaceNode<dim> &at, double time) const;
+  double reach(const contact::InterfaceNode<dim> &at, double time) const;
+  /// The last step's unknowns, the contact nodes' displacements carried along with the foundation:
+  /// slip is what they differ from these. `carried` is filled where the foundation moves.
+  std::span<const double> carried(std::span<const double> before, double time,
+                                  std::vector<double> &carried) const;
 
  private:
   struct Built;  // material and mesh, made before the members that need them

@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
 
 #include "body/backward_error.h"
 #include "contact/bilateral.h"
 #include "parallel/ranks.h"
 #include "solve/first_places.h"
+#include "solve/held_bounds.h"
 #include "solve/saddle_newton.h"
 #include "tourmaline/error.h"
 
@@ -47,17 +50,32 @@ class MonolithicRoute : public Route {
 
  private:
   using Point = contact::MultiplierPoint<dim>;
+  using Vector = Eigen::Matrix<double, dim, 1>;
 
+  std::vector<double> rest_at(double time) const;
+  void find(double time, const StepData &data, SaddlePoint start, StepOutcome &outcome);
+  void find_with_bounds(double time, const StepData &data, std::vector<AugmentedLagrangian> &laws,
+                        SaddlePoint start, StepOutcome &outcome);
+  std::vector<HeldBounds::State> states(double time, const StepData &data) const;
+  double supported_pressure(double time, std::size_t p, const VectorXd &holding) const;
+  void end_friction(const StepData &data, StepOutcome &outcome);
   std::vector<AugmentedLagrangian> laws_at(double time, std::span<const double> before,
-                                           std::span<const double> state) const;
+                                           std::span<const double> state,
+                                           std::span<const double> rest) const;
   SaddlePoint prediction(std::span<const double> before, std::span<const double> state) const;
-  std::vector<ContactStatus> status(const StepData &data) const;
+  bool touches(double time, const StepData &data, std::size_t p) const;
+  std::vector<ContactStatus> status(double time, const StepData &data) const;
+  std::vector<HeldBounds::State> first_states() const;
+  Vector displacement(std::span<const double> state, std::size_t node) const;
+  double penetration(double time, std::size_t node) const;
   void settle(const StepData &data, const std::vector<ContactStatus> &status);
   VectorXd holding_forces(const StepData &data) const;
   contact::Tangent whole_friction(const StepData &data, std::size_t p,
                                   const VectorXd &holding) const;
-  void share_forces(const StepData &data, StepOutcome &outcome) const;
+  void share_forces(double time, const StepData &data, StepOutcome &outcome) const;
   std::size_t interface_index(body::Node node) const;
+  // Points are the interface nodes then.
+  bool has_normal_laws() const { return model_.laws && model_.laws->has_normal_unknowns(); }
   [[noreturn]] void give_up(double time, const SaddleNewton<dim> &newton) const;
 
   void describe(RouteReport &report) const override;
@@ -68,6 +86,10 @@ class MonolithicRoute : public Route {
   SaddleSystem<dim> system_;
   double area_ = 0;  // of the contact boundary [m^(dim-1)]
   SaddlePoint x_;
+  VectorXd slipped_;  // accumulated slip by node [m]
+  // Of the step at hand:
+  std::span<const double> before_;
+  double force_size_ = 0;  // [N]
 };
 
 template <int dim>
@@ -78,6 +100,23 @@ MonolithicRoute<dim>::MonolithicRoute(const Model<dim> &model)
   x_.multipliers = VectorXd::Zero(static_cast<Index>(system_.n_multipliers()));
   for (const Point &point : system_.points())
     area_ += point.weight;
+  slipped_ = VectorXd::Zero(static_cast<Index>(model.interface.size()));
+  if (!has_normal_laws())
+    return;
+  const std::vector<bool> is_prescribed = body::mask_of(model.prescribed, model.n_unknowns());
+  for (const contact::InterfaceNode<dim> &at : model.interface)
+    contact::require_plain_normal(
+        at, contact::bilateral<dim>(at, is_prescribed, std::vector<double>(model.n_unknowns())));
+}
+
+// The contact nodes just touch the foundation.
+template <int dim>
+std::vector<double> MonolithicRoute<dim>::rest_at(double time) const {
+  std::vector<double> rest(model_.n_unknowns(), 0.);
+  for (const contact::InterfaceNode<dim> &at : model_.interface)
+    for (int c = 0; c < dim; ++c)
+      rest[body::unknown<dim>(at.node, c)] = model_.reach(at, time) * at.normal[c];
+  return rest;
 }
 
 // r_nu and r = r_tau / k as given, or else the stiffness of a body as large as the contact
@@ -85,8 +124,10 @@ MonolithicRoute<dim>::MonolithicRoute(const Model<dim> &model)
 // a slip that turns back in the iteration jumps to the opposite slip, and Newton's method cycles
 // more often.
 template <int dim>
-std::vector<AugmentedLagrangian> MonolithicRoute<dim>::laws_at(
-    double time, std::span<const double> before, std::span<const double> state) const {
+std::vector<AugmentedLagrangian> MonolithicRoute<dim>::laws_at(double time,
+                                                               std::span<const double> before,
+                                                               std::span<const double> state,
+                                                               std::span<const double> rest) const {
   const casefile::SolverCase &solver = model_.asked.solver;
   std::vector<AugmentedLagrangian> laws;
   for (std::size_t p = 0; p < system_.points().size(); ++p) {
@@ -96,8 +137,10 @@ std::vector<AugmentedLagrangian> MonolithicRoute<dim>::laws_at(
     law.has_normal = point.has_normal;
     law.r_normal = solver.r_normal.value_or(r);
     law.r_slip = solver.r_tangential ? *solver.r_tangential / model_.step : r;
+    if (point.has_normal && model_.laws->can_open())
+      law.normal = model_.laws->normal(point.place, penetration(time, p));
     law.friction = {model_.friction(contact::contact_place(point.place, time, point.tangent())),
-                    point.held_slip(state, before)};
+                    point.held_slip(state, before, rest)};
   }
   return laws;
 }
@@ -115,25 +158,150 @@ SaddlePoint MonolithicRoute<dim>::prediction(std::span<const double> before,
 template <int dim>
 StepOutcome MonolithicRoute<dim>::advance(double time, std::span<const double> right_side,
                                           std::span<const double> before, std::span<double> state) {
-  const std::vector<AugmentedLagrangian> laws = laws_at(time, before, state);
-  const StepData data{right_side, before, laws};
-  SaddleNewton<dim> newton(system_, data, prediction(before, state));
+  std::vector<double> storage;
+  const std::span<const double> carried = model_.carried(before, time, storage);
+  const std::vector<double> rest = rest_at(time);
+  before_ = before;
+  std::vector<AugmentedLagrangian> laws = laws_at(time, carried, state, rest);
+  const StepData data{right_side, carried, rest, laws};
+  StepOutcome outcome;
+  if (model_.laws && model_.laws->friction_depends_on_pressure())
+    find_with_bounds(time, data, laws, prediction(before, state), outcome);
+  else
+    find(time, data, prediction(before, state), outcome);
+  outcome.status = status(time, data);
+  if (model_.asked.solver.multiplier == "nodal")
+    settle(data, outcome.status);
+  share_forces(time, data, outcome);
+  end_friction(data, outcome);
+  std::copy(x_.body.begin(), x_.body.end(), state.begin());
+  if (outgrew_measured<dim>(state))
+    see_forward_error(accuracy(right_side, state, outcome).forward_error);
+  return outcome;
+}
+
+template <int dim>
+void MonolithicRoute<dim>::find(double time, const StepData &data, SaddlePoint start,
+                                StepOutcome &outcome) {
+  SaddleNewton<dim> newton(system_, data, std::move(start));
   if (!newton.solve({model_.asked.solver.tolerance, model_.asked.solver.max_iterations}))
     give_up(time, newton);
   x_ = newton.x();
   const Verdict verdict = newton.verdict();
   see_backward_error(verdict.body());
-  StepOutcome outcome;
-  outcome.newton_iterations = newton.iterations();
+  outcome.newton_iterations += newton.iterations();
   outcome.residual = verdict.worst();
-  outcome.status = status(data);
-  if (model_.asked.solver.multiplier == "nodal")
-    settle(data, outcome.status);
-  share_forces(data, outcome);
-  std::copy(x_.body.begin(), x_.body.end(), state.begin());
-  if (outgrew_measured<dim>(state))
-    see_forward_error(accuracy(right_side, state, outcome).forward_error);
-  return outcome;
+  force_size_ = verdict.force_size;
+}
+
+// `laws` are those of `data`: friction is held, the step solved, and so on.
+template <int dim>
+void MonolithicRoute<dim>::find_with_bounds(double time, const StepData &data,
+                                            std::vector<AugmentedLagrangian> &laws,
+                                            SaddlePoint start, StepOutcome &outcome) {
+  constexpr int most = 200;
+  std::vector<contact::PointLaw> own;
+  std::vector<std::shared_ptr<const contact::FrictionBound>> bounds;
+  double least_weight = std::numeric_limits<double>::infinity();
+  for (std::size_t p = 0; p < laws.size(); ++p) {
+    const Point &point = system_.points()[p];
+    own.push_back(laws[p].friction);
+    bounds.push_back(model_.laws->bound(point.place, time, slipped_[static_cast<Index>(p)]));
+    least_weight = std::min(least_weight, point.weight);
+  }
+  HeldBounds held(std::move(bounds), first_states());
+  for (int k = 0; k < most; ++k) {
+    for (std::size_t p = 0; p < laws.size(); ++p)
+      laws[p].friction = held.law(p, own[p]);
+    find(time, data, k == 0 ? std::move(start) : x_, outcome);
+    if (held.settle(states(time, data),
+                    model_.asked.solver.tolerance * force_size_ / least_weight)) {
+      outcome.stage = ContactStage::fixed_point;
+      outcome.friction_bound = held.values();
+      return;
+    }
+  }
+  throw SolveError(fmt::format(
+      "the friction bounds, which follow the pressure, did not settle at t = {:g} s in {} rounds; "
+      "take smaller time steps, or solver.method = \"condensed\"",
+      time, most));
+}
+
+// As the last step left them.
+template <int dim>
+std::vector<HeldBounds::State> MonolithicRoute<dim>::first_states() const {
+  std::vector<HeldBounds::State> all;
+  for (std::size_t p = 0; p < system_.points().size(); ++p) {
+    HeldBounds::State &state = all.emplace_back();
+    if (system_.points()[p].has_normal)
+      state.pressure = system_.multiplier(p, x_)[0];
+    state.is_closed = state.pressure >= 0;
+  }
+  return all;
+}
+
+template <int dim>
+std::vector<HeldBounds::State> MonolithicRoute<dim>::states(double time,
+                                                            const StepData &data) const {
+  const VectorXd holding = holding_forces(data);
+  std::vector<HeldBounds::State> all;
+  for (std::size_t p = 0; p < data.laws.size(); ++p) {
+    const Point &point = system_.points()[p];
+    const AugmentedLagrangian &law = data.laws[p];
+    const Local y = system_.displacement(p, x_, data), lambda = system_.multiplier(p, x_);
+    HeldBounds::State &state = all.emplace_back();
+    state.slip =
+        law.status(y, lambda) == ContactStatus::stick
+            ? 0
+            : std::hypot(y.tail(y.size() - point.has_normal).norm(), law.friction.held().norm());
+    state.pressure =
+        point.has_normal ? law.pressure(y, lambda) : supported_pressure(time, p, holding);
+    state.is_closed = point.has_normal ? law.is_closed(y, lambda)
+                                       : !model_.laws->can_open() || state.pressure > 0;
+  }
+  return all;
+}
+
+// Of a node that supports hold along its normal.
+template <int dim>
+double MonolithicRoute<dim>::supported_pressure(double time, std::size_t p,
+                                                const VectorXd &holding) const {
+  const contact::InterfaceNode<dim> &at = model_.interface[p];
+  if (!model_.laws->can_open())
+    return -holding.template segment<dim>(dim * static_cast<Index>(p)).dot(at.normal) / at.weight;
+  return model_.laws->pressure_under_supports(
+      at.point, penetration(time, p),
+      displacement(x_.body, p).dot(at.normal) - model_.reach(at, time));
+}
+
+template <int dim>
+typename MonolithicRoute<dim>::Vector MonolithicRoute<dim>::displacement(
+    std::span<const double> state, std::size_t node) const {
+  return Vector::Map(&state[body::unknown<dim>(model_.interface[node].node, 0)]);
+}
+
+// At the end of the last step.
+template <int dim>
+double MonolithicRoute<dim>::penetration(double time, std::size_t node) const {
+  const contact::InterfaceNode<dim> &at = model_.interface[node];
+  return displacement(before_, node).dot(at.normal) - model_.reach(at, model_.time_before(time));
+}
+
+// What the next step's friction depends on.
+template <int dim>
+void MonolithicRoute<dim>::end_friction(const StepData &data, StepOutcome &outcome) {
+  if (!has_normal_laws())
+    return;
+  for (std::size_t p = 0; p < data.laws.size(); ++p) {
+    if (outcome.status[p] != ContactStatus::slip)
+      continue;
+    const Local y = system_.displacement(p, x_, data);
+    slipped_[static_cast<Index>(p)] +=
+        std::hypot(y.tail(y.size() - system_.points()[p].has_normal).norm(),
+                   data.laws[p].friction.held().norm());
+  }
+  if (model_.laws->remembers_slip())
+    outcome.accumulated_slip = slipped_;
 }
 
 // What the last tangent answers to what x leaves of the body's equations, over x. The residual is
@@ -155,15 +323,26 @@ Accuracy MonolithicRoute<dim>::accuracy(std::span<const double> right_side,
                                                            system_.field_scales())};
 }
 
-// A node slips when the multiplier's point does: itself, or any of the facets around it.
+// A node slips when the multiplier's point does: itself, or any of the facets around it. Points of
+// laws that open are the nodes.
 template <int dim>
-std::vector<ContactStatus> MonolithicRoute<dim>::status(const StepData &data) const {
+bool MonolithicRoute<dim>::touches(double time, const StepData &data, std::size_t p) const {
+  return system_.points()[p].has_normal
+             ? data.laws[p].is_closed(system_.displacement(p, x_, data), system_.multiplier(p, x_))
+             : supported_pressure(time, p, {}) > 0;
+}
+
+template <int dim>
+std::vector<ContactStatus> MonolithicRoute<dim>::status(double time, const StepData &data) const {
   std::vector<ContactStatus> status(model_.interface.size(), ContactStatus::stick);
   for (std::size_t p = 0; p < data.laws.size(); ++p)
-    if (data.laws[p].status(system_.displacement(p, x_, data.before), system_.multiplier(p, x_)) ==
+    if (data.laws[p].status(system_.displacement(p, x_, data), system_.multiplier(p, x_)) ==
         ContactStatus::slip)
       for (const auto &share : system_.points()[p].mean)
         status[interface_index(share.node)] = ContactStatus::slip;
+  for (std::size_t p = 0; model_.laws && model_.laws->can_open() && p < data.laws.size(); ++p)
+    if (!touches(time, data, p))
+      status[p] = ContactStatus::open;
   return status;
 }
 
@@ -172,8 +351,11 @@ std::vector<ContactStatus> MonolithicRoute<dim>::status(const StepData &data) co
 template <int dim>
 void MonolithicRoute<dim>::settle(const StepData &data, const std::vector<ContactStatus> &status) {
   for (std::size_t p = 0; p < data.laws.size(); ++p) {
-    Local off = system_.displacement(p, x_, data.before);
-    if (status[p] == ContactStatus::slip)
+    Local off = system_.displacement(p, x_, data);
+    const auto &normal = data.laws[p].normal;
+    if (normal && (status[p] == ContactStatus::open || !normal->has_kink()))
+      off[0] = 0;
+    if (status[p] != ContactStatus::stick)
       off.tail(off.size() - (data.laws[p].has_normal ? 1 : 0)).setZero();
     const typename Point::Vector correction = system_.points()[p].directions * off;
     for (int c = 0; c < dim; ++c) {
@@ -193,7 +375,7 @@ VectorXd MonolithicRoute<dim>::holding_forces(const StepData &data) const {
     const Point &point = system_.points()[p];
     const Local traction =
         data.laws[p]
-            .gradient(system_.displacement(p, x_, data.before), system_.multiplier(p, x_))
+            .gradient(system_.displacement(p, x_, data), system_.multiplier(p, x_))
             .traction;
     for (const auto &share : point.mean)
       forces.template segment<dim>(dim * static_cast<Index>(interface_index(share.node))) -=
@@ -216,7 +398,7 @@ contact::Tangent MonolithicRoute<dim>::whole_friction(const StepData &data, std:
                                                       const VectorXd &holding) const {
   const Point &point = system_.points()[p];
   const AugmentedLagrangian &law = data.laws[p];
-  const Local y = system_.displacement(p, x_, data.before), lambda = system_.multiplier(p, x_);
+  const Local y = system_.displacement(p, x_, data), lambda = system_.multiplier(p, x_);
   contact::Tangent slip = y.tail(y.size() - point.has_normal);
   if (law.status(y, lambda) == ContactStatus::stick)
     slip.setZero();
@@ -233,7 +415,8 @@ contact::Tangent MonolithicRoute<dim>::whole_friction(const StepData &data, std:
 // As in `CondensedRoute`: friction is the law's, the foundation has what is normal, supports have
 // the rest.
 template <int dim>
-void MonolithicRoute<dim>::share_forces(const StepData &data, StepOutcome &outcome) const {
+void MonolithicRoute<dim>::share_forces(double time, const StepData &data,
+                                        StepOutcome &outcome) const {
   outcome.contact_forces = holding_forces(data);
   outcome.friction_forces = VectorXd::Zero(outcome.contact_forces.size());
   for (std::size_t p = 0; p < data.laws.size(); ++p) {
@@ -251,6 +434,11 @@ void MonolithicRoute<dim>::share_forces(const StepData &data, StepOutcome &outco
       if (!system_.is_free(body::unknown<dim>(model_.interface[n].node, c)))
         prescribed[c] = 0.;
     auto q = outcome.contact_forces.template segment<dim>(dim * static_cast<Index>(n));
+    if (has_normal_laws() && model_.laws->can_open() && !system_.points()[n].has_normal) {
+      q = outcome.friction_forces.template segment<dim>(dim * static_cast<Index>(n)) -
+          model_.interface[n].weight * supported_pressure(time, n, {}) * model_.interface[n].normal;
+      continue;
+    }
     q -=
         contact::bilateral<dim>(model_.interface[n].normal, prescribed)
             .support(q, outcome.friction_forces.template segment<dim>(dim * static_cast<Index>(n)));
@@ -299,11 +487,15 @@ void MonolithicRoute<dim>::describe(RouteReport &report) const {
 template <int dim>
 void MonolithicRoute<dim>::save_memory(output::SavedNumbers &numbers) const {
   numbers.put("multipliers", x_.multipliers);
+  if (model_.laws && model_.laws->remembers_slip())
+    numbers.put("accumulated slip", slipped_);
 }
 
 template <int dim>
 void MonolithicRoute<dim>::restore_memory(const output::SavedNumbers &numbers) {
   numbers.fill("multipliers", x_.multipliers);
+  if (model_.laws && model_.laws->remembers_slip())
+    numbers.fill("accumulated slip", slipped_);
 }
 
 }  // namespace

@@ -18,6 +18,20 @@ double largest_so_far(double before, double now) {
 
 }  // namespace
 
+const char *name_of(ContactStage stage) {
+  switch (stage) {
+    case ContactStage::convex:
+      return "convex";
+    case ContactStage::newton:
+      return "newton";
+    case ContactStage::fixed_point:
+      return "fixed_point";
+    case ContactStage::continuation:
+      return "continuation";
+  }
+  return "unknown";
+}
+
 void Route::see_backward_error(double error) {
   so_far_.backward_error = largest_so_far(so_far_.backward_error, error);
 }

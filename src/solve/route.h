@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
@@ -15,8 +16,16 @@ struct FactorisationStatistics;
 
 namespace tourmaline::solve {
 
+/// How a step's contact was found: as one convex programme; by Newton's method on all at once; by
+/// convex programmes whose friction bounds are held, in a fixed point; with bounds that grow from
+/// zero.
+enum class ContactStage : std::uint8_t { convex, newton, fixed_point, continuation };
+constexpr int n_contact_stages = 4;
+const char *name_of(ContactStage stage);
+
 /// What a step did at the contact, besides the new state.
 struct StepOutcome {
+  ContactStage stage = ContactStage::convex;
   int newton_iterations = 0;
   double residual = 0;
   /// nodal contact forces q on the body, dim entries for each interface node [N]: what the
@@ -24,6 +33,9 @@ struct StepOutcome {
   Eigen::VectorXd contact_forces;
   Eigen::VectorXd friction_forces;    ///< the part of them that opposes the slip [N]
   std::vector<ContactStatus> status;  ///< by interface node
+  /// by interface node, where friction depends on the pressure; else empty
+  Eigen::VectorXd friction_bound;    ///< [N/m^2]
+  Eigen::VectorXd accumulated_slip;  ///< over all steps [m]; empty, too, where no law depends on it
 };
 
 /// What a route did to get ready, and how well it solves.

@@ -21,6 +21,14 @@ constexpr int patience = 4;
 // about a tenth of the distance to the solution at most.
 constexpr double stronger = 10;
 
+// The multiplier that the law answers with; that of u_nu = 0 stays as it is.
+Local answer(const AugmentedLagrangian &law, const Local &displacement, const Local &multiplier) {
+  Local lambda = law.gradient(displacement, multiplier).traction;
+  if (law.has_normal && !law.normal)
+    lambda[0] = multiplier[0];
+  return lambda;
+}
+
 double dot(const std::vector<double> &a, const std::vector<double> &b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.);
 }
@@ -47,7 +55,7 @@ const char *Verdict::worst_name() const {
 template <int dim>
 SaddleNewton<dim>::SaddleNewton(SaddleSystem<dim> &system, const StepData &data,
                                 SaddlePoint prediction)
-    : system_(system), data_(data), x_(std::move(prediction)), zero_(x_.body.size(), 0.) {}
+    : system_(system), data_(data), x_(std::move(prediction)) {}
 
 template <int dim>
 bool SaddleNewton<dim>::solve(const SaddleSettings &settings) {
@@ -100,28 +108,27 @@ void SaddleNewton<dim>::correct(const SaddlePoint &increment, double length) {
 // linear rows of (37), which stay solved whatever the length of a step.
 template <int dim>
 void SaddleNewton<dim>::multiplier_step(const SaddleSettings &settings) {
-  const std::vector<AugmentedLagrangian> laws = laws_with_held_friction();
-  const StepData held{data_.right_side, data_.before, laws};
+  const std::vector<AugmentedLagrangian> laws = laws_with_held_multipliers();
+  const StepData held{data_.right_side, data_.before, data_.rest, laws};
   while (judge(held).without_law() > settings.tolerance && iterations_ < settings.max_iterations) {
     const SaddlePoint residual = system_.residual(held, x_);
     const SaddlePoint newton_direction = direction(held, residual);
     correct(newton_direction, length(held, residual, newton_direction));
   }
   for (std::size_t p = 0; p < laws.size(); ++p) {
-    Local lambda = system_.multiplier(p, x_);
-    const Tangent moved =
-        laws[p].friction_traction(system_.displacement(p, x_, data_.before), lambda);
-    lambda.tail(moved.size()) = moved;
-    system_.set_multiplier(p, lambda, x_);
+    const Local lambda = system_.multiplier(p, x_);
+    system_.set_multiplier(p, answer(laws[p], system_.displacement(p, x_, data_), lambda), x_);
   }
 }
 
 template <int dim>
-std::vector<AugmentedLagrangian> SaddleNewton<dim>::laws_with_held_friction() const {
+std::vector<AugmentedLagrangian> SaddleNewton<dim>::laws_with_held_multipliers() const {
   std::vector<AugmentedLagrangian> laws = data_.laws;
   for (std::size_t p = 0; p < laws.size(); ++p) {
-    laws[p].friction_held = true;
+    laws[p].is_held = true;
     laws[p].r_slip = stronger * system_.stiffness_at(p);
+    if (laws[p].normal)
+      laws[p].r_normal = laws[p].r_slip;
   }
   return laws;
 }
@@ -133,9 +140,9 @@ double SaddleNewton<dim>::length(const StepData &data, const SaddlePoint &residu
                                  const SaddlePoint &direction) const {
   const double start = dot(residual.body, direction.body);
   const double curvature = dot(system_.body_times(direction.body), direction.body);
-  const double friction = friction_power(data, direction, 0);
+  const double contact = contact_power(data, direction, 0);
   const auto slope = [&](double t) {
-    return start + t * curvature + friction_power(data, direction, t) - friction;
+    return start + t * curvature + contact_power(data, direction, t) - contact;
   };
   constexpr double round_off = 1e-8;
   constexpr int bisections = 40;
@@ -147,16 +154,19 @@ double SaddleNewton<dim>::length(const StepData &data, const SaddlePoint &residu
   return (low + high) / 2;
 }
 
-// The friction tractions at x + length * direction, times the slips of the direction [J].
+// The tractions of the laws at x + length * direction, times the displacements of the direction
+// [J].
 template <int dim>
-double SaddleNewton<dim>::friction_power(const StepData &data, const SaddlePoint &direction,
-                                         double length) const {
+double SaddleNewton<dim>::contact_power(const StepData &data, const SaddlePoint &direction,
+                                        double length) const {
   double sum = 0;
   for (std::size_t p = 0; p < data.laws.size(); ++p) {
-    const Local change = system_.displacement(p, direction, zero_);
-    const Local y = system_.displacement(p, x_, data.before) + length * change;
-    const Tangent traction = data.laws[p].friction_traction(y, system_.multiplier(p, x_));
-    sum += system_.points()[p].weight * traction.dot(change.tail(traction.size()));
+    const Local change = system_.change(p, direction);
+    const Local y = system_.displacement(p, x_, data) + length * change;
+    Local traction = data.laws[p].gradient(y, system_.multiplier(p, x_)).traction;
+    if (data.laws[p].has_normal && !data.laws[p].normal)
+      traction[0] = 0;
+    sum += system_.points()[p].weight * traction.dot(change);
   }
   return sum;
 }
@@ -164,11 +174,10 @@ double SaddleNewton<dim>::friction_power(const StepData &data, const SaddlePoint
 template <int dim>
 double SaddleNewton<dim>::law_residual(std::size_t point) const {
   AugmentedLagrangian natural = data_.laws[point];
-  natural.r_slip = system_.stiffness_at(point);
+  natural.r_slip = natural.r_normal = system_.stiffness_at(point);
   const Local lambda = system_.multiplier(point, x_);
-  const Tangent projected =
-      natural.friction_traction(system_.displacement(point, x_, data_.before), lambda);
-  return system_.points()[point].weight * (projected - lambda.tail(projected.size())).norm();
+  return system_.points()[point].weight *
+         (answer(natural, system_.displacement(point, x_, data_), lambda) - lambda).norm();
 }
 
 template <int dim>
@@ -181,8 +190,8 @@ Verdict SaddleNewton<dim>::judge(const StepData &data) const {
     verdict.blocks[field] = relative_to(rows[field], sizes[field]);
   double gap = 0, law = 0;
   for (std::size_t p = 0; p < data.laws.size(); ++p) {
-    if (data.laws[p].has_normal)
-      gap = larger(gap, std::abs(system_.displacement(p, x_, data.before)[0]));
+    if (data.laws[p].has_normal && !data.laws[p].normal)
+      gap = larger(gap, std::abs(system_.displacement(p, x_, data)[0]));
     law = larger(law, law_residual(p));
   }
   verdict.blocks[3] = relative_to(gap, system_.largest_displacement(x_));

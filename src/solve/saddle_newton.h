@@ -7,12 +7,12 @@
 namespace tourmaline::solve {
 
 /// Residuals of the blocks of (37), each over its own size: the body's rows by their largest sum of
-/// terms, u_nu by the largest displacement, and the law, w |lambda_tau - P(lambda_tau + r d)| with
-/// the stiffness of a node for r, by the size of the mechanical rows.
+/// terms, u_nu of bilateral contact by the largest displacement, and the laws, w |lambda - P(lambda
+/// + r y)| with the stiffness of a node for r, by the size of the mechanical rows.
 struct Verdict {
   static constexpr std::array names{"the balance of forces (31)", "the balance of charges (32)",
                                     "the balance of heat (33)", "the normal displacement (34)",
-                                    "the friction law (35)"};
+                                    "the contact law (35)"};
   std::array<double, 5> blocks{};
   double force_size = 0;  ///< of the mechanical rows [N]
 
@@ -49,18 +49,17 @@ class SaddleNewton {
  private:
   bool newton(const SaddleSettings &settings);
   void multiplier_step(const SaddleSettings &settings);
-  std::vector<contact::AugmentedLagrangian> laws_with_held_friction() const;
+  std::vector<contact::AugmentedLagrangian> laws_with_held_multipliers() const;
   SaddlePoint direction(const StepData &data, const SaddlePoint &residual);
   double length(const StepData &data, const SaddlePoint &residual,
                 const SaddlePoint &direction) const;
-  double friction_power(const StepData &data, const SaddlePoint &direction, double length) const;
+  double contact_power(const StepData &data, const SaddlePoint &direction, double length) const;
   void correct(const SaddlePoint &increment, double length);
   Verdict judge(const StepData &data) const;
 
   SaddleSystem<dim> &system_;
   const StepData data_;
   SaddlePoint x_;
-  const std::vector<double> zero_;  // no state at all
   int iterations_ = 0;
 };
 

@@ -58,6 +58,7 @@ SaddleSystem<dim>::SaddleSystem(const body::Operator<dim> &op, double step,
 template <int dim>
 void SaddleSystem<dim>::number(const std::vector<body::Prescribed> &prescribed) {
   variable_of_.assign(operator_.graph().n_nodes() * Fields<dim>::count, 0);
+  zero_.assign(variable_of_.size(), 0.);
   for (const body::Prescribed &p : prescribed)
     variable_of_[p.unknown] = -1;
   for (std::size_t i = 0; i < variable_of_.size(); ++i)
@@ -143,8 +144,13 @@ std::vector<int> SaddleSystem<dim>::elimination_order() const {
 
 template <int dim>
 Local SaddleSystem<dim>::displacement(std::size_t point, const SaddlePoint &x,
-                                      std::span<const double> before) const {
-  return points_[point].displacement(x.body, before);
+                                      const StepData &data) const {
+  return points_[point].displacement(x.body, data.before, data.rest);
+}
+
+template <int dim>
+Local SaddleSystem<dim>::change(std::size_t point, const SaddlePoint &x) const {
+  return points_[point].displacement(x.body, zero_, zero_);
 }
 
 template <int dim>
@@ -165,7 +171,7 @@ SaddlePoint SaddleSystem<dim>::residual(const StepData &data, const SaddlePoint 
     r.body[i] -= data.right_side[i];
   for (std::size_t p = 0; p < points_.size(); ++p) {  // (42)
     const Point &point = points_[p];
-    const auto gradient = data.laws[p].gradient(displacement(p, x, data.before), multiplier(p, x));
+    const auto gradient = data.laws[p].gradient(displacement(p, x, data), multiplier(p, x));
     for (const auto &share : point.mean)
       Eigen::Map<typename Point::Vector>(&r.body[unknown<dim>(share.node, 0)]) +=
           point.weight * share.factor * point.directions * gradient.traction;
@@ -231,8 +237,8 @@ void SaddleSystem<dim>::factorise(const StepData &data, const SaddlePoint &x) {
   std::vector<double> &values = factorisation_->values();
   for (std::size_t p = 0; parallel::is_first() && p < points_.size(); ++p) {
     const std::vector<int> variables = local_variables(p);
-    const MatrixXd tangent = local_tangent(
-        points_[p], data.laws[p].hessian(displacement(p, x, data.before), multiplier(p, x)));
+    const MatrixXd tangent =
+        local_tangent(points_[p], data.laws[p].hessian(displacement(p, x, data), multiplier(p, x)));
     for (std::size_t a = 0; a < variables.size(); ++a)
       for (std::size_t b = 0; b <= a; ++b)
         if (variables[a] >= 0 && variables[b] >= 0)

@@ -20,9 +20,10 @@ struct SaddlePoint {
 };
 
 /// What the residual of a step depends on besides x: loads and history, the state of the last step,
+/// whose contact nodes moved on with the foundation, a state in which the contact nodes touch it,
 /// and the contact law at each multiplier's point.
 struct StepData {
-  std::span<const double> right_side, before;
+  std::span<const double> right_side, before, rest;
   const std::vector<contact::AugmentedLagrangian> &laws;
 };
 
@@ -45,8 +46,9 @@ class SaddleSystem {
                int threads);
 
   const std::vector<Point> &points() const { return points_; }
-  contact::Local displacement(std::size_t point, const SaddlePoint &x,
-                              std::span<const double> before) const;
+  contact::Local displacement(std::size_t point, const SaddlePoint &x, const StepData &data) const;
+  /// What it changes by along x.
+  contact::Local change(std::size_t point, const SaddlePoint &x) const;
   contact::Local multiplier(std::size_t point, const SaddlePoint &x) const;
   void set_multiplier(std::size_t point, const contact::Local &value, SaddlePoint &x) const;
 
@@ -97,6 +99,7 @@ class SaddleSystem {
   std::vector<double> scale_;            // by variable
   std::array<double, body::Fields<dim>::count> field_scale_;
   std::vector<double> stiffness_;  // by point
+  std::vector<double> zero_;       // no state at all
   std::size_t n_body_entries_ = 0;
   double substitution_seconds_ = 0;
   std::optional<condensation::SaddleFactorisation> factorisation_;

@@ -63,7 +63,7 @@ class Descent {
 
 Tangent Descent::friction_force(std::size_t i, double r) const {
   const ContactPoint &p = points_[i];
-  return p.weight * p.friction.traction(trial(i, r) / p.weight, r / p.weight);
+  return p.weight * p.law.traction(trial(i, r) / p.weight, r / p.weight);
 }
 
 double Descent::largest_residual() const {
@@ -113,14 +113,14 @@ bool Descent::proximal_step(double tolerance) {
 std::vector<bool> Descent::smooth_points() const {
   std::vector<bool> smooth;
   for (std::size_t i = 0; i < points_.size(); ++i)
-    smooth.push_back(points_[i].size > 0 && points_[i].friction.is_smooth_at(part(d_, i)));
+    smooth.push_back(points_[i].size > 0 && points_[i].law.is_smooth_at(part(d_, i)));
   return smooth;
 }
 
 double Descent::dissipation(const VectorXd &d) const {
   double sum = 0;
   for (std::size_t i = 0; i < points_.size(); ++i)
-    sum += points_[i].weight * points_[i].friction.dissipation(part(d, i));
+    sum += points_[i].weight * points_[i].law.potential(part(d, i));
   return sum;
 }
 
@@ -169,8 +169,8 @@ VectorXd Descent::newton_direction(const std::vector<bool> &is_smooth) {
       continue;
     const ContactPoint &p = points_[i];
     const Tangent d = part(d_, i);
-    hessian[i] = p.weight * p.friction.hessian(d);
-    descent.segment(p.offset, p.size) = part(force_, i) - p.weight * p.friction.gradient(d);
+    hessian[i] = p.weight * p.law.hessian(d);
+    descent.segment(p.offset, p.size) = part(force_, i) - p.weight * p.law.gradient(d);
   }
   const VectorXd direction = response_.direction(is_smooth, hessian, descent);
   // An inexact one may lead nowhere.
@@ -223,8 +223,8 @@ bool Descent::settle() {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const ContactPoint &p = points_[i];
     const double r = programme_.curvature[i];
-    if (p.size > 0 && p.friction.has_kink(p.size) &&
-        p.friction.status(trial(i, r) / p.weight, r / p.weight) == ContactStatus::stick)
+    if (p.size > 0 && p.law.has_kink(p.size) &&
+        p.law.status(trial(i, r) / p.weight, r / p.weight) == ContactStatus::stick)
       next.segment(p.offset, p.size).setZero();
   }
   if (next == d_)
@@ -242,7 +242,7 @@ InterfaceSolution Descent::solution(double allowed) const {
     const ContactPoint &p = points_[i];
     const double r = programme_.curvature[i];
     solution.force.segment(p.offset, p.size) = friction_force(i, r);
-    solution.status.push_back(p.friction.status(trial(i, r) / p.weight, r / p.weight));
+    solution.status.push_back(p.law.status(trial(i, r) / p.weight, r / p.weight));
     if (!(residual(i) <= allowed))
       solution.unsettled.push_back(i);
   }

@@ -11,10 +11,9 @@ double length_to_turn(const ContactPoint &point, const VectorXd &d, const Vector
                       Turns turns) {
   const Tangent slip = d.segment(point.offset, point.size);
   const double backwards = -slip.dot(direction.segment(point.offset, point.size));
-  const bool turns_here =
-      point.size > 0 && backwards > 0 &&
-      (point.friction.has_kink(point.size) ||
-       (turns == Turns::kinks_and_bends && point.friction.has_bend(point.size)));
+  const bool turns_here = point.size > 0 && backwards > 0 &&
+                          (point.law.has_kink(point.size) ||
+                           (turns == Turns::kinks_and_bends && point.law.has_bend(point.size)));
   return turns_here ? slip.squaredNorm() / backwards : std::numeric_limits<double>::infinity();
 }
 

@@ -13,6 +13,7 @@
 
 #include "case/nearest.h"
 #include "case/toml_text.h"
+#include "contact/laws.h"
 #include "report/table.h"
 #include "report/text_file.h"
 #include "tourmaline/case/case.h"
@@ -76,6 +77,25 @@ void add_flows(const casefile::Case &asked, List &list) {
   }
 }
 
+// What only some contacts have in history.csv, as solve/balance.h and run/recorder.h write it.
+void add_contact(const casefile::Case &asked, List &list) {
+  if (!asked.contact)
+    return;
+  const contact::ContactLaws laws(*asked.contact, asked.time.end / asked.time.steps);
+  const std::string moment = asked.dimension == 2 ? "N" : "N m";
+  if (laws.has_moving_foundation() || laws.has_normal_unknowns()) {
+    list.add(whole("W", asked.dimension), {"foundation_power"});
+    for (int c = asked.dimension == 2 ? 2 : 0; c < 3; ++c)
+      list.add(moment, {std::string("contact_moment_") + axes[c]});
+  }
+  if (laws.can_open()) {
+    list.add(whole("J", asked.dimension), {"contact_energy"});
+    list.add(whole("W", asked.dimension), {"contact_dissipation"});
+  }
+  if (laws.friction_depends_on_pressure())
+    list.add("", {"contact_stage"});
+}
+
 void add_extremes(int dimension, List &list) {
   for (const Output &field : fields())
     list.add(field.unit, {"min_" + field.name, "max_" + field.name});
@@ -101,6 +121,7 @@ std::vector<Output> outputs_of(const casefile::Case &asked) {
     for (const char *force : {"load_", "reaction_", "contact_force_"})
       list.add(whole("N", asked.dimension), {std::string(force) + axes[c]});
   add_flows(asked, list);
+  add_contact(asked, list);
   list.add(power, {"stored_heat_rate", "heat_source"});
   list.add("", {"energy_imbalance", "force_imbalance", "charge_imbalance", "heat_imbalance"});
   add_extremes(asked.dimension, list);

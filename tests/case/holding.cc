@@ -76,12 +76,41 @@ TEST(Holding, AClampedSideIsEnough) {
   EXPECT_EQ(error_in(example, {}), "no error");
 }
 
-TEST(Holding, BilateralContactHoldsTheNormalDirectionOnly) {
-  const std::string error = error_in(example, {"boundary[0].displacement=['free','free']"});
-  EXPECT_THAT(error, HasSubstr("case.toml [[boundary]]"));
+const std::string slippery = "contact.friction={law='none'}";
+const std::vector<std::string> normal_laws{"contact.normal=bilateral", "contact.normal=unilateral",
+                                           "contact.normal={law='compliance', coefficient=1e13}",
+                                           "contact.normal={law='damped', coefficient=1e9}"};
+
+TEST(Holding, ContactWithoutFrictionHoldsTheNormalDirectionOnly) {
+  for (const std::string &normal : normal_laws) {
+    const std::string error =
+        error_in(example, {normal, slippery, "boundary[0].displacement=['free','free']"});
+    EXPECT_THAT(error, HasSubstr("case.toml [[boundary]]"));
+    EXPECT_THAT(error, HasSubstr("against a translation along y;"));
+    EXPECT_THAT(error, HasSubstr("contact without friction holds only the normal"));
+    EXPECT_EQ(error_in(example, {normal, slippery, "boundary[0].displacement=['free',0]"}),
+              "no error");
+  }
+}
+
+TEST(Holding, FrictionMayHoldABodyThatIsFactorised) {
+  const std::string free = "boundary[0].displacement=['free','free']";
+  for (const std::string &normal : normal_laws)
+    EXPECT_EQ(error_in(example, {normal, free}), "no error");
+  EXPECT_EQ(error_in(example, {free, "solver.method=monolithic"}), "no error");
+  const std::string error = error_in(example, {free, "solver.body=iterative"});
   EXPECT_THAT(error, HasSubstr("against a translation along y;"));
-  EXPECT_THAT(error, HasSubstr("bilateral contact holds only the normal one"));
-  EXPECT_EQ(error_in(example, {"boundary[0].displacement=['free',0]"}), "no error");
+  EXPECT_THAT(error, HasSubstr("hold no body with solver.body = \"iterative\""));
+}
+
+// Whether they do is found out in the run.
+TEST(Holding, SaysWhatIsLeftToFrictionAndContactThatOpens) {
+  const auto left = [](const std::string &normal) {
+    return left_to_contact(
+        read_text(example, "case.toml", {normal, "boundary[0].displacement=['free',0]"}));
+  };
+  EXPECT_EQ(left("contact.normal=bilateral"), "");
+  EXPECT_EQ(left("contact.normal=unilateral"), "a translation along x and a rotation in the plane");
 }
 
 TEST(Holding, ABoxOnRollersSlidesAndTurnsOnThem) {

@@ -97,6 +97,19 @@ TEST(JsonSchema, EveryKindOfMeshHasItsOwnChoices) {
   EXPECT_EQ(rules, 4);  // boxes and annuli in two and three dimensions
 }
 
+TEST(JsonSchema, OnlyAChoiceThatNeedsNoOtherKeyCanStandForItsTable) {
+  const Json schema = Json::parse(json_schema());
+  const Json both = schema.at(Json::json_pointer("/properties/contact/properties/normal/anyOf"));
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_EQ(both[0].at("enum"), Json({"bilateral", "unilateral"}));
+  EXPECT_EQ(both[1].at("type"), "object");
+  EXPECT_EQ(both[1].at("properties").at("law").at("enum").size(), 4u);
+  const auto damped = demands(both[1], "law", "damped");
+  ASSERT_EQ(damped.size(), 1u);
+  EXPECT_EQ(damped[0].at("required"), Json({"coefficient"}));
+  EXPECT_EQ(damped[0].at("properties").at("exponent"), Json(false));
+}
+
 TEST(Use, IsSaidByTheSameWordsAsItIsDecided) {
   const Use use = with("law", "tresca", {"tresca", "coulomb"});
   EXPECT_TRUE(use.holds);

@@ -59,6 +59,10 @@ solver = {}
 output = {}
 """
 
+# A table that may also be given as a value comes in all its forms.
+TRESCA = 'law = "tresca", bound = 15'
+COULOMB = 'law = "coulomb", coefficient = '
+
 # A text that stands in the case, and what stands there instead.
 RIGHT = [
     (SQUARE, "", ""), (CUBE, "", ""), (TUBE, "", ""), (LAYERS, "", ""),
@@ -76,6 +80,16 @@ RIGHT = [
     (SQUARE, "time =", 'solver = { body = "direct", threads = 2 }\ntime ='),
     (SQUARE, "time =", "initial = { displacement = [0, 0], temperature = 1 }\nload = { force = [0, 1] }\ntime ="),
     (SQUARE, "time =", 'electrode = [{ name = "lead", on = "top", resistor = 1e9, voltage = "t" }]\ntime ='),
+    (SQUARE, 'on = "left",', 'on = "left", normal = "unilateral", gap = "1e-6*y", foundation_displacement = [0, "t"],'),
+    (SQUARE, 'on = "left",', 'on = "left", normal = { law = "unilateral" },'),
+    (SQUARE, 'on = "left",', 'on = "left", normal = {},'),
+    (SQUARE, 'on = "left",', 'on = "left", normal = { law = "compliance", coefficient = "1e13*(1 + y)", exponent = 1.5 },'),
+    (SQUARE, 'on = "left",', 'on = "left", normal = { law = "damped", coefficient = 1e9 },'),
+    (SQUARE, TRESCA, COULOMB + "0.3"),
+    (SQUARE, TRESCA, COULOMB + '"0.3*t", cohesion = 1, limit = "2 + y"'),
+    (SQUARE, TRESCA, COULOMB + "{ value = 0.3 }"),
+    (SQUARE, TRESCA, COULOMB + '{ static = "0.3 + y", kinetic = 0.2, speed = 1e-3 }'),
+    (SQUARE, TRESCA, COULOMB + "{ static = 0.3, kinetic = 0.2, distance = 1e-6 }"),
     (SQUARE, "time =", "output = { fields = false, every = 3, report = false }\nregion = []\ntime ="),
 ]
 WRONG = {
@@ -92,7 +106,25 @@ WRONG = {
     "number above its range": (SQUARE, "cells = [4, 4]", "cells = [4, 4] }\nmesh.degree = 3 #"),
     "integer that does not fit": (SQUARE, "steps = 2", "steps = 3000000000"),
     "wrong choice": (SQUARE, "tresca", "treska"),
-    "law of a later version": (SQUARE, "tresca", "coulomb"),
+    "law of a later version": (SQUARE, "bound = 15 }", 'bound = 15 }, heat = { law = "frictional_heating" }'),
+    "law alone that needs a constant": (SQUARE, 'on = "left",', 'on = "left", normal = "damped",'),
+    "law in its table without its constant": (SQUARE, 'on = "left",', 'on = "left", normal = { law = "compliance" },'),
+    "number for a law": (SQUARE, 'on = "left",', 'on = "left", normal = 1,'),
+    "constant of another normal law": (SQUARE, 'on = "left",', 'on = "left", normal = { coefficient = 1 },'),
+    "exponent below 1": (SQUARE, 'on = "left",', 'on = "left", normal = { law = "compliance", coefficient = 1, exponent = 0.5 },'),
+    "exponent of the damped response": (SQUARE, 'on = "left",', 'on = "left", normal = { law = "damped", coefficient = 1, exponent = 2 },'),
+    "three entries of a foundation in two dimensions": (SQUARE, 'on = "left",', 'on = "left", foundation_displacement = [0, 0, 0],'),
+    "Coulomb's law without coefficient": (SQUARE, TRESCA, 'law = "coulomb"'),
+    "coefficient of another friction law": (SQUARE, TRESCA, TRESCA + ", coefficient = 0.3"),
+    "bound of another friction law": (SQUARE, TRESCA, COULOMB + "0.3, bound = 15"),
+    "negative coefficient": (SQUARE, TRESCA, COULOMB + "-0.3"),
+    "coefficient of nothing": (SQUARE, TRESCA, COULOMB + "{}"),
+    "kinetic without static": (SQUARE, TRESCA, COULOMB + "{ kinetic = 0.2, speed = 1 }"),
+    "static without kinetic": (SQUARE, TRESCA, COULOMB + "{ static = 0.2, speed = 1 }"),
+    "neither speed nor distance": (SQUARE, TRESCA, COULOMB + "{ static = 0.4, kinetic = 0.2 }"),
+    "both speed and distance": (SQUARE, TRESCA, COULOMB + "{ static = 0.4, kinetic = 0.2, speed = 1, distance = 1 }"),
+    "value beside static": (SQUARE, TRESCA, COULOMB + "{ value = 0.3, static = 0.4 }"),
+    "two contacts": (SQUARE, 'contact = { on = "left", friction = { law = "tresca", bound = 15 } }', 'contact = [{ on = "left" }, { on = "bottom" }]'),
     "charge law of a later version": (SQUARE, 'on = "left",', 'on = "left", charge = {},'),
     "too short a list": (SQUARE, "min = [0, 0]", "min = [0]"),
     "three displacements in two dimensions": (SQUARE, "displacement = [0, 0]", "displacement = [0, 0, 0]"),
@@ -169,6 +201,10 @@ def random_value(rng, schema):
         return [random_value(rng, schema["items"]) for _ in range(length)]
     if kind == "integer":
         return rng.choice([1, 2, 3, 8, 1, 2, 3, 8, -1, 0, 2.0, 3000000000])
+    if kind == "object":
+        names = [name for name, inner in schema["properties"].items() if inner is not False]
+        given = rng.sample(names, rng.randint(0, len(names)))
+        return {name: random_value(rng, schema["properties"][name]) for name in given}
     if kind == "number":
         return random_number(rng, schema)
     return rng.choice(["0.5*t", "x", "left", "2", "steel"]) if kind == "string" else rng.choice([True, False, 0])

@@ -13,6 +13,13 @@ TEST(UnitOfKey, ItIsTheDeclaredOne) {
   EXPECT_EQ(unit_of_key("time.stepps", 2), "");
 }
 
+TEST(UnitOfKey, ATableThatIsGivenAsAValueHasTheUnitOfThatKey) {
+  EXPECT_EQ(unit_of_key("contact.friction.coefficient.distance", 2), "m");
+  EXPECT_EQ(unit_of_key("contact.friction.coefficient", 2), "");
+  EXPECT_EQ(unit_of_key("contact.normal", 2), "");
+  EXPECT_EQ(unit_of_key("contact.normal.coefficient", 2), "N/m^(2+m) or N s/m^3");
+}
+
 TEST(UnitOfKey, EntriesOfListsHaveTheUnitOfTheList) {
   EXPECT_EQ(unit_of_key("boundary[2].potential", 2), "V");
   EXPECT_EQ(unit_of_key("boundary.2.traction[1]", 2), "N/m^2");

@@ -34,6 +34,17 @@ TEST(ReferencePage, SaysUnitRangeAndDefault) {
   EXPECT_THAT(page, HasSubstr("| `end` | number | s | required |"));
 }
 
+TEST(ReferencePage, SaysWhichTablesMayBeGivenAsAValue) {
+  const std::string page = reference_page();
+  EXPECT_THAT(page, HasSubstr("| `normal` | text or table |  | `\"bilateral\"` | `law` of "
+                              "[contact.normal], or that table |"));
+  EXPECT_THAT(page, HasSubstr("| `coefficient` | formula or table |  | required | `value` of "
+                              "[contact.friction.coefficient], or that table; only with `law = "
+                              "\"coulomb\"` |"));
+  EXPECT_THAT(page, HasSubstr("# [contact.normal]\n"));
+  EXPECT_THAT(page, HasSubstr("# [contact.friction.coefficient]\n"));
+}
+
 // A region's are those of [material].
 TEST(ReferencePage, ListsTheKeysOfAMaterialOnce) {
   const std::string page = reference_page();

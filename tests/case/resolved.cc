@@ -60,7 +60,32 @@ INSTANTIATE_TEST_SUITE_P(
                     std::vector<std::string>{"boundary[1].displacement=['free','1e-6*x']",
                                              "boundary[2].traction=[1,0]"},
                     std::vector<std::string>{"load.force=[1,'t']", "initial.displacement=[0,'x']"},
-                    std::vector<std::string>{"mesh.degree=2", "mesh.box.cell=quadrilateral"}));
+                    std::vector<std::string>{"mesh.degree=2", "mesh.box.cell=quadrilateral"},
+                    std::vector<std::string>{"contact.normal=unilateral", "contact.gap='1e-6*y'"},
+                    std::vector<std::string>{"contact.normal={law='damped', coefficient='1+y'}",
+                                             "contact.foundation_displacement=[0,'t']"},
+                    std::vector<std::string>{"contact.friction={law='coulomb', coefficient='x+t'}"},
+                    std::vector<std::string>{
+                        "contact.friction={law='coulomb', limit=1, coefficient={static=0.5, "
+                        "kinetic=0.3, speed=1}}"}));
+
+TEST(Resolved, WritesATableAsAValueWhereThatSaysItAll) {
+  const auto text = [](const std::vector<std::string> &overrides) {
+    return resolved(read_text(example, "case.toml", overrides));
+  };
+  EXPECT_THAT(text({}), HasSubstr("\nnormal = \"bilateral\"\n"));
+  EXPECT_THAT(text({"contact.normal={law='unilateral'}"}),
+              HasSubstr("\nnormal = \"unilateral\"\n"));
+  EXPECT_THAT(
+      text({"contact.normal={law='compliance', coefficient=5}"}),
+      HasSubstr("\n[contact.normal]\nlaw = \"compliance\"\ncoefficient = 5\nexponent = 1\n"));
+  EXPECT_THAT(text({"contact.friction={law='coulomb', coefficient={value=0.3}}"}),
+              HasSubstr("\n[contact.friction]\nlaw = \"coulomb\"\ncoefficient = 0.3\n"));
+  EXPECT_THAT(text({"contact.friction={law='coulomb', coefficient={static=0.5, kinetic=0.3, "
+                    "distance=2}}"}),
+              HasSubstr("\n[contact.friction.coefficient]\nstatic = 0.5\nkinetic = 0.3\ndistance "
+                        "= 2\n"));
+}
 
 TEST(Resolved, KeepsEveryBitOfANumber) {
   Case c = read_text(example, "case.toml");

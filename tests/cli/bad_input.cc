@@ -13,6 +13,7 @@
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 using tourmaline::output::content_of;
 
 const std::string good_case = R"(title = "a square in contact"
@@ -159,8 +160,22 @@ const BadInput values[] = {
     override("material that is not stable", "material.c12=1e15", "material"),
     override("unknown boundary", "contact.on=lfet", "did you mean \"left\"?"),
     override("third axis in two dimensions", "boundary[0].on=front", "\"right\""),
-    override("law of the future", "contact.friction.law=coulomb", "not available in this version"),
-    override("contact of the future", "contact.normal=signorini", "not available in this version"),
+    override("heat law of the future", "contact.heat.law=frictional_heating",
+             "not available in this version"),
+    override("normal law by another name", "contact.normal=signorini",
+             "did you mean \"unilateral\"?"),
+    override("normal law without its constant", "contact.normal=damped",
+             "write normal = { law = \"damped\", coefficient = ... }"),
+    override("law without a coefficient", "contact.friction={law=\"coulomb\"}",
+             "coefficient: missing"),
+    override("negative coefficient", "contact.friction={law=\"coulomb\",coefficient=-0.1}",
+             "must be >= 0"),
+    override("limit below the cohesion",
+             "contact.friction={law=\"coulomb\",coefficient=0.1,cohesion=2,limit=1}",
+             "at least the cohesion"),
+    override("gap that is not finite", "contact.gap=inf", "is not a finite number"),
+    override("two contacts", "contact=[{on=\"left\"},{on=\"bottom\"}]",
+             "several contacts are not available in this version"),
     override("bound without friction", "contact.friction.law=none", "only used with"),
     override("misspelt method", "solver.method=monolitic", "did you mean \"monolithic\"?"),
     override("two potentials", "boundary[2]={on=\"right\",potential=1}", "has already a condition"),
@@ -170,8 +185,6 @@ const BadInput values[] = {
     override("contact on a loaded side", "contact.on=top", "traction on a contact boundary"),
     override("temperature where heat is exchanged", "boundary[1]={on=\"left\",temperature=0}",
              "heat.law"),
-    override("nothing holds the body", "boundary[0].displacement=[\"free\",\"free\"]",
-             "translation along y"),
     override("formula that does not parse", "boundary[1].traction=[0,\"2*(t\"]", "parenthesis"),
     override("formula with an unknown name", "boundary[1].traction=[0,\"2*time\"]", "\"time\""),
     override("constant formula that is infinite", "boundary[1].traction=[0,\"1/0\"]", "finite"),
@@ -185,6 +198,8 @@ const BadInput values[] = {
     {"no mesh", good_case_with("box =", "#"), run_it, 2, "no mesh"},
     {"mesh file", good_case_with("box =", "file = \"block.msh\" #"), run_it, 2,
      "there is no such file"},
+    {"nothing holds the body", good_case_with("friction = { law = \"tresca\", bound = 15 }\n", ""),
+     run_it + " --set 'boundary[0].displacement=[\"free\",\"free\"]'", 2, "translation along y"},
     {"no time", good_case_with("[time]\nend = 0.2\nsteps = 2\n", ""), run_it, 2, "time: missing"},
 };
 INSTANTIATE_TEST_SUITE_P(Values, CommandLine, testing::ValuesIn(values), in_camel_case);
@@ -252,6 +267,17 @@ TEST_F(Program, CheckSaysWhichCouplingsAMaterialHas) {
                         "not pyroelectric, without thermal expansion\n"));
   ASSERT_EQ(run("check case.toml --set material.d33=3e-11"), 2);
   EXPECT_THAT(complained_, HasSubstr("piezoelectric constants d31, d15 (d33 is given"));
+}
+
+TEST_F(Program, CheckWarnsOfFrictionThatFallsWithSlip) {
+  std::ofstream(here() / "case.toml") << good_case_with(
+      "law = \"tresca\", bound = 15",
+      "law = \"coulomb\", coefficient = { static = 0.4, kinetic = 0.2, distance = 1e-6 }");
+  ASSERT_EQ(run("check case.toml"), 0) << complained_;
+  EXPECT_THAT(said_, HasSubstr("# warning: "));
+  EXPECT_THAT(said_, HasSubstr("static = 0.4 is above kinetic = 0.2"));
+  ASSERT_EQ(run("check case.toml --set contact.friction.coefficient=0.4"), 0) << complained_;
+  EXPECT_THAT(said_, Not(HasSubstr("falls as the contact slips")));
 }
 
 TEST_F(Program, CheckWritesNoFiles) {

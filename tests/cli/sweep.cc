@@ -93,6 +93,22 @@ TEST_F(Sweep, ATablesRowHoldsWhatARunOfItsOwnSays) {
   EXPECT_THAT(content_of(here() / "study/sweep.svg"), testing::StartsWith("<?xml"));
 }
 
+TEST_F(Sweep, ATableThatIsGivenAsAValueIsVariedAsOne) {
+  ASSERT_EQ(run("sweep small.toml --set 'contact.friction={law=\"coulomb\", coefficient={static=1, "
+                "kinetic=1, speed=1}}' --vary contact.normal=bilateral,unilateral "
+                "--vary contact.friction.coefficient=0.1,0.3 -o study"),
+            0)
+      << complained_;
+  const auto table = table_in(here() / "study/sweep.csv");
+  ASSERT_EQ(table.size(), 5u);
+  EXPECT_EQ(table[4][0], "normal=unilateral_coefficient=0.3");
+  EXPECT_EQ(table[4][3], "done");
+  const std::string resolved =
+      content_of(here() / "study/normal=unilateral_coefficient=0.3/resolved.toml");
+  EXPECT_THAT(resolved, HasSubstr("\nnormal = \"unilateral\"\n"));
+  EXPECT_THAT(resolved, HasSubstr("\ncoefficient = 0.3\n"));
+}
+
 TEST_F(Sweep, TheFolderIsNamedAfterTheCase) {
   ASSERT_EQ(run("sweep small.toml --vary contact.friction.bound=15 --quiet"), 0);
   EXPECT_EQ(said_, "");

@@ -11,7 +11,10 @@ namespace tourmaline::contact {
 namespace {
 
 Friction law_at(const char *law, const std::string &bound, const Vector3 &point, double time) {
-  return friction_of({law, casefile::Formula(bound, "the bound")})({point, time, {}});
+  casefile::FrictionCase asked;
+  asked.law = law;
+  asked.bound = casefile::Formula(bound, "the bound");
+  return friction_of(asked)({point, time, {}});
 }
 
 double bound_at(const std::string &bound, const Vector3 &point, double time) {

@@ -11,36 +11,40 @@
 namespace tourmaline::output {
 namespace {
 
-constexpr ContactRow contact_row{.point = {0, 0.5, 0.25},
-                                 .normal_traction = -2,
-                                 .tangential_traction = {0, 15, 7},
-                                 .normal_displacement = -0.,
-                                 .slip = {0, 1e-11, -3e-11},
-                                 .slip_rate = 1e-9,
-                                 .status = ContactStatus::slip,
-                                 .temperature = -0.001,
-                                 .potential = 0.068,
-                                 .heat_flux = 27};
+const ContactRow contact_row{.point = {0, 0.5, 0.25},
+                             .normal_traction = -2,
+                             .tangential_traction = {0, 15, 7},
+                             .normal_displacement = -0.,
+                             .slip = {0, 1e-11, -3e-11},
+                             .slip_rate = 1e-9,
+                             .status = ContactStatus::slip,
+                             .temperature = -0.001,
+                             .potential = 0.068,
+                             .heat_flux = 27,
+                             .gap = 2e-9,
+                             .charge_flux = -3,
+                             .quantities = {{"friction_bound", 15}}};
 
 TEST(ContactTable, ItHasTheColumnsOfTheContract) {
-  EXPECT_EQ(contact_header(2),
+  EXPECT_EQ(contact_header(2, contact_row),
             "step,time,x,y,normal_traction,tangential_traction_x,tangential_traction_y,"
-            "normal_displacement,slip_x,slip_y,slip_rate,status,temperature,potential,heat_flux\n");
+            "normal_displacement,slip_x,slip_y,slip_rate,status,temperature,potential,heat_flux,"
+            "gap,charge_flux,friction_bound\n");
   EXPECT_EQ(
-      contact_header(3),
+      contact_header(3, contact_row),
       "step,time,x,y,z,normal_traction,tangential_traction_x,tangential_traction_y,"
       "tangential_traction_z,normal_displacement,slip_x,slip_y,slip_z,slip_rate,status,temperature,"
-      "potential,heat_flux\n");
+      "potential,heat_flux,gap,charge_flux,friction_bound\n");
 }
 
 TEST(ContactTable, ARowStandsUnderItsColumns) {
   EXPECT_EQ(contact_lines(2, 3, 0.5, std::span(&contact_row, 1)),
             "3,0.5,0,0.5,-2,0,15,0,0,9.9999999999999994e-12,1.0000000000000001e-09,slip,-0.001,"
-            "0.068000000000000005,27\n");
+            "0.068000000000000005,27,2.0000000000000001e-09,-3,15\n");
   EXPECT_EQ(
       contact_lines(3, 3, 0.5, std::span(&contact_row, 1)),
       "3,0.5,0,0.5,0.25,-2,0,15,7,0,0,9.9999999999999994e-12,-3e-11,1.0000000000000001e-09,slip,"
-      "-0.001,0.068000000000000005,27\n");
+      "-0.001,0.068000000000000005,27,2.0000000000000001e-09,-3,15\n");
 }
 
 TEST(ContactTable, EveryStatusHasItsWord) {

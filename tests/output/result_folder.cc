@@ -16,6 +16,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 using testing::ThrowsMessage;
 using Names = std::set<std::string>;
 
@@ -40,6 +41,7 @@ class Results : public testing::Test {
       results.put_fields(step, 0.1 * step, grid, points, cells);
       results.list_fields(step, 0.1 * step);
       results.put_contact(step, 0.1 * step, one_row);
+      results.put_contact_fields(step, 0.1 * step, {}, one_row);
       results.put_history(history_row(step));
     }
     results.put_nodes(grid.points, points);
@@ -60,7 +62,8 @@ TEST_F(Results, ARunLeavesTheFilesOfTheContract) {
     results.finish();
   }
   EXPECT_EQ(names_in(directory),
-            (Names{"resolved.toml", "result_0001.vtu", "result_0002.vtu", "result.pvd", "nodes.csv",
+            (Names{"resolved.toml", "result_0001.vtu", "result_0002.vtu", "result.pvd",
+                   "contact_0001.vtu", "contact_0002.vtu", "contact.pvd", "nodes.csv",
                    "contact.csv", "history.csv", "summary.json"}));
   EXPECT_EQ(content_of(directory / "resolved.toml"), "title = \"a\"\n");
 }
@@ -100,7 +103,8 @@ TEST_F(Results, AFailedSolveKeepsTheStepsThatWereComputed) {
 }
 
 TEST_F(Results, TheSameRunLeavesTheSameBytes) {
-  const Names names{"result_0001.vtu", "result.pvd", "nodes.csv", "contact.csv", "history.csv"};
+  const Names names{"result_0001.vtu", "result.pvd",       "nodes.csv",  "contact.csv",
+                    "history.csv",     "contact_0001.vtu", "contact.pvd"};
   for (const char *name : {"first", "second"}) {
     ResultFolder results(folder / name, 2);
     run_two_steps(results);
@@ -111,11 +115,14 @@ TEST_F(Results, TheSameRunLeavesTheSameBytes) {
 }
 
 TEST_F(Results, AnEarlierRunsFilesAreRemovedAndNoOthers) {
-  const Names ours{"result_0001.vtu", "result_12345.vtu", "result.pvd",           "nodes.csv",
-                   "contact.csv",     "history.csv",      "summary.json",         "resolved.toml",
-                   "report.html",     "history.csv.part", "result_0007.vtu.part", "checkpoint.bin"};
-  const Names others{"result_mine.vtu", "result_01.vtu",  "notes.csv", "old_nodes.csv",
-                     "thesis.tex.part", "result.pvd.bak", "Nodes.csv"};
+  const Names ours{
+      "result_0001.vtu", "result_12345.vtu", "result.pvd",           "nodes.csv",
+      "contact.csv",     "history.csv",      "summary.json",         "resolved.toml",
+      "report.html",     "history.csv.part", "result_0007.vtu.part", "checkpoint.bin",
+      "contact.pvd",     "contact_0001.vtu", "contact_12345.vtu",    "contact.pvd.part"};
+  const Names others{"result_mine.vtu",    "result_01.vtu",   "notes.csv", "old_nodes.csv",
+                     "thesis.tex.part",    "result.pvd.bak",  "Nodes.csv", "contact_1.vtu",
+                     "contact_0001_0.vtu", "contact_mine.vtu"};
   std::filesystem::create_directories(directory / "history.csv.d");
   for (const Names &names : {ours, others})
     for (const std::string &name : names)
@@ -136,6 +143,7 @@ TEST_F(Results, BehindACheckpointTheFilesAreThoseOfItsMoment) {
     results.put_checkpoint(checkpoint);
     for (const char *name : {"result_0003.vtu", "result_0004.vtu.part", "report.html"})
       std::ofstream(directory / name) << "later";
+    results.put_contact_fields(3, 0.3, {}, one_row);
     results.put_contact(3, 0.3, one_row);
     results.put_history(history_row(3));
     results.finish();  // as after an ordered end
@@ -143,7 +151,15 @@ TEST_F(Results, BehindACheckpointTheFilesAreThoseOfItsMoment) {
   ResultFolder results(directory, 2, {}, read_checkpoint(directory / "checkpoint.bin"));
   EXPECT_EQ(names_in(directory),
             (Names{"resolved.toml", "result_0001.vtu", "result_0002.vtu", "result.pvd",
-                   "contact.csv.part", "history.csv.part", "checkpoint.bin", "run.lock"}));
+                   "contact_0001.vtu", "contact_0002.vtu", "contact.pvd", "contact.csv.part",
+                   "history.csv.part", "checkpoint.bin", "run.lock"}));
+  for (const char *series : {"result.pvd", "contact.pvd"})
+    EXPECT_THAT(content_of(directory / series),
+                AllOf(HasSubstr("_0001.vtu"), HasSubstr("_0002.vtu"), Not(HasSubstr("_0003"))))
+        << series;
+  results.put_contact_fields(3, 0.3, {}, one_row);
+  EXPECT_THAT(content_of(directory / "contact.pvd"),
+              AllOf(HasSubstr("contact_0002.vtu"), HasSubstr("contact_0003.vtu")));
   results.put_history(history_row(3));
   results.finish();
   EXPECT_EQ(content_of(directory / "history.csv"),
@@ -151,6 +167,47 @@ TEST_F(Results, BehindACheckpointTheFilesAreThoseOfItsMoment) {
             "1,0.10000000000000001,1,0,1,0,0,2\n"
             "2,0.20000000000000001,1,0,1,0,0,2\n"
             "3,0.30000000000000004,1,0,1,0,0,2\n");
+}
+
+TEST_F(Results, BehindACheckpointBeforeTheFirstFilesOfTheContactThereIsNoSeriesOfThem) {
+  {
+    ResultFolder results(directory, 2);
+    results.put_history(history_row(1));
+    results.put_checkpoint({});
+    results.put_contact_fields(2, 0.2, {}, one_row);
+  }
+  const ResultFolder results(directory, 2, {}, read_checkpoint(directory / "checkpoint.bin"));
+  EXPECT_EQ(names_in(directory), (Names{"history.csv.part", "checkpoint.bin", "run.lock"}));
+}
+
+TEST_F(Results, AFileOfTheContactOnWhichACheckpointCountsIsMissed) {
+  {
+    ResultFolder results(directory, 2);
+    run_two_steps(results);
+    Checkpoint checkpoint;
+    checkpoint.step = 2;
+    results.put_checkpoint(checkpoint);
+    results.finish();
+  }
+  const FolderPosition position = read_checkpoint(directory / "checkpoint.bin").position;
+  std::ofstream(directory / "contact_0002.vtu", std::ios::app) << "x";
+  EXPECT_THROW(require_position(directory, position), MachineError);
+  std::filesystem::remove(directory / "contact_0002.vtu");
+  EXPECT_THAT([&] { require_position(directory, position); },
+              ThrowsMessage<MachineError>(HasSubstr("contact_0002.vtu")));
+}
+
+TEST_F(Results, TheSummaryHasTheBytesOfBothSeriesApart) {
+  {
+    ResultFolder results(directory, 2);
+    run_two_steps(results);
+    results.finish();
+  }
+  const auto sizes = file_sizes(directory);
+  for (const std::string series : {"result", "contact"})
+    EXPECT_EQ(sizes.at(series + "_*"),
+              std::filesystem::file_size(directory / (series + "_0001.vtu")) +
+                  std::filesystem::file_size(directory / (series + "_0002.vtu")));
 }
 
 TEST_F(Results, ATableThatIsNotWhatWasWrittenUpToTheCheckpointIsRefused) {

@@ -233,6 +233,21 @@ TEST_F(Complete, FieldFilesOfEveryRankAreLookedFor) {
   EXPECT_THAT(warning(), HasSubstr("result_0001_1.vtu and result_0001.pvtu of the complete run"));
 }
 
+TEST_F(Complete, FieldFilesOfTheContactAreLookedForBehindItsSteps) {
+  asked_.time.steps = 2;
+  put("resolved.toml", casefile::resolved(asked_));
+  summarise({{"contact_*", 2}});
+  put("contact_0001.vtu", "1");
+  put("contact_0002.vtu", "1");
+  put("contact.pvd", "");
+  EXPECT_EQ(warning(), "");
+  put("contact_0002.vtu", "");
+  EXPECT_THAT(warning(), HasSubstr("the field files contact_* of the complete run in"));
+  std::filesystem::remove(folder_ / "contact_0002.vtu");
+  std::filesystem::remove(folder_ / "contact.pvd");
+  EXPECT_THAT(warning(), HasSubstr("contact_0002.vtu and contact.pvd of the complete run in"));
+}
+
 TEST_F(Complete, OneThatWroteNoFieldsMissesNone) {
   summarise({});
   EXPECT_EQ(warning(), "");

@@ -41,7 +41,7 @@ TEST(InterfaceNewton, FindsItWhereConditionsMoveSomePointsAlongTheFoundation) {
       ASSERT_TRUE(s.converged) << "programme " << k << ", residual " << s.residual;
       ASSERT_LT(violation(p, s.increment), 1e-9) << "programme " << k;
       for (std::size_t i = 0; i < p.points.size(); ++i)
-        if (!p.points[i].friction.held().isZero(0)) {
+        if (!p.points[i].law.held().isZero(0)) {
           EXPECT_EQ(s.status[i], ContactStatus::slip);
         }
       most = std::max(most, s.iterations);
@@ -54,7 +54,7 @@ TEST(InterfaceNewton, APointThatIsMovedAcrossGivesTheHandCalculation) {
   // Slip (3, 4) m at the bound 2 N: 4 N/m * 3 m + 2 N * 3 / 5.
   Problem p{MatrixXd::Constant(1, 1, 4),
             VectorXd::Constant(1, 13.2),
-            {{0, 1, 0.5, {contact::Tresca{4}, contact::Tangent::Constant(1, 4)}}},
+            {{0, 1, 0.5, contact::PointLaw(contact::Tresca{4}, contact::Tangent::Constant(1, 4))}},
             {2}};
   const InterfaceSolution s = p.solve(VectorXd::Zero(1));
   EXPECT_NEAR(s.increment[0], 3, 1e-14);

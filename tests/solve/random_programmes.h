@@ -51,7 +51,7 @@ inline double violation(const Problem &p, const VectorXd &d) {
     const VectorXd di = d.segment(p.points[i].offset, p.points[i].size);
     const VectorXd fi = force.segment(p.points[i].offset, p.points[i].size);
     if (di.size() > 0)
-      worst = std::max(worst, lack(di, p.points[i].friction.held(), fi, p.bounds[i],
+      worst = std::max(worst, lack(di, p.points[i].law.held(), fi, p.bounds[i],
                                    p.stiffness(p.points[i].offset, p.points[i].offset)));
   }
   return size > 0 ? worst / size : worst;
@@ -73,7 +73,8 @@ class RandomProblems {
       p.bounds.push_back(bound());
       p.points.push_back({n, size, weight, contact::Tresca{p.bounds.back() / weight}});
       if (held_ > 0 && size == 1 && uniform(0, 1) < held_)
-        p.points.back().friction = {contact::Tresca{p.bounds.back() / weight}, known_slip()};
+        p.points.back().law =
+            contact::PointLaw{contact::Tresca{p.bounds.back() / weight}, known_slip()};
       n += size;
     }
     p.stiffness = spd(n);

@@ -131,7 +131,8 @@ export class Chart {
   }
 }
 
-function padded(least: number, greatest: number, factor: number): [number, number] {
+/** A range with room around it, times `factor`; 0 stays an end. */
+export function padded(least: number, greatest: number, factor: number): [number, number] {
   if (least === 0 && greatest === 0) return [0, 1];
   if (least === greatest) return [(least - (Math.abs(least) || 1)) * factor, (greatest + (Math.abs(greatest) || 1)) * factor];
   const room = (greatest - least) * 0.06;

@@ -1,7 +1,8 @@
-// Along the contact boundary of a plane body, each connected piece apart: tractions with the bound, slip,
+// Along the contact boundary of a plane body, each connected piece apart: opening and tractions with the bound, slip,
 // temperature, and a map of stick and slip over place and time.
 import { allZero, Chart, Curve } from './chart';
-import { ContactLine, contactLines, contactNodes } from './contact_line';
+import { ContactLine, contactLines, contactNodes, stepAt, stepEnds } from './contact_line';
+import { ContactNode, hasDiagrams } from './contact_node';
 import { lineColours } from './colours';
 import { contactRoundOff } from './contact_round_off';
 import { element } from './dom';
@@ -25,10 +26,14 @@ export class Contact {
 
   constructor(private readonly result: Result, private readonly timeline: Timeline, private readonly sync: string) {
     this.nodes = contactNodes(result);
-    const time = result.contact!.column('time')!;
-    this.ends = Array.from({ length: time.length / this.nodes }, (_, k) => time[k * this.nodes]);
+    this.ends = stepEnds(result);
     const lines = contactLines(result);
     lines.forEach((line, i) => this.groups.push(this.piece(line, i, lines.length > 1)));
+    if (lines.length > 0 && hasDiagrams(result)) {
+      const node = new ContactNode(result, timeline, lines);
+      this.groups.push(node.box);
+      this.updates.push(() => node.update());
+    }
   }
 
   update() { for (const update of this.updates) update(); }
@@ -37,10 +42,14 @@ export class Contact {
     const charts: HTMLElement[] = [];
     const add = (title: string, unit: string, series: Series[], noise = false, note = '') =>
       charts.push(this.chart(line, `${number} ${this.sync}`, title, unit, series, noise, note));
-    const { normal, tangential, slip } = contactRoundOff(this.result);
+    const { normal, tangential, slip, gap } = contactRoundOff(this.result);
     const theta = !!this.result.field('temperature')?.belowRoundOff;
-    add('Normal traction on the body', 'N/m²', [
-      { label: 'σν·ν', values: this.of('normal_traction'), colour: lineColours[0] }], normal);
+    const traction = this.of('normal_traction');
+    if (this.result.contactOpens) {
+      add('Opening', 'm', [{ label: 'opening', values: this.of('gap'), colour: lineColours[0] }], gap, 'negative: pressed in');
+      add('Contact pressure', 'N/m²', [{ label: 'p = −σν·ν', values: (row) => -traction(row), colour: lineColours[0] }], normal);
+    } else
+      add('Normal traction on the body', 'N/m²', [{ label: 'σν·ν', values: traction, colour: lineColours[0] }], normal);
     add(this.result.frictionBound ? 'Tangential traction and the bound ±S' : 'Tangential traction on the body', 'N/m²', [
       { label: 'tangential', values: this.tangential('tangential_traction_', line), colour: lineColours[1] },
       ...this.bounds(),
@@ -69,23 +78,13 @@ export class Contact {
       for (let k = 0; k < this.ends.length; ++k)
         for (const v of at(k, s)) { if (v < least) least = v; if (v > greatest) greatest = v; }
     const curves = (): Curve[] => {
-      const k = this.shownStep();
+      const k = stepAt(this.ends, this.timeline.time);
       return series.map((s) => ({ ...s, points: line.order.length < 3 && !s.dashed,
         values: k < 0 ? line.order.map(() => null) : at(k, s) }));
     };
     const chart = new Chart({ title, note, xLabel: line.label, unit, sync: 'place' + sync, least, greatest }, line.along, curves());
     this.updates.push(() => chart.update(curves()));
     return chart.box;
-  }
-
-  /** The step of the shown moment; -1 for the initial state, which has no rows. */
-  private shownStep(): number {
-    const { time } = this.timeline;
-    if (time < this.ends[0] / 2) return -1;
-    let best = 0;
-    for (let k = 1; k < this.ends.length; ++k)
-      if (Math.abs(this.ends[k] - time) < Math.abs(this.ends[best] - time)) best = k;
-    return best;
   }
 
   private of(name: string) {

@@ -1,14 +1,15 @@
-// The contact boundary of a solid body, seen from the side that it faces: state, tractions, slip and
-// temperature of its nodes at the moment that is shown.
+// The contact boundary of a solid body, seen from the side that it faces: state, opening, tractions, slip and
+// temperature of its nodes at the moment that is shown. A click chooses the node of the diagrams.
 import { colourRange, mapBytes, Range } from './colours';
 import { ColourBar } from './colour_bar';
-import { contactNodes } from './contact_line';
+import { contactNodes, stepAt, stepEnds } from './contact_line';
+import { ContactNode, hasDiagrams } from './contact_node';
 import { contactRoundOff } from './contact_round_off';
 import { element } from './dom';
 import { shown } from './numbers';
 import { Result } from './results';
 import { fitted } from './stage';
-import { statusColours, statusNames } from './status_map';
+import { statusColours, statusNames, statusTitle } from './status_map';
 import { colour, onTheme } from './theme';
 import { Timeline } from './timeline';
 
@@ -33,19 +34,29 @@ export class ContactFace {
   private readonly nodes: number;
   private readonly plan: Plan;
   private readonly ends: number[];
+  private readonly node?: ContactNode;
 
   constructor(private readonly result: Result, private readonly timeline: Timeline) {
     this.nodes = contactNodes(result);
     this.plan = planOf(result, this.nodes);
-    const time = result.contact!.column('time')!;
-    this.ends = Array.from({ length: time.length / this.nodes }, (_, k) => time[k * this.nodes]);
+    this.ends = stepEnds(result);
+    if (hasDiagrams(result)) this.node = new ContactNode(result, timeline);
     this.addStatus();
-    const { normal, tangential, slip } = contactRoundOff(result);
-    this.add('Normal traction on the body', 'N/m²', this.column('normal_traction'), normal);
+    const { normal, tangential, slip, gap } = contactRoundOff(result);
+    if (result.contactOpens) {
+      this.add('Opening', 'm', this.column('gap'), gap);
+      this.add('Contact pressure', 'N/m²', this.column('normal_traction').map((v) => -v), normal);
+    } else
+      this.add('Normal traction on the body', 'N/m²', this.column('normal_traction'), normal);
     this.add('Tangential traction, size', 'N/m²', this.size('tangential_traction_'), tangential);
     this.add('Slip, size', 'm', this.size('slip_'), slip);
     this.add('Temperature', 'K', this.column('temperature'), !!result.field('temperature')?.belowRoundOff);
     this.groups = [element('div', { class: 'charts' }, ...this.charts)];
+    if (this.node) {
+      this.groups.push(this.node.box);
+      this.updates.push(() => this.node!.update());
+      this.node.onChange(() => this.update());
+    }
     onTheme(() => this.update());
   }
 
@@ -60,11 +71,8 @@ export class ContactFace {
 
   // The first row of the moment, or -1 for the initial state, which has none.
   private first(): number {
-    if (this.timeline.time < this.ends[0] / 2) return -1;
-    let best = 0;
-    for (let k = 1; k < this.ends.length; ++k)
-      if (Math.abs(this.ends[k] - this.timeline.time) < Math.abs(this.ends[best] - this.timeline.time)) best = k;
-    return best * this.nodes;
+    const step = stepAt(this.ends, this.timeline.time);
+    return step < 0 ? -1 : step * this.nodes;
   }
 
   private frame(title: string, below: HTMLElement, fill: (row: number) => string) {
@@ -74,17 +82,36 @@ export class ContactFace {
       element('p', { class: 'note' }, `${this.plan.labels[0]} to the right, ${this.plan.labels[1]} up`), below));
     const paint = () => this.paint(canvas, fill);
     this.updates.push(paint);
+    if (this.node) canvas.addEventListener('click', (event) => this.choose(canvas, event));
     new ResizeObserver(paint).observe(canvas);
+  }
+
+  /** How the plan lies in a picture of this size. */
+  private placed(size: { width: number; height: number }) {
+    const { width, height, spacing } = this.plan;
+    const scale = Math.min(size.width / (width + spacing), size.height / (height + spacing));
+    return { scale, left: (size.width - width * scale) / 2, foot: (size.height + height * scale) / 2 };
+  }
+
+  /** Takes the node nearest to a click for the diagrams. */
+  private choose(canvas: HTMLCanvasElement, event: MouseEvent) {
+    const box = canvas.getBoundingClientRect();
+    const { scale, left, foot } = this.placed(box);
+    const { x, y } = this.plan;
+    const away = (i: number) =>
+      Math.hypot(left + x[i] * scale - (event.clientX - box.left), foot - y[i] * scale - (event.clientY - box.top));
+    let best = 0;
+    for (let i = 1; i < this.nodes; ++i) if (away(i) < away(best)) best = i;
+    this.node!.choose(best);
   }
 
   private paint(canvas: HTMLCanvasElement, fill: (row: number) => string) {
     const size = fitted(canvas);
     if (!size) return;
-    const { x, y, width, height, spacing } = this.plan;
+    const { x, y, spacing } = this.plan;
     const context = canvas.getContext('2d')!;
-    const scale = Math.min(size.width / (width + spacing), size.height / (height + spacing));
+    const { scale, left, foot } = this.placed(size);
     const dot = Math.max(2, spacing * scale);
-    const left = (size.width - width * scale) / 2, foot = (size.height + height * scale) / 2;
     const first = this.first();
     context.clearRect(0, 0, size.width, size.height);
     for (let i = 0; i < this.nodes; ++i) {
@@ -92,12 +119,17 @@ export class ContactFace {
       context.fillRect(Math.floor(left + x[i] * scale - dot / 2), Math.floor(foot - y[i] * scale - dot / 2),
         Math.ceil(dot) + 1, Math.ceil(dot) + 1);
     }
+    if (!this.node) return;
+    const { row } = this.node;
+    context.strokeStyle = colour('--ink');
+    context.lineWidth = 2 * size.ratio;
+    context.strokeRect(left + x[row] * scale - dot / 2, foot - y[row] * scale - dot / 2, dot, dot);
   }
 
   private addStatus() {
     const status = this.column('status');
     const there = new Set(status);
-    this.frame('Stick and slip', element('ul', { class: 'legend inline' }, ...statusNames.map((name, i) =>
+    this.frame(statusTitle(there), element('ul', { class: 'legend inline' }, ...statusNames.map((name, i) =>
       there.has(i) && element('li', {}, element('span', { class: 'swatch', style: `background:${statusColours[i]}` }), name))),
     (row) => statusColours[status[row]] ?? '#888');
   }

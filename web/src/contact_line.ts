@@ -24,6 +24,20 @@ export function contactNodes(result: Result): number {
   return end < 0 ? step.length : end;
 }
 
+/** The end of each step [s]. */
+export function stepEnds(result: Result): number[] {
+  const nodes = contactNodes(result), time = result.contact!.column('time')!;
+  return Array.from({ length: time.length / nodes }, (_, k) => time[k * nodes]);
+}
+
+/** The step whose end is nearest; -1 for the initial state, which has no rows. */
+export function stepAt(ends: number[], time: number): number {
+  if (time < ends[0] / 2) return -1;
+  let best = 0;
+  for (let k = 1; k < ends.length; ++k) if (Math.abs(ends[k] - time) < Math.abs(ends[best] - time)) best = k;
+  return best;
+}
+
 export function contactLines(result: Result): ContactLine[] {
   const x = result.contact!.column('x')!, y = result.contact!.column('y')!;
   return result.contactPieces.map((piece) => {

@@ -4,7 +4,7 @@ import { Result } from './results';
 /** Sizes below this share of what they are computed from are what is left of the linear solve. */
 const roundOff = 1e-11;
 
-export interface ContactRoundOff { normal: boolean; tangential: boolean; slip: boolean }
+export interface ContactRoundOff { normal: boolean; tangential: boolean; slip: boolean; gap: boolean }
 
 /** The greatest size in columns of contact.csv whose names begin so. */
 function greatest(result: Result, begin: string): number {
@@ -22,12 +22,17 @@ function greatestStress(result: Result): number {
   }));
 }
 
-/** Over all moments; tractions beside each other and the stresses in the body, slips beside its displacements. */
+/** Slips and openings up to this size [m] are round-off. */
+export function negligibleMove(result: Result): number {
+  const displacement = result.history?.column('max_displacement') ?? new Float32Array();
+  return roundOff * displacement.reduce((most, v) => Math.max(most, v), 0);
+}
+
+/** Over all moments; tractions beside each other and the stresses in the body, slips and openings beside its displacements. */
 export function contactRoundOff(result: Result): ContactRoundOff {
   const normal = greatest(result, 'normal_traction'), tangential = greatest(result, 'tangential_traction_');
-  const slip = greatest(result, 'slip_');
+  const slip = greatest(result, 'slip_'), gap = greatest(result, 'gap');
   const force = roundOff * Math.max(normal, tangential, greatestStress(result));
-  const displacement = result.history?.column('max_displacement') ?? new Float32Array();
-  const move = roundOff * displacement.reduce((most, v) => Math.max(most, v), 0);
-  return { normal: normal <= force, tangential: tangential <= force, slip: slip <= move };
+  const move = negligibleMove(result);
+  return { normal: normal <= force, tangential: tangential <= force, slip: slip <= move, gap: gap <= move };
 }

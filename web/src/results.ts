@@ -164,6 +164,7 @@ export class Result {
   readonly poling?: Float32Array;
   readonly history?: Table;
   readonly contact?: Table;
+  /** S at each row of `contact` [N/m²] */
   readonly frictionBound?: Float32Array;
 
   /** `ambiguous`: another result on the page has the same title. */
@@ -184,7 +185,14 @@ export class Result {
     if (packed.history) this.history = new Table(packed.history);
     if (packed.contact) this.contact = new Table(packed.contact);
     if (packed.frictionBound) this.frictionBound = unpack(packed.frictionBound);
+    else {
+      const bound = this.contact?.column('friction_bound');
+      if (bound?.some((v) => v !== 0)) this.frictionBound = bound;
+    }
   }
+
+  /** Whether the contact can open, as the balance of energy has it. */
+  get contactOpens(): boolean { return !!this.history?.names.includes('contact_energy'); }
 
   get name(): string { return this.packed.name; }
   /** Of two results with one title the folders' names tell which is which. */

@@ -1,4 +1,4 @@
-// Which contact node sticks or slips, over place and time.
+// Which contact node is open, sticks or slips, over place and time.
 import uPlot from 'uplot';
 import { ContactLine } from './contact_line';
 import { element } from './dom';
@@ -9,7 +9,12 @@ import { Timeline } from './timeline';
 
 // In the order of output::ContactStatus.
 export const statusNames = ['open', 'stick', 'slip'];
-export const statusColours = ['#c28400', '#3f7fb5', '#e07b39'];
+// Where nothing touches, a grey that neither theme has for paper or body; of any colour vision it is lighter or duller
+// than the others.
+export const statusColours = ['#aeb6c0', '#3f7fb5', '#e07b39'];
+
+/** What a map of these states is called. */
+export const statusTitle = (there: Set<number>) => (there.has(0) ? 'Open, stick and slip' : 'Stick and slip');
 
 export class StatusMap {
   readonly box: HTMLElement;
@@ -24,7 +29,7 @@ export class StatusMap {
     const there = new Set(this.status);
     const key = element('ul', { class: 'legend inline' }, ...statusNames.map((name, i) => there.has(i) &&
       element('li', {}, element('span', { class: 'swatch', style: `background:${statusColours[i]}` }), name)));
-    this.box = element('figure', { class: 'chart' }, element('figcaption', {}, 'Stick and slip'), this.place, key);
+    this.box = element('figure', { class: 'chart' }, element('figcaption', {}, statusTitle(there)), this.place, key);
     new ResizeObserver(() => {
       const width = this.place.clientWidth;
       if (!this.plot) this.build();

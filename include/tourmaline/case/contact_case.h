@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,9 +9,28 @@
 
 namespace tourmaline::casefile {
 
+/// The response of the foundation along the normal, p = -sigma_nu >= 0 where it is not bilateral.
+struct NormalCase {
+  std::string law = "bilateral";  ///< bilateral | unilateral | compliance | damped
+  Formula coefficient = 0;        ///< c: [N/m^(2+m)] of compliance, [N s/m^3] of damped
+  double exponent = 1;            ///< m >= 1 of compliance
+};
+
+/// mu of Coulomb's law: `value` alone, or from `at_rest` to `kinetic` over `speed` or `distance`.
+struct FrictionCoefficientCase {
+  std::optional<Formula> value;
+  std::optional<Formula> at_rest, kinetic;
+  std::optional<double> speed;     ///< [m/s]
+  std::optional<double> distance;  ///< [m]
+};
+
 struct FrictionCase {
-  std::string law = "none";  ///< none | tresca
-  Formula bound = 0;         ///< S [N/m^2]
+  std::string law = "none";  ///< none | tresca | coulomb
+  Formula bound = 0;         ///< S of Tresca's law [N/m^2]
+  FrictionCoefficientCase
+      coefficient;               ///< of Coulomb's, whose bound is min(cohesion + mu p, limit)
+  Formula cohesion = 0;          ///< [N/m^2]
+  std::optional<Formula> limit;  ///< [N/m^2]; not given: none
 };
 
 struct HeatExchangeCase {
@@ -23,9 +43,17 @@ struct ContactCase {
   std::vector<std::string> on;
   std::string where;
   std::map<std::string, std::string> places;  ///< of its keys: file, line and key
-  std::string normal = "bilateral";
+  Formula gap =
+      0;  ///< g [m], by which body and foundation are apart along the normal; no dependence on t
+  FormulaVector
+      foundation_displacement;  ///< [m], one entry for each axis; empty: the foundation rests
+  NormalCase normal;
   FrictionCase friction;
   HeatExchangeCase heat;
+
+  /// Whether what a law answers depends on pressure or penetration: the iterative solution of the
+  /// body's equations does not know such laws.
+  bool depends_on_state() const { return normal.law != "bilateral" || friction.law == "coulomb"; }
 };
 
 }  // namespace tourmaline::casefile

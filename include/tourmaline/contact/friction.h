@@ -37,7 +37,8 @@ ContactPlace contact_place(const Vector3 &point, double time, const Directions &
 
 using FrictionAt = std::function<Friction(const ContactPlace &)>;
 
-/// The law of a case; it throws CaseError where the bound is negative.
+/// The law of a case, without what of it depends on the pressure (`ContactLaws`); it throws
+/// CaseError where the bound is negative.
 FrictionAt friction_of(const casefile::FrictionCase &asked);
 
 }  // namespace tourmaline::contact

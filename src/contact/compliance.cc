@@ -1,0 +1,53 @@
+#include "contact/compliance.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tourmaline::contact {
+
+// The root of c delta^m + r delta = y > 0. The left side is convex and grows, so Newton's method
+// from above comes down to it.
+double Compliance::penetration(double trial, double r) const {
+  if (exponent_ == 1)
+    return trial / (coefficient_ + r);
+  double delta = std::min(trial / r, std::pow(trial / coefficient_, 1 / exponent_));
+  constexpr int more_than_needed = 100;
+  for (int k = 0; k < more_than_needed; ++k) {
+    const double next =
+        delta - (pressure_at(delta) + r * delta - trial) / (stiffness_at(delta) + r);
+    if (!(next < delta))
+      break;
+    delta = next;
+  }
+  return delta;
+}
+
+double Compliance::pressure(double trial, double r) const {
+  if (trial <= 0)
+    return 0;
+  const double delta = penetration(trial, r);
+  // The smaller of the two terms has the more digits.
+  const double borne = pressure_at(delta);
+  return borne < trial / 2 ? borne : trial - r * delta;
+}
+
+double Compliance::pressure_derivative(double trial, double r) const {
+  if (trial <= 0)
+    return 0;
+  const double stiffness = stiffness_at(penetration(trial, r));
+  return stiffness / (stiffness + r);
+}
+
+double Compliance::pressure_at(double delta) const {
+  return delta > 0 ? coefficient_ * std::pow(delta, exponent_) : 0;
+}
+
+double Compliance::stiffness_at(double delta) const {
+  return delta > 0 ? coefficient_ * exponent_ * std::pow(delta, exponent_ - 1) : 0;
+}
+
+double Compliance::potential(double delta) const {
+  return delta > 0 ? coefficient_ * std::pow(delta, exponent_ + 1) / (exponent_ + 1) : 0;
+}
+
+}  // namespace tourmaline::contact

@@ -1,0 +1,197 @@
+#include "solve/contact_nodes.h"
+
+#include <cmath>
+
+namespace tourmaline::solve {
+
+using contact::Tangent;
+using Eigen::Index;
+using Eigen::VectorXd;
+
+template <int dim>
+ContactNodes<dim>::ContactNodes(const Model<dim> &model, const std::vector<bool> &is_prescribed)
+    : model_(model), is_prescribed_(is_prescribed), nodes_(model.interface.size()) {
+  const std::vector<double> zero(model.n_unknowns(), 0.);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    nodes_[i].admissible = contact::bilateral<dim>(model.interface[i], is_prescribed, zero);
+    if (model.laws->has_normal_unknowns())
+      add_normal(i, entries);
+    add_slip(i, entries);
+  }
+  directions_.resize(dim * static_cast<Index>(nodes_.size()), n_);
+  directions_.setFromTriplets(entries.begin(), entries.end());
+  slipped_ = VectorXd::Zero(static_cast<Index>(nodes_.size()));
+}
+
+// A bilateral point that is held by supports along its normal has its pressure from them, though
+// nothing moves there. Of other laws the pressure is then known.
+template <int dim>
+void ContactNodes<dim>::add_normal(std::size_t i, std::vector<Eigen::Triplet<double>> &entries) {
+  const contact::InterfaceNode<dim> &at = model_.interface[i];
+  const bool is_known = nodes_[i].admissible.free_normal.isZero(0);
+  contact::require_plain_normal(at, nodes_[i].admissible);
+  if (is_known && model_.laws->can_open())
+    return;
+  nodes_[i].normal = points_.size();
+  node_of_.push_back(i);
+  points_.push_back({n_, 1, at.weight, {}});
+  for (int c = 0; c < dim; ++c)
+    entries.emplace_back(dim * static_cast<Index>(i) + c, n_, at.normal[c]);
+  ++n_;
+}
+
+template <int dim>
+void ContactNodes<dim>::add_slip(std::size_t i, std::vector<Eigen::Triplet<double>> &entries) {
+  const auto &directions = nodes_[i].admissible.directions;
+  nodes_[i].slip = points_.size();
+  node_of_.push_back(i);
+  points_.push_back({n_, directions.cols(), model_.interface[i].weight, {}});
+  for (Index k = 0; k < directions.cols(); ++k)
+    for (int c = 0; c < dim; ++c)
+      entries.emplace_back(dim * static_cast<Index>(i) + c, n_ + k, directions(c, k));
+  n_ += directions.cols();
+  if (!model_.laws->friction_depends_on_pressure())
+    return;
+  nodes_[i].coupling = couplings_.size();
+  FrictionCoupling &coupling = couplings_.emplace_back();
+  coupling.slip = nodes_[i].slip;
+  if (nodes_[i].normal != none)
+    coupling.normal = nodes_[i].normal;
+}
+
+template <int dim>
+typename ContactNodes<dim>::Vector ContactNodes<dim>::displacement(std::span<const double> state,
+                                                                   std::size_t i) const {
+  return Vector::Map(&state[body::unknown<dim>(model_.interface[i].node, 0)]);
+}
+
+template <int dim>
+void ContactNodes<dim>::begin_step(double time, std::span<const double> before,
+                                   std::span<const double> state) {
+  const std::span<const double> carried = model_.carried(before, time, carried_);
+  held_.resize(directions_.rows());
+  VectorXd c(directions_.rows());
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const contact::InterfaceNode<dim> &at = model_.interface[i];
+    Node &node = nodes_[i];
+    node.admissible = contact::bilateral(at, is_prescribed_, state, model_.reach(at, time));
+    held_.segment<dim>(dim * static_cast<Index>(i)) = node.admissible.base;
+    c.segment<dim>(dim * static_cast<Index>(i)) = displacement(carried, i);
+    if (node.normal != none)
+      points_[node.normal].law =
+          contact::NormalPoint(model_.laws->normal(at.point, penetration(i, time, before)));
+    set_friction(i, time, displacement(carried, i));
+    if (is_moved_along_normal(node))
+      know_pressure(i, time, before);
+  }
+  stuck_ = directions_.transpose() * c;
+  for (const Node &node : nodes_)
+    if (node.normal != none)
+      stuck_[points_[node.normal].offset] = 0;
+}
+
+// At the end of the last step.
+template <int dim>
+double ContactNodes<dim>::penetration(std::size_t i, double time,
+                                      std::span<const double> before) const {
+  const contact::InterfaceNode<dim> &at = model_.interface[i];
+  return displacement(before, i).dot(at.normal) - model_.reach(at, model_.time_before(time));
+}
+
+template <int dim>
+void ContactNodes<dim>::set_friction(std::size_t i, double time, const Vector &carried) {
+  const contact::InterfaceNode<dim> &at = model_.interface[i];
+  const Node &node = nodes_[i];
+  points_[node.slip].law = contact::PointLaw{
+      model_.friction(contact::contact_place(at.point, time, node.admissible.tangent())),
+      node.admissible.held_slip(carried)};
+  if (node.coupling != none)
+    couplings_[node.coupling].bound =
+        model_.laws->bound(at.point, time, slipped_[static_cast<Index>(i)]);
+}
+
+template <int dim>
+void ContactNodes<dim>::know_pressure(std::size_t i, double time, std::span<const double> before) {
+  const contact::InterfaceNode<dim> &at = model_.interface[i];
+  Node &node = nodes_[i];
+  node.pressure = model_.laws->pressure_under_supports(
+      at.point, penetration(i, time, before),
+      node.admissible.base.dot(at.normal) - model_.reach(at, time));
+  if (node.coupling == none)
+    return;
+  couplings_[node.coupling].pressure = node.pressure;
+  couplings_[node.coupling].is_closed = node.pressure > 0;
+}
+
+template <int dim>
+ContactStatus ContactNodes<dim>::status(const Node &node, const CoupledSolution &solution) const {
+  const std::vector<ContactStatus> &status = solution.interface.status;
+  const bool is_open = is_moved_along_normal(node)
+                           ? !(node.pressure > 0)
+                           : node.normal != none && status[node.normal] == ContactStatus::open;
+  return is_open ? ContactStatus::open : status[node.slip];
+}
+
+// Of the force q that holds a node friction is the law's; of the rest the foundation has what is
+// normal, and supports have what is left in prescribed components.
+template <int dim>
+void ContactNodes<dim>::share_force(std::size_t i, const CoupledSolution &solution,
+                                    StepOutcome &outcome) const {
+  const Node &node = nodes_[i];
+  const ContactPoint &p = points_[node.slip];
+  const contact::PointLaw &law =
+      node.coupling == none ? p.law.friction() : solution.friction[node.coupling];
+  auto q = outcome.contact_forces.segment<dim>(dim * static_cast<Index>(i));
+  const Tangent borne = -node.admissible.held.transpose() * q / p.weight;
+  const Tangent lambda =
+      law.whole_traction(solution.interface.increment.segment(p.offset, p.size),
+                         solution.interface.force.segment(p.offset, p.size) / p.weight, borne);
+  const Vector friction = -p.weight * node.admissible.tangent() * lambda;
+  outcome.friction_forces.segment<dim>(dim * static_cast<Index>(i)) = friction;
+  if (is_moved_along_normal(node))
+    q = friction - p.weight * node.pressure * node.admissible.normal;
+  else
+    q -= node.admissible.support(q, friction);
+}
+
+template <int dim>
+void ContactNodes<dim>::end_step(const CoupledSolution &solution, StepOutcome &outcome) {
+  outcome.stage = solution.stage;
+  outcome.newton_iterations = solution.interface.iterations;
+  outcome.residual = solution.interface.residual;
+  outcome.contact_forces -=
+      directions_ * (directions_.transpose() * outcome.contact_forces + solution.interface.force);
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    share_force(i, solution, outcome);
+    outcome.status[i] = status(nodes_[i], solution);
+    const ContactPoint &p = points_[nodes_[i].slip];
+    if (outcome.status[i] != ContactStatus::open)
+      slipped_[static_cast<Index>(i)] += std::hypot(
+          solution.interface.increment.segment(p.offset, p.size).norm(), p.law.held().norm());
+  }
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    if (nodes_[i].coupling != none)
+      if (const auto *ball =
+              std::get_if<contact::Tresca>(&solution.friction[nodes_[i].coupling].law()))
+        outcome.friction_bound[static_cast<Index>(i)] = ball->bound;
+  if (model_.laws->remembers_slip())
+    outcome.accumulated_slip = slipped_;
+}
+
+template <int dim>
+void ContactNodes<dim>::save(output::SavedNumbers &numbers) const {
+  if (model_.laws->remembers_slip())
+    numbers.put("accumulated slip", slipped_);
+}
+
+template <int dim>
+void ContactNodes<dim>::restore(const output::SavedNumbers &numbers) {
+  if (model_.laws->remembers_slip())
+    numbers.fill("accumulated slip", slipped_);
+}
+
+template class ContactNodes<2>;
+template class ContactNodes<3>;
+
+}  // namespace tourmaline::solve

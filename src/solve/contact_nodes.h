@@ -1,0 +1,92 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <Eigen/Sparse>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "contact/bilateral.h"
+#include "output/checkpoint.h"
+#include "solve/coupled_programme.h"
+#include "solve/model.h"
+#include "solve/route.h"
+
+namespace tourmaline::solve {
+
+/// The contact nodes as points of a programme. A node has a point for its slip increment and, where
+/// the laws ask for it, one for its penetration before it. With z the unknowns of all points one
+/// after the other, the displacements of the contact nodes are
+///
+///     c = held + T (z_stuck + z),
+///
+/// where z_stuck holds the slips with which all points would stick to the foundation and `held` is
+/// what is prescribed, every node touching the foundation; T has orthonormal columns.
+template <int dim>
+class ContactNodes {
+ public:
+  /// Both outlive this. Throws CaseError for nodes whose laws need a normal displacement that other
+  /// conditions tilt.
+  ContactNodes(const Model<dim> &model, const std::vector<bool> &is_prescribed);
+
+  const Eigen::SparseMatrix<double> &directions() const { return directions_; }  ///< T
+  /// Whether friction depends on what happens along the normal.
+  bool is_coupled() const { return !couplings_.empty(); }
+  Eigen::Index n_unknowns() const { return n_; }
+  const std::vector<ContactPoint> &points() const { return points_; }
+  const std::vector<FrictionCoupling> &couplings() const { return couplings_; }
+  std::size_t node_of(std::size_t point) const { return node_of_[point]; }
+
+  /// The laws of the step that ends at `time`; `state` holds the prescribed values, `before` is the
+  /// state of the last step.
+  void begin_step(double time, std::span<const double> before, std::span<const double> state);
+  Eigen::VectorXd stuck() const { return held_ + directions_ * stuck_; }
+  Eigen::VectorXd displacements(const Eigen::VectorXd &z) const {
+    return held_ + directions_ * (stuck_ + z);
+  }
+
+  /// Of the nodal forces that hold the contact, `outcome.contact_forces`, takes away what supports
+  /// bear, and says which part is friction; and the statuses of the nodes.
+  void end_step(const CoupledSolution &solution, StepOutcome &outcome);
+
+  void save(output::SavedNumbers &numbers) const;
+  void restore(const output::SavedNumbers &numbers);
+
+ private:
+  using Vector = Eigen::Matrix<double, dim, 1>;
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+  /// A node's points, and the pressure where supports decide it [N/m^2].
+  struct Node {
+    contact::Admissible<dim> admissible;
+    std::size_t normal = none, slip = 0;
+    std::size_t coupling = none;
+    double pressure = 0;
+  };
+  bool is_moved_along_normal(const Node &node) const {
+    return node.normal == none && model_.laws->can_open();
+  }
+
+  void add_normal(std::size_t i, std::vector<Eigen::Triplet<double>> &entries);
+  void add_slip(std::size_t i, std::vector<Eigen::Triplet<double>> &entries);
+  void set_friction(std::size_t i, double time, const Vector &carried);
+  void know_pressure(std::size_t i, double time, std::span<const double> before);
+  void share_force(std::size_t i, const CoupledSolution &solution, StepOutcome &outcome) const;
+  ContactStatus status(const Node &node, const CoupledSolution &solution) const;
+  double penetration(std::size_t i, double time, std::span<const double> before) const;
+  Vector displacement(std::span<const double> state, std::size_t i) const;
+
+  const Model<dim> &model_;
+  const std::vector<bool> &is_prescribed_;
+  std::vector<Node> nodes_;
+  std::vector<ContactPoint> points_;
+  std::vector<FrictionCoupling> couplings_;
+  std::vector<std::size_t> node_of_;  // by point
+  Eigen::Index n_ = 0;                // entries of z
+  Eigen::SparseMatrix<double> directions_;
+  Eigen::VectorXd held_, stuck_;
+  Eigen::VectorXd slipped_;  // accumulated slip by node [m]
+  std::vector<double> carried_;
+};
+
+}  // namespace tourmaline::solve

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "contact/friction_bound.h"
+#include "solve/interface_newton.h"
+#include "solve/route.h"
+
+namespace tourmaline::solve {
+
+/// Friction at the point `slip` that depends on what happens along the normal: there is none where
+/// the point `normal` is open; where it touches, the ball of radius `bound` or, without one, the
+/// law that the point has.
+struct FrictionCoupling {
+  std::size_t slip = 0;               ///< a point of the programme
+  std::optional<std::size_t> normal;  ///< likewise; nothing: the pressure is known
+  double pressure = 0;                ///< where it is known [N/m^2]
+  bool is_closed = false;             ///< likewise
+  std::shared_ptr<const contact::FrictionBound> bound;
+};
+
+/// The contact problem of one step in penetrations and slip increments d, with lambda = f - A d the
+/// nodal forces on the foundation:
+///
+///     lambda_i = w_i R_i(lambda_i / w_i + r_i d_i; b_i)    for all points i,
+///
+/// R the law's resolvent with r_i > 0, where the friction bounds b depend on pressure and slip at
+/// the end of the step. With b held it is the convex programme `InterfaceProgramme`, the points'
+/// own laws those of friction without bound.
+struct CoupledProgramme {
+  InterfaceProgramme convex;
+  const std::vector<FrictionCoupling> &couplings;  ///< at most one for each point
+};
+
+struct CoupledSolution {
+  InterfaceSolution interface;
+  ContactStage stage = ContactStage::newton;
+  /// of each coupling: the law at its point, with the bound that holds, and the pressure [N/m^2]
+  std::vector<contact::PointLaw> friction;
+  std::vector<double> pressure;
+};
+
+/// Semismooth Newton's method with the bounds' derivatives, damped so that the scaled natural
+/// residual falls, from `start` and from the body without contact; where it stalls, convex
+/// programmes with held bounds in a fixed point with Anderson's acceleration; then continuation in
+/// the size of the bounds. A solution need not exist, nor be the only one, where friction is
+/// strong. (V. Acary, M. Bremond, O. Huber, in: Advanced Topics in Nonsmooth Dynamics, Springer
+/// 2018.)
+CoupledSolution solve_coupled(const CoupledProgramme &programme, const Eigen::VectorXd &start,
+                              const InterfaceSettings &settings);
+
+}  // namespace tourmaline::solve

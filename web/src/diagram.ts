@@ -1,0 +1,102 @@
+// One quantity over another, step by step: a path that may turn back, with a mark at the moment.
+import uPlot from 'uplot';
+import { padded } from './chart';
+import { element } from './dom';
+import { shown, thousands, unitWith } from './numbers';
+import { colour, onTheme } from './theme';
+
+export interface Path {
+  label: string;
+  colour: string;
+  /** a value of each for every step */
+  x: number[];
+  y: number[];
+  dashed?: boolean;
+}
+
+export interface DiagramOptions {
+  title: string;
+  x: { label: string; unit: string };
+  y: { label: string; unit: string };
+}
+
+export class Diagram {
+  readonly box: HTMLElement;
+  private readonly place = element('div', { class: 'plot' });
+  private plot?: uPlot;
+
+  /** `at`: the step to be marked, or -1 */
+  constructor(private readonly options: DiagramOptions, private paths: Path[], private readonly at: () => number) {
+    const key = element('ul', { class: 'legend inline' }, ...paths.map((path) =>
+      element('li', {}, element('span', { class: 'swatch', style: `background:${path.colour}` }), path.label)));
+    this.box = element('figure', { class: 'chart' }, element('figcaption', {}, options.title), this.place, paths.length > 1 && key);
+    new ResizeObserver(() => {
+      const width = this.place.clientWidth;
+      if (!this.plot) this.build();
+      else if (width > 0 && Math.abs(width - this.plot.width) > 1) this.plot.setSize({ width, height: 230 });
+    }).observe(this.place);
+    onTheme(() => this.build());
+  }
+
+  /** Other values of the same paths. */
+  update(paths: Path[]) {
+    this.paths = paths;
+    this.build();
+  }
+
+  redraw() { this.plot?.redraw(false); }
+
+  private range(of: 'x' | 'y'): { power: number; ends: [number, number] } {
+    // 0 is always seen: where the path begins.
+    let least = 0, greatest = 0;
+    for (const path of this.paths)
+      for (const v of path[of]) if (Number.isFinite(v)) { least = Math.min(least, v); greatest = Math.max(greatest, v); }
+    const power = thousands(Math.max(-least, greatest));
+    return { power, ends: padded(least, greatest, 10 ** -power) };
+  }
+
+  private build() {
+    this.plot?.destroy();
+    this.plot = undefined;
+    const width = this.place.clientWidth;
+    if (width === 0) return;
+    const { x, y } = this.options;
+    const across = this.range('x'), up = this.range('y');
+    const label = (name: string, power: number, unit: string) => `${name} [${unitWith(power, unit)}]`;
+    const axis = { stroke: colour('--muted'), grid: { stroke: colour('--grid'), width: 1 },
+      ticks: { stroke: colour('--grid'), width: 1 }, font: '12px system-ui, sans-serif', labelFont: '12px system-ui, sans-serif',
+      values: (_: uPlot, splits: number[]) => splits.map((v) => shown(v, 4)) };
+    this.plot = new uPlot({
+      width, height: 230, legend: { show: false }, cursor: { show: false },
+      scales: { x: { time: false, range: across.ends }, y: { range: up.ends } },
+      axes: [{ ...axis, label: label(x.label, across.power, x.unit), labelSize: 18, size: 34 },
+        { ...axis, label: label(y.label, up.power, y.unit), labelSize: 18, size: 56 }],
+      series: [{}, { show: true, stroke: 'transparent', points: { show: false } }],
+      hooks: { draw: [(plot) => this.paint(plot, 10 ** -across.power, 10 ** -up.power)] },
+    }, [[...across.ends], [...up.ends]], this.place);
+  }
+
+  private paint(plot: uPlot, across: number, up: number) {
+    const { ctx } = plot;
+    ctx.save();
+    for (const path of this.paths) {
+      const places = path.x.map((v, k): [number, number] =>
+        [plot.valToPos(v * across, 'x', true), plot.valToPos(path.y[k] * up, 'y', true)]);
+      ctx.strokeStyle = ctx.fillStyle = path.colour;
+      ctx.lineWidth = 1.8 * devicePixelRatio;
+      ctx.setLineDash(path.dashed ? [6 * devicePixelRatio, 4 * devicePixelRatio] : []);
+      ctx.beginPath();
+      places.forEach(([x, y], k) => (k === 0 ? ctx.moveTo(x, y) : ctx.lineTo(x, y)));
+      ctx.stroke();
+      ctx.setLineDash([]);
+      if (path.dashed) continue;  // the marks are those of what it limits
+      const at = this.at();
+      places.forEach(([x, y], k) => {
+        ctx.beginPath();
+        ctx.arc(x, y, (k === at ? 5 : places.length < 40 ? 2 : 0) * devicePixelRatio, 0, 2 * Math.PI);
+        ctx.fill();
+      });
+    }
+    ctx.restore();
+  }
+}
