@@ -102,10 +102,10 @@ INSTANTIATE_TEST_SUITE_P(Cases, ContactFiles,
                                            Shipped{"cases/block-3d/twisted.toml", 3}));
 
 TEST(ContactFilesOfOneLaw, HaveTheBoundAndTheAccumulatedSlipWhereTheTableHasThem) {
-  const Run weakening(laws + "layer-slip-weakening.toml", few_steps);
+  const RunWithFields weakening(laws + "layer-slip-weakening.toml", few_steps);
   for (const std::string name : {"friction_bound", "accumulated_slip"})
     EXPECT_GT(largest(output::array_in<double>(weakening.content("contact_0002.vtu"), name)), 0);
-  const Run tresca("cases/ring/ring.toml", few_steps);
+  const RunWithFields tresca("cases/ring/ring.toml", few_steps);
   EXPECT_EQ(tresca.content("contact_0002.vtu").find("friction_bound"), std::string::npos);
 }
 
