@@ -213,11 +213,13 @@ std::string CondensedRoute<dim>::unheld_motions(const InterfaceSolution &solutio
 template <int dim>
 void CondensedRoute<dim>::let_go(double time, const InterfaceSolution &solution) const {
   const std::string unheld = unheld_motions(solution);
-  throw SolveError(fmt::format(
-      "the contact problem at t = {:g} s has no solution: nothing keeps the body from {}, as under "
-      "these loads neither supports nor the contact hold it there. Prescribe further components of "
-      "`displacement`, or press the body to the foundation in every step",
-      time, unheld.empty() ? left_to_contact_ : unheld));
+  throw SolveError(
+      fmt::format("no solution of the contact problem at t = {:g} s was found: nothing keeps the "
+                  "body from {}, as "
+                  "under these loads neither supports nor the contact hold it there. Prescribe "
+                  "further components of "
+                  "`displacement`, or press the body to the foundation in every step",
+                  time, unheld.empty() ? left_to_contact_ : unheld));
 }
 
 template <int dim>

@@ -50,15 +50,13 @@ TEST_F(ContactLaws, OfTheStateAreRefusedOnOtherRoutes) {
         "friction='{law=\"coulomb\",coefficient=0.3}'"}) {
     const std::string asked = rollers + no_contact_of_state + "--set contact." + law;
     expect_answer(0, asked, {});
-    expect_answer(2, asked + " --set solver.method=monolithic",
-                  {"is not available with solver.method = \"monolithic\"", "take \"condensed\""});
     expect_answer(2,
                   asked +
                       " --set solver.method=monolithic --set "
                       "solver.multiplier=piecewise-constant",
-                  {"is not available with solver.method = \"monolithic\""});
+                  {"is not available with solver.multiplier"});
     expect_answer(2, asked + " --set solver.body=iterative",
-                  {"is not available with solver.body = \"iterative\"", "take \"direct\""});
+                  {"is not available with solver.body = \"iterative\""});
   }
 }
 
@@ -86,14 +84,15 @@ contact = { on = "inner", normal = "unilateral", friction = { law = "coulomb", c
 TEST_F(ContactLaws, MayHoldABodyThatIsPressed) {
   expect_answer(0, "", {});
   expect_answer(0, "--set contact.gap=1e-6", {});
-  expect_answer(0, "--set 'contact.normal={law=\"damped\",coefficient=1e12}'", {});
+  expect_answer(0, "--set 'contact.normal={law=\"damped\",coefficient=1e13}'", {});
 }
 
 TEST_F(ContactLaws, LetABodyGoThatIsNotPressed) {
   const std::string all =
       "nothing keeps the body from a translation along x, a translation along y and a rotation in "
       "the plane";
-  expect_answer(3, "--set 'boundary[0].traction=[0,1e6]'", {"has no solution", all});
+  expect_answer(3, "--set 'boundary[0].traction=[0,1e6]'",
+                {"no solution of the contact problem at t = 0.25 s was found", all});
   for (const std::string law : {"compliance", "damped"})
     expect_answer(3,
                   "--set 'boundary[0].traction=[0,1e6]' --set 'contact.normal={law=\"" + law +
