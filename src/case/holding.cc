@@ -161,6 +161,10 @@ std::vector<std::string> free_motions(int dimension, const std::vector<Support> 
   return free;
 }
 
+std::string free_motions_in_words(int dimension, const std::vector<Support> &supports) {
+  return listed(free_motions(dimension, supports));
+}
+
 void check_holding(const Case &asked) {
   const bool grounded =
       std::any_of(asked.boundaries.begin(), asked.boundaries.end(),
@@ -187,8 +191,9 @@ void check_holding(const Case &asked) {
 }
 
 std::string left_to_contact(const Case &asked) {
-  return asked.contact ? listed(free_motions(asked.dimension, supports_of(asked, Held::never_lost)))
-                       : "";
+  return asked.contact
+             ? free_motions_in_words(asked.dimension, supports_of(asked, Held::never_lost))
+             : "";
 }
 
 }  // namespace tourmaline::casefile

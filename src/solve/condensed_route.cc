@@ -76,6 +76,9 @@ class CondensedRoute : public Route {
                        std::span<const double> state, VectorXd &c, StepOutcome &outcome);
   CoupledSolution solve_contact(double time, const VectorXd &s);
   CoupledSolution solve_programme(const InterfaceProgramme &programme) const;
+  bool is_carried_off(const InterfaceProgramme &programme, const InterfaceSolution &solution) const;
+  std::string unheld_motions(const InterfaceSolution &solution) const;
+  [[noreturn]] void let_go(double time, const InterfaceSolution &solution) const;
   [[noreturn]] void give_up(double time, const InterfaceSolution &solution) const;
 
   void describe(RouteReport &report) const override;
@@ -161,10 +164,62 @@ CoupledSolution CondensedRoute<dim>::solve_contact(double time, const VectorXd &
   const VectorXd force = contact_->directions().transpose() * (s - resisted);
   const double scale = larger(s.cwiseAbs().maxCoeff<Eigen::PropagateNaN>(),
                               resisted.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
-  CoupledSolution solution = solve_programme({slip_stiffness_, force, contact_->points(), scale});
+  const InterfaceProgramme programme{slip_stiffness_, force, contact_->points(), scale};
+  CoupledSolution solution = solve_programme(programme);
+  if (is_carried_off(programme, solution.interface))
+    let_go(time, solution.interface);
   if (!solution.interface.converged)
     give_up(time, solution.interface);
   return solution;
+}
+
+// Where nothing holds the body, round-off of its stiffness does: loads then move it by so much that
+// the round-off of the forces that hold it is a part of them that counts.
+template <int dim>
+bool CondensedRoute<dim>::is_carried_off(const InterfaceProgramme &programme,
+                                         const InterfaceSolution &solution) const {
+  constexpr double counts = 1e-7;
+  return !left_to_contact_.empty() && programme.force_scale > 0 &&
+         std::numeric_limits<double>::epsilon() * size_of_forces(programme, solution.increment) >
+             counts * programme.force_scale;
+}
+
+// Where the contact nodes that stick or are pressed are all that holds the body beside its
+// supports.
+template <int dim>
+std::string CondensedRoute<dim>::unheld_motions(const InterfaceSolution &solution) const {
+  std::vector<casefile::Support> supports;
+  const auto add = [&](const Vector3 &point, const auto &direction) {
+    supports.push_back({point, {}});
+    std::copy(direction.begin(), direction.end(), supports.back().direction.begin());
+  };
+  for (const body::Prescribed &p : model_.prescribed)
+    if (const int c = static_cast<int>(p.unknown % body::Fields<dim>::count); c < dim)
+      add(p.point, Eigen::Matrix<double, dim, 1>::Unit(c));
+  const std::vector<ContactPoint> &points = contact_->points();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const contact::InterfaceNode<dim> &at = model_.interface[contact_->node_of(i)];
+    if (!model_.laws->can_open())
+      add(at.point, at.normal);
+    const bool holds = points[i].law.normal() ? solution.status[i] != ContactStatus::open
+                                              : solution.status[i] == ContactStatus::stick;
+    for (Index k = 0; holds && k < points[i].size; ++k)
+      add(at.point, Eigen::VectorXd(contact_->directions().col(points[i].offset + k))
+                        .segment(dim * static_cast<Index>(contact_->node_of(i)), dim));
+  }
+  return casefile::free_motions_in_words(dim, supports);
+}
+
+template <int dim>
+void CondensedRoute<dim>::let_go(double time, const InterfaceSolution &solution) const {
+  const std::string unheld = unheld_motions(solution);
+  throw SolveError(
+      fmt::format("no solution of the contact problem at t = {:g} s was found: nothing keeps the "
+                  "body from {}, as "
+                  "under these loads neither supports nor the contact hold it there. Prescribe "
+                  "further components of "
+                  "`displacement`, or press the body to the foundation in every step",
+                  time, unheld.empty() ? left_to_contact_ : unheld));
 }
 
 template <int dim>

@@ -115,6 +115,34 @@ TEST_F(Interrupted, ElectrodesInACircuitGoOn) {
                   "150steps");
 }
 
+// What the friction remembers is state, and so is where the foundation stood.
+const std::string weakening = R"toml(
+mesh.box = { min = [0, 0], max = [0.02, 0.01], cells = [16, 8], cell = "quadrilateral" }
+material = { library = "BaTiO3-Liu2014", pyroelectric = [0, 1e-4] }
+time = { end = 1, steps = 40 }
+boundary = [ { on = "top", displacement = [0, -1e-6], potential = 0, temperature = 0 } ]
+[contact]
+on = "bottom"
+gap = "2e-3*(x - 0.008)^2"
+foundation_displacement = ["2.5e-6*sin(7*t)", "2e-7*sin(20*t)"]
+normal = "unilateral"
+friction = { law = "coulomb", coefficient = { static = 0.35, kinetic = 0.25, distance = 1e-6 } }
+heat = { law = "exchange", coefficient = 2e4, foundation_temperature = "20*t" }
+)toml";
+
+TEST_F(Interrupted, FrictionThatRemembersItsSlipOnAFoundationThatMovesGoesOn) {
+  std::ofstream(here() / "weakening.toml") << weakening;
+  expect_to_go_on("weakening.toml");
+  EXPECT_THAT(content_of(here() / "other/results/contact.csv"), HasSubstr("accumulated_slip"));
+}
+
+TEST_F(Interrupted, ADampedFoundationGoesOn) {
+  std::ofstream(here() / "weakening.toml") << weakening;
+  expect_to_go_on(
+      "weakening.toml --set 'contact.normal={law=\"damped\",coefficient=1e12}' --set "
+      "'contact.friction={law=\"coulomb\",coefficient=0.3}'");
+}
+
 TEST_F(Interrupted, ARunWithCheckpointsLeavesTheBytesOfOneWithout) {
   for (const std::string often : {"never", "1steps"})
     ASSERT_EQ(run("run " + paper + " -q --set output.checkpoint=" + often + " -o " + often), 0);

@@ -125,6 +125,35 @@ where = "y >= 0.012"
 material = { library = "BaTiO3-Liu2014", poling = [0, -1] }
 )toml";
 
+// A warmed block of BaTiO3 that a foundation rubs, as it moves along, and leaves.
+const char *const rubbed = R"toml(
+mesh.box = { min = [0, 0], max = [0.02, 0.01], cells = [12, 6], cell = "quadrilateral" }
+material = { library = "BaTiO3-Liu2014", pyroelectric = [0, 1e-4] }
+time = { end = 1, steps = 4 }
+boundary = [ { on = "top", displacement = ["2e-7*t", "-5e-7*t"], potential = 0, temperature = "2*t" } ]
+[contact]
+on = "bottom"
+gap = "3e-3*(x - 0.008)^2"
+foundation_displacement = ["5e-7*sin(4*t)", 0]
+normal = "unilateral"
+friction = { law = "coulomb", coefficient = { static = 0.35, kinetic = 0.3, distance = 1e-6 } }
+heat = { law = "exchange", coefficient = 2e4, foundation_temperature = "20*t" }
+)toml";
+
+const char *const rubbed_block = R"toml(
+mesh.box = { min = [0, 0, 0], max = [0.02, 0.02, 0.01], cells = [6, 5, 3], cell = "hexahedron" }
+material = { library = "BaTiO3-Liu2014", pyroelectric = [0, 0, 1e-4] }
+time = { end = 1, steps = 4 }
+boundary = [ { on = "top", displacement = ["2e-7*t", "3e-7*t^2", "-5e-7*t"], potential = 0, temperature = "2*t" } ]
+[contact]
+on = "bottom"
+gap = "3e-3*((x - 0.008)^2 + (y - 0.011)^2)"
+foundation_displacement = ["5e-7*sin(4*t)", "1e-5*x*t", 0]
+normal = "unilateral"
+friction = { law = "coulomb", coefficient = 0.3 }
+heat = { law = "exchange", coefficient = 2e4, foundation_temperature = "20*t" }
+)toml";
+
 int count(const std::string &text, const std::string &piece) {
   int found = 0;
   for (std::size_t at = text.find(piece); at != std::string::npos; at = text.find(piece, at + 1))
@@ -155,6 +184,33 @@ class Ranks : public ::testing::TestWithParam<int> {
     ASSERT_NO_FATAL_FAILURE(run_twice(arguments));
     for (const char *name : {"nodes.csv", "contact.csv"})
       expect_equal_tables(table_of_one(name), table_of_several(name));
+  }
+
+  // Contact that opens, sticks and slips, of so many dimensions.
+  void expect_same_rubbing(const std::string &arguments, int dim) const {
+    ASSERT_NO_FATAL_FAILURE(run_twice(arguments));
+    Quantity u, traction{"normal_traction", "friction_bound"}, slip{"normal_displacement", "gap"};
+    for (int c = 0; c < dim; ++c) {
+      u.push_back(std::string("u_") + "xyz"[c]);
+      traction.push_back(std::string("tangential_traction_") + "xyz"[c]);
+      slip.push_back(std::string("slip_") + "xyz"[c]);
+    }
+    expect_equal_quantities(table_of_one("nodes.csv"), table_of_several("nodes.csv"),
+                            {u, {"potential"}, {"temperature"}}, 1e-9);
+    const Table contact = table_of_one("contact.csv"), same = table_of_several("contact.csv");
+    if (contact.columns.contains("accumulated_slip"))
+      slip.push_back("accumulated_slip");
+    expect_equal_quantities(contact, same,
+                            {traction, slip, {"slip_rate"}, {"potential"}, {"heat_flux"}}, 1e-9);
+    EXPECT_EQ(same.columns.at("status"), contact.columns.at("status"));
+    for (const char *status : {"stick", "slip", "open"})
+      EXPECT_NE(std::count(contact.columns.at("status").begin(), contact.columns.at("status").end(),
+                           status),
+                0)
+          << status;
+    expect_equal_quantities(table_of_one("history.csv"), table_of_several("history.csv"),
+                            {{"friction_dissipation"}, {"foundation_power"}, {"contact_stage"}},
+                            1e-9);
   }
 
   // A plane device that slips somewhere, between two electrodes.
@@ -218,6 +274,20 @@ TEST_P(Ranks, ABlockOfHexahedraIsTheSame) {
 
 TEST_P(Ranks, ABlockBetweenPlanesOfSymmetryIsTheSame) {
   expect_same(file_of(quarter_block));
+}
+
+TEST_P(Ranks, ARubbedBodyThatComesOffIsTheSame) {
+  expect_same_rubbing(file_of(rubbed), 2);
+}
+
+TEST_P(Ranks, ARubbedBlockThatComesOffIsTheSame) {
+  expect_same_rubbing(file_of(rubbed_block), 3);
+}
+
+TEST_P(Ranks, ABodyThatItsContactLetsGoIsToldOnce) {
+  expect_told_once(
+      file_of(rubbed) + " --set 'boundary=[{on=\"top\",traction=[0,1e5],potential=0}]'", 3,
+      "nothing keeps the body from");
 }
 
 // Both stop at a residual of 1e-13, on different ways.
