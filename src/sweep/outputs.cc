@@ -82,11 +82,10 @@ void add_contact(const casefile::Case &asked, List &list) {
   if (!asked.contact)
     return;
   const contact::ContactLaws laws(*asked.contact, asked.time.end / asked.time.steps);
-  const std::string moment = asked.dimension == 2 ? "N" : "N m";
   if (laws.has_moving_foundation() || laws.has_normal_unknowns()) {
     list.add(whole("W", asked.dimension), {"foundation_power"});
     for (int c = asked.dimension == 2 ? 2 : 0; c < 3; ++c)
-      list.add(moment, {std::string("contact_moment_") + axes[c]});
+      list.add(whole("N m", asked.dimension), {std::string("contact_moment_") + axes[c]});
   }
   if (laws.can_open()) {
     list.add(whole("J", asked.dimension), {"contact_energy"});

@@ -21,6 +21,7 @@
 
 #include "../cases/partly_held.h"
 #include "../cases/read_table.h"
+#include "../output/decode_vtk.h"
 #include "../output/temporary_folder.h"
 #include "report/field_file.h"
 
@@ -336,6 +337,30 @@ TEST_P(Ranks, EveryRankLeavesItsCellsAndOneFileJoinsThem) {
     EXPECT_TRUE(fs::exists(folder_ / "several" / piece));
   }
   EXPECT_THAT(content_of(folder_ / "several" / "result.pvd"), HasSubstr("result_0001.pvtu"));
+}
+
+TEST_P(Ranks, TheContactIsOneFileWithTheFacetsOfAllRanks) {
+  const std::string opening =
+      std::string("'") + TOURMALINE_SOURCE_DIR +
+      "/tests/reference/contact_laws/cases/coulomb-warmed.toml' --set output.fields=true "
+      "--set time.steps=2 ";
+  ASSERT_EQ(run(1, opening, folder_ / "one").status, 0);
+  ASSERT_EQ(run(GetParam(), opening, folder_ / "several").status, 0);
+  EXPECT_EQ(content_of(folder_ / "several" / "contact.pvd"),
+            content_of(folder_ / "one" / "contact.pvd"));
+  const std::string one = content_of(folder_ / "one" / "contact_0002.vtu"),
+                    several = content_of(folder_ / "several" / "contact_0002.vtu");
+  EXPECT_EQ(output::array_in<std::int64_t>(several, "connectivity"),
+            output::array_in<std::int64_t>(one, "connectivity"));
+  EXPECT_EQ(output::array_in<std::uint8_t>(several, "status"),
+            output::array_in<std::uint8_t>(one, "status"));
+  for (const char *name : {"Points", "normal_traction", "slip", "friction_bound"}) {
+    const auto wanted = output::array_in<double>(one, name);
+    const auto found = output::array_in<double>(several, name);
+    ASSERT_EQ(found.size(), wanted.size()) << name;
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      EXPECT_NEAR(found[i], wanted[i], 1e-9 * largest(wanted)) << name;
+  }
 }
 
 TEST_P(Ranks, AWrongCaseIsToldOnce) {
