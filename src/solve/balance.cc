@@ -34,8 +34,8 @@ bool add_once(std::vector<std::string> &names, const std::string &name) {
   return true;
 }
 
-// A balance that lacks less is not looked at any closer; less yet where the contact may take the body
-// through states of little energy.
+// A balance that lacks less is not looked at any closer; less yet where the contact may take the
+// body through states of little energy.
 constexpr double unquestioned = 1e-6, unquestioned_beside_it = 1e-10;
 
 const char *const axes[] = {"x", "y", "z"};

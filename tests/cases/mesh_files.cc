@@ -200,8 +200,9 @@ TEST_F(MeshFileCase, TwoNamesOfOneFacetMayNotPrescribeTheSameField) {
 
 TEST_F(MeshFileCase, ABodyThatNothingHoldsIsRefused) {
   put("square.geo", square + of_equal_squares);
-  EXPECT_THAT(complaint(rubbed, {"boundary[0]={on='clamp',potential=0}", "contact.friction.law=none"}),
-              HasSubstr("a translation along y"));
+  EXPECT_THAT(
+      complaint(rubbed, {"boundary[0]={on='clamp',potential=0}", "contact.friction={law='none'}"}),
+      HasSubstr("a translation along y"));
 }
 
 TEST_F(MeshFileCase, TheResolvedCaseFindsTheMeshFromAnotherFolder) {
