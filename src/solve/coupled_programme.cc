@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <functional>
 #include <limits>
 #include <optional>
 
@@ -61,6 +62,7 @@ class Cascade {
   VectorXd without_contact() const;
   bool fixed_point(const NaturalMap &map, Place &x);
   bool filled(Place &x);
+  bool filled_from_any(const VectorXd &start, Place &x);
   bool continuation(Place &x);
   InterfaceSolution convex(const std::vector<PointLaw> &friction, const VectorXd &start);
   bool is_left() const { return iterations_ < last_; }
@@ -199,11 +201,31 @@ bool Cascade::filled(Place &x) {
   return false;
 }
 
+// The relation of shares is not monotone, so the way of the ramps may end; it is another one from
+// another start.
+bool Cascade::filled_from_any(const VectorXd &start, Place &x) {
+  const NaturalMap none(programme_, 0), all(programme_, 1);
+  const VectorXd rest = VectorXd::Zero(start.size());
+  const auto n = static_cast<Index>(programme_.couplings.size());
+  const auto with_bounds = [&](const NaturalMap &map, const VectorXd &bounds) {
+    begin_attempt();
+    return convex(map.friction_at(all.at(rest), bounds), start).increment;
+  };
+  const std::vector<std::function<VectorXd()>> starts{
+      [&] { return start; }, [&] { return with_bounds(none, VectorXd::Zero(n)); },
+      [&] { return with_bounds(all, all.bounds(all.at(rest))); }, [&] { return without_contact(); },
+      [&] { return rest; }};
+  return all.has_jumps() && std::any_of(starts.begin(), starts.end(), [&](const auto &make) {
+           x = all.at(make());
+           return filled(x);
+         });
+}
+
 // From no friction to all of it, by steps that are halved where they are too long.
 bool Cascade::continuation(Place &x) {
   constexpr double shortest = 1. / 256;
   double strength = 0, step = 0.25;
-  const NaturalMap none(programme_, 0);
+  const NaturalMap none(programme_, 0, 0);
   x = none.at(VectorXd::Zero(programme_.convex.force.size()));
   if (!fixed_point(none, x))
     return false;
@@ -211,8 +233,8 @@ bool Cascade::continuation(Place &x) {
     begin_attempt();
     const double next = std::min(1., strength + step);
     Place trial = x;
-    const NaturalMap map(programme_, next);
-    trial = map.at(trial.d);
+    const NaturalMap map(programme_, next, 0);
+    trial = map.at(trial.d, trial.share);
     if (newton(map, trial, 25) || (trial = x, fixed_point(map, trial))) {
       strength = next;
       x = trial;
@@ -231,8 +253,7 @@ CoupledSolution Cascade::solve(const VectorXd &start) {
   ContactStage stage = ContactStage::newton;
   bool converged = find_by_newton(start, x);
   if (!converged) {
-    x = strict.at(start);
-    if (filled(x)) {
+    if (filled_from_any(start, x)) {
       converged = true;
       map = &with_shares;
     }
@@ -245,6 +266,7 @@ CoupledSolution Cascade::solve(const VectorXd &start) {
   if (!converged) {
     stage = ContactStage::continuation;
     converged = continuation(x);
+    map = &with_shares;
   }
   x = map->at(x.d, x.share);
   CoupledSolution found = map->solution(x);

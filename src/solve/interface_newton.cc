@@ -38,7 +38,7 @@ class Iteration {
   void sweep(bool backwards);
   /// Solves one linear system; true when points came to stick on the way, so that the step after it
   /// is another one.
-  bool newton_step();
+  bool newton_step(bool ahead = false);
   void update_residual_force() { force_.noalias() = programme_.force - programme_.stiffness * d_; }
 
   /// Natural residual |lambda - P(lambda + r d)| of a point, as a nodal force.
@@ -48,6 +48,7 @@ class Iteration {
   InterfaceSolution solution() const;
   /// Whether the last linear system could be factorised.
   bool is_definite() const { return is_definite_; }
+  bool may_yield() const { return may_yield_; }
 
  private:
   double largest_eigenvalue(const ContactPoint &p) const;
@@ -60,7 +61,9 @@ class Iteration {
     double change = 0, round_off = 0;  // [J], the second by 1e-16
   };
   Dissipated dissipated(const VectorXd &next) const;
-  std::optional<VectorXd> newton_direction(const std::vector<std::size_t> &smooth) const;
+  Tangent model_place(std::size_t i, bool ahead) const;
+  std::optional<VectorXd> newton_direction(const std::vector<std::size_t> &smooth,
+                                           bool ahead) const;
   VectorXd truncated(const VectorXd &direction, double length, Turns turns) const {
     return truncated_step(programme_.points, d_, direction, length, turns);
   }
@@ -165,8 +168,19 @@ Iteration::Dissipated Iteration::dissipated(const VectorXd &next) const {
   return sum;
 }
 
+// Where the point's Hessian is taken: at its slip, or, `ahead`, where its own problem would take a
+// point on a foundation that yields. That tells a point that stands at the bend on which side of it
+// the forces want it to be, and without it steps end at the same bends again and again.
+Tangent Iteration::model_place(std::size_t i, bool ahead) const {
+  const ContactPoint &p = programme_.points[i];
+  if (ahead && p.law.normal() != nullptr && !p.law.has_kink(p.size))
+    return (p.weight * trial(i) - friction_force(i)) / curvature_[i];
+  return d_.segment(p.offset, p.size);
+}
+
 // Nothing where the Hessian, positive definite by theory, is not so in its digits.
-std::optional<VectorXd> Iteration::newton_direction(const std::vector<std::size_t> &smooth) const {
+std::optional<VectorXd> Iteration::newton_direction(const std::vector<std::size_t> &smooth,
+                                                    bool ahead) const {
   std::vector<Index> entries;
   for (const std::size_t i : smooth)
     for (Index c = 0; c < programme_.points[i].size; ++c)
@@ -177,7 +191,7 @@ std::optional<VectorXd> Iteration::newton_direction(const std::vector<std::size_
   for (const std::size_t i : smooth) {
     const ContactPoint &p = programme_.points[i];
     const Tangent d = d_.segment(p.offset, p.size);
-    hessian.block(row, row, p.size, p.size) += p.weight * p.law.hessian(d);
+    hessian.block(row, row, p.size, p.size) += p.weight * p.law.hessian(model_place(i, ahead));
     descent.segment(row, p.size) -= p.weight * p.law.gradient(d);
     row += p.size;
   }
@@ -244,9 +258,9 @@ void Iteration::search(const VectorXd &direction, VectorXd &next) const {
     next = exact;
 }
 
-bool Iteration::newton_step() {
+bool Iteration::newton_step(bool ahead) {
   const std::vector<std::size_t> smooth = smooth_points();
-  const std::optional<VectorXd> found = newton_direction(smooth);
+  const std::optional<VectorXd> found = newton_direction(smooth, ahead);
   is_definite_ = found.has_value();
   if (!is_definite_)
     return false;
@@ -342,6 +356,11 @@ InterfaceSolution minimise(const InterfaceProgramme &programme, VectorXd start,
     bool more = true;
     while (more && solved < settings.max_iterations) {
       more = iteration.newton_step();
+      ++solved;
+    }
+    if (iteration.may_yield() && iteration.is_definite() && solved < settings.max_iterations) {
+      iteration.update_residual_force();
+      iteration.newton_step(true);
       ++solved;
     }
   }

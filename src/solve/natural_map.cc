@@ -56,7 +56,8 @@ double NaturalMap::size_of_jump(const FrictionCoupling &coupling) const {
   if (coupling.bound)
     return p.weight * strength_ * coupling.bound->at(0, 0).bound;
   const PointLaw &own = p.law.friction();
-  return p.weight * PointLaw(own.law()).dissipation(Tangent::Unit(p.size + own.held().size(), 0));
+  return p.weight * strength_ *
+         PointLaw(own.law()).dissipation(Tangent::Unit(p.size + own.held().size(), 0));
 }
 
 const FrictionCoupling *NaturalMap::coupling(std::size_t i) const {
@@ -145,10 +146,11 @@ FrictionBound::Value NaturalMap::bound(const FrictionCoupling &coupling, const P
 PointLaw NaturalMap::friction(std::size_t j, const Place &x, double share) const {
   const FrictionCoupling &coupling = couplings_[j];
   const PointLaw &own = point(coupling.slip).law.friction();
-  if (share == 0)
+  if (share * strength_ == 0)
     return {Tresca{0}, own.held()};
   if (coupling.bound)
     return {Tresca{share * bound(coupling, x).bound}, own.held()};
+  share *= strength_;
   return share == 1 ? own : PointLaw{contact::shared(own.law(), share), own.held()};
 }
 
