@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <deque>
+#include <functional>
 #include <limits>
+#include <optional>
 
 #include "solve/natural_map.h"
 
@@ -14,6 +16,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Place = NaturalMap::Place;
+using Direction = NaturalMap::Direction;
 
 namespace {
 
@@ -53,46 +56,57 @@ class Cascade {
   CoupledSolution solve(const VectorXd &start);
 
  private:
+  double damped(const NaturalMap &map, const Place &x, const Direction &direction) const;
   bool newton(const NaturalMap &map, Place &x, int most);
   bool find_by_newton(const VectorXd &start, Place &x);
   VectorXd without_contact() const;
-  bool fixed_point(double strength, Place &x);
+  bool fixed_point(const NaturalMap &map, Place &x);
+  bool filled(Place &x);
+  bool filled_from_any(const VectorXd &start, Place &x);
   bool continuation(Place &x);
   InterfaceSolution convex(const std::vector<PointLaw> &friction, const VectorXd &start);
-  bool is_left() const { return iterations_ < settings_.max_iterations; }
+  bool is_left() const { return iterations_ < last_; }
+  // Every attempt may take as many iterations as are asked for.
+  void begin_attempt() { last_ = iterations_ + settings_.max_iterations; }
 
   const CoupledProgramme &programme_;
   const InterfaceSettings settings_;
   int iterations_ = 0;  // linear systems
+  int last_ = 0;        // of the attempt
 };
 
-// Damped by halving, with the lengths at which points change their branch as candidates.
-bool Cascade::newton(const NaturalMap &map, Place &x, int most) {
+// The length at which the merit is least, of the whole one, halved ones and those at which points
+// change their branch; 0 where it does not fall enough.
+double Cascade::damped(const NaturalMap &map, const Place &x, const Direction &direction) const {
   constexpr double armijo = 1e-4;
+  const double merit = map.merit(x);
+  double best = 1, least = map.merit(map.along(x, direction, 1));
+  if (least <= (1 - 2 * armijo) * merit)
+    return 1;
+  std::vector<double> lengths = map.turns(x, direction);
+  for (double t = 0.5; t > 1e-4; t /= 2)
+    lengths.push_back(t);
+  for (const double t : lengths)
+    if (const double value = map.merit(map.along(x, direction, t)); value < least) {
+      least = value;
+      best = t;
+    }
+  return least <= (1 - 2 * armijo * best) * merit ? best : 0;
+}
+
+bool Cascade::newton(const NaturalMap &map, Place &x, int most) {
   for (int k = 0; map.residual(x) > settings_.tolerance; ++k) {
     if (k == most || !is_left())
       return false;
-    const VectorXd direction = map.newton_direction(x);
+    const std::optional<Direction> direction = map.newton_direction(x);
     ++iterations_;
-    if (direction.size() == 0)
+    if (!direction)
       return false;
-    const VectorXd resisted = programme_.convex.stiffness * direction;
-    const auto along = [&](double t) { return Place{x.d + t * direction, x.force - t * resisted}; };
-    const double merit = map.merit(x);
-    double best = 1, least = map.merit(along(1));
-    if (!(least <= (1 - 2 * armijo) * merit)) {
-      std::vector<double> lengths = map.turns(x, direction, resisted);
-      for (double t = 0.5; t > 1e-4; t /= 2)
-        lengths.push_back(t);
-      for (const double t : lengths)
-        if (const double value = map.merit(along(t)); value < least) {
-          least = value;
-          best = t;
-        }
-      if (!(least <= (1 - 2 * armijo * best) * merit))
-        return false;
-    }
-    x = map.at(x.d + best * direction);
+    const double length = damped(map, x, *direction);
+    if (length == 0)
+      return false;
+    x = map.along(x, *direction, length);
+    x = map.at(x.d, x.share);
   }
   x = map.settled(x);
   return map.residual(x) <= settings_.tolerance;
@@ -109,6 +123,7 @@ VectorXd Cascade::without_contact() const {
 bool Cascade::find_by_newton(const VectorXd &start, Place &x) {
   constexpr int most = 50;
   const NaturalMap map(programme_, 1);
+  begin_attempt();
   x = map.at(start);
   if (newton(map, x, most))
     return true;
@@ -122,37 +137,22 @@ InterfaceSolution Cascade::convex(const std::vector<PointLaw> &friction, const V
     points[programme_.couplings[j].slip].law = friction[j];
   const InterfaceProgramme held{programme_.convex.stiffness, programme_.convex.force, points,
                                 programme_.convex.force_scale};
-  InterfaceSolution found =
-      minimise(held, start,
-               {settings_.tolerance, std::max(1, settings_.max_iterations - iterations_),
-                settings_.is_definite});
+  InterfaceSolution found = minimise(
+      held, start, {settings_.tolerance, std::max(1, last_ - iterations_), settings_.is_definite});
   iterations_ += found.iterations;
   return found;
 }
 
 // The bounds of the convex programme's solution are those of the next one. Where it has come near,
 // Newton's method ends it.
-bool Cascade::fixed_point(double strength, Place &x) {
+bool Cascade::fixed_point(const NaturalMap &map, Place &x) {
   constexpr int most = 100, polishing = 12;
-  const NaturalMap map(programme_, strength);
-  const auto n = static_cast<Index>(programme_.couplings.size());
-  const auto bounds_at = [&](const Place &place) {
-    VectorXd bounds = VectorXd::Zero(n);
-    const std::vector<PointLaw> laws = map.friction_at(place);
-    for (Index j = 0; j < n; ++j)
-      if (const auto *ball = std::get_if<Tresca>(&laws[static_cast<std::size_t>(j)].law()))
-        bounds[j] = ball->bound;
-    return bounds;
-  };
+  begin_attempt();
   Anderson anderson;
-  VectorXd bounds = bounds_at(x);
+  VectorXd bounds = map.bounds(x);
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < most && is_left(); ++k) {
-    std::vector<PointLaw> laws = map.friction_at(x);
-    for (std::size_t j = 0; j < laws.size(); ++j)
-      if (programme_.couplings[j].bound)
-        laws[j] = {Tresca{bounds[static_cast<Index>(j)]}, laws[j].held()};
-    const InterfaceSolution found = convex(laws, x.d);
+    const InterfaceSolution found = convex(map.friction_at(x, bounds), x.d);
     x = map.at(found.increment);
     const double residual = map.residual(x);
     if (residual <= settings_.tolerance)
@@ -164,24 +164,78 @@ bool Cascade::fixed_point(double strength, Place &x) {
         return true;
       }
     }
-    bounds = anderson.next(bounds, bounds_at(x)).cwiseMax(0);
+    bounds = anderson.next(bounds, map.bounds(x)).cwiseMax(0);
   }
   return false;
+}
+
+// Ramps in the place of the jumps, ever steeper ones; from each of them Newton's method may find
+// which points have a share between 0 and 1.
+bool Cascade::filled(Place &x) {
+  constexpr int most = 30, polishing = 12;
+  constexpr double steepest = 1e-9;
+  const NaturalMap whole(programme_, 1, 0);
+  if (!whole.has_jumps())
+    return false;
+  const double largest = programme_.convex.force.cwiseAbs().maxCoeff();
+  x = NaturalMap(programme_, 1, largest).at(x.d);
+  double ramp = 1, factor = 0.1;
+  while (ramp > steepest) {
+    begin_attempt();
+    const NaturalMap map(programme_, 1, ramp * largest);
+    Place trial = x;
+    if (newton(map, trial, most) || (trial = map.at(x.d), fixed_point(map, trial))) {
+      x = trial;
+      if (newton(whole, trial, polishing)) {
+        x = trial;
+        return true;
+      }
+      factor = std::max(factor * factor, 0.1);
+    } else if ((factor = std::sqrt(factor)) > 0.9) {
+      return false;
+    } else {
+      ramp /= factor;
+    }
+    ramp *= factor;
+  }
+  return false;
+}
+
+// The relation of shares is not monotone, so the way of the ramps may end; it is another one from
+// another start.
+bool Cascade::filled_from_any(const VectorXd &start, Place &x) {
+  const NaturalMap none(programme_, 0), all(programme_, 1);
+  const VectorXd rest = VectorXd::Zero(start.size());
+  const auto n = static_cast<Index>(programme_.couplings.size());
+  const auto with_bounds = [&](const NaturalMap &map, const VectorXd &bounds) {
+    begin_attempt();
+    return convex(map.friction_at(all.at(rest), bounds), start).increment;
+  };
+  const std::vector<std::function<VectorXd()>> starts{
+      [&] { return start; }, [&] { return with_bounds(none, VectorXd::Zero(n)); },
+      [&] { return with_bounds(all, all.bounds(all.at(rest))); }, [&] { return without_contact(); },
+      [&] { return rest; }};
+  return all.has_jumps() && std::any_of(starts.begin(), starts.end(), [&](const auto &make) {
+           x = all.at(make());
+           return filled(x);
+         });
 }
 
 // From no friction to all of it, by steps that are halved where they are too long.
 bool Cascade::continuation(Place &x) {
   constexpr double shortest = 1. / 256;
   double strength = 0, step = 0.25;
-  x = NaturalMap(programme_, 0).at(VectorXd::Zero(programme_.convex.force.size()));
-  if (!fixed_point(0, x))
+  const NaturalMap none(programme_, 0, 0);
+  x = none.at(VectorXd::Zero(programme_.convex.force.size()));
+  if (!fixed_point(none, x))
     return false;
-  while (strength < 1 && is_left()) {
+  while (strength < 1) {
+    begin_attempt();
     const double next = std::min(1., strength + step);
     Place trial = x;
-    const NaturalMap map(programme_, next);
-    trial = map.at(trial.d);
-    if (newton(map, trial, 25) || (trial = x, fixed_point(next, trial))) {
+    const NaturalMap map(programme_, next, 0);
+    trial = map.at(trial.d, trial.share);
+    if (newton(map, trial, 25) || (trial = x, fixed_point(map, trial))) {
       strength = next;
       x = trial;
       step *= 2;
@@ -193,26 +247,34 @@ bool Cascade::continuation(Place &x) {
 }
 
 CoupledSolution Cascade::solve(const VectorXd &start) {
+  const NaturalMap strict(programme_, 1), with_shares(programme_, 1, 0);
+  const NaturalMap *map = &strict;
   Place x;
   ContactStage stage = ContactStage::newton;
   bool converged = find_by_newton(start, x);
   if (!converged) {
+    if (filled_from_any(start, x)) {
+      converged = true;
+      map = &with_shares;
+    }
+  }
+  if (!converged) {
     stage = ContactStage::fixed_point;
-    x = NaturalMap(programme_, 1).at(start);
-    converged = fixed_point(1, x);
+    x = strict.at(start);
+    converged = fixed_point(strict, x);
   }
   if (!converged) {
     stage = ContactStage::continuation;
     converged = continuation(x);
+    map = &with_shares;
   }
-  const NaturalMap map(programme_, 1);
-  x = map.at(x.d);
-  CoupledSolution found = map.solution(x);
+  x = map->at(x.d, x.share);
+  CoupledSolution found = map->solution(x);
   found.stage = stage;
   found.interface.iterations = iterations_;
   found.interface.converged = converged;
   if (!converged)
-    found.interface.unsettled = map.unsettled(x, settings_.tolerance);
+    found.interface.unsettled = map->unsettled(x, settings_.tolerance);
   return found;
 }
 

@@ -1,5 +1,6 @@
 #include "solve/interface_newton.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -28,13 +29,16 @@ class Iteration {
       : programme_(programme), d_(std::move(start)), may_be_singular_(!is_definite) {
     for (const ContactPoint &p : programme.points)
       curvature_.push_back(largest_eigenvalue(p));
+    may_yield_ = std::any_of(
+        programme.points.begin(), programme.points.end(),
+        [](const ContactPoint &p) { return p.law.normal() != nullptr && !p.law.has_kink(p.size); });
     update_residual_force();
   }
 
   void sweep(bool backwards);
   /// Solves one linear system; true when points came to stick on the way, so that the step after it
   /// is another one.
-  bool newton_step();
+  bool newton_step(bool ahead = false);
   void update_residual_force() { force_.noalias() = programme_.force - programme_.stiffness * d_; }
 
   /// Natural residual |lambda - P(lambda + r d)| of a point, as a nodal force.
@@ -44,6 +48,7 @@ class Iteration {
   InterfaceSolution solution() const;
   /// Whether the last linear system could be factorised.
   bool is_definite() const { return is_definite_; }
+  bool may_yield() const { return may_yield_; }
 
  private:
   double largest_eigenvalue(const ContactPoint &p) const;
@@ -56,11 +61,23 @@ class Iteration {
     double change = 0, round_off = 0;  // [J], the second by 1e-16
   };
   Dissipated dissipated(const VectorXd &next) const;
-  std::optional<VectorXd> newton_direction(const std::vector<std::size_t> &smooth) const;
+  Tangent model_place(std::size_t i, bool ahead) const;
+  std::optional<VectorXd> newton_direction(const std::vector<std::size_t> &smooth,
+                                           bool ahead) const;
   VectorXd truncated(const VectorXd &direction, double length, Turns turns) const {
     return truncated_step(programme_.points, d_, direction, length, turns);
   }
-  bool descends(const VectorXd &next) const;
+  struct Change {
+    double value = 0, round_off = 0;  // [J]
+  };
+  Change change_to(const VectorXd &next) const;
+  bool descends(const VectorXd &next) const {
+    const Change change = change_to(next);
+    return change.value <= change.round_off;
+  }
+  double slope(const VectorXd &direction, const VectorXd &resisted, double length) const;
+  double length_to_least(const VectorXd &direction) const;
+  void search(const VectorXd &direction, VectorXd &next) const;
   bool shorten(const VectorXd &direction, VectorXd &next) const;
 
   const InterfaceProgramme &programme_;
@@ -68,6 +85,7 @@ class Iteration {
   VectorXd force_;  // f - A d
   std::vector<double> curvature_;
   bool may_be_singular_;
+  bool may_yield_;  // a normal law has no kink, but a bend where the body begins to touch
   bool is_definite_ = true;
 };
 
@@ -150,8 +168,19 @@ Iteration::Dissipated Iteration::dissipated(const VectorXd &next) const {
   return sum;
 }
 
+// Where the point's Hessian is taken: at its slip, or, `ahead`, where its own problem would take a
+// point on a foundation that yields. That tells a point that stands at the bend on which side of it
+// the forces want it to be, and without it steps end at the same bends again and again.
+Tangent Iteration::model_place(std::size_t i, bool ahead) const {
+  const ContactPoint &p = programme_.points[i];
+  if (ahead && p.law.normal() != nullptr && !p.law.has_kink(p.size))
+    return (p.weight * trial(i) - friction_force(i)) / curvature_[i];
+  return d_.segment(p.offset, p.size);
+}
+
 // Nothing where the Hessian, positive definite by theory, is not so in its digits.
-std::optional<VectorXd> Iteration::newton_direction(const std::vector<std::size_t> &smooth) const {
+std::optional<VectorXd> Iteration::newton_direction(const std::vector<std::size_t> &smooth,
+                                                    bool ahead) const {
   std::vector<Index> entries;
   for (const std::size_t i : smooth)
     for (Index c = 0; c < programme_.points[i].size; ++c)
@@ -162,7 +191,7 @@ std::optional<VectorXd> Iteration::newton_direction(const std::vector<std::size_
   for (const std::size_t i : smooth) {
     const ContactPoint &p = programme_.points[i];
     const Tangent d = d_.segment(p.offset, p.size);
-    hessian.block(row, row, p.size, p.size) += p.weight * p.law.hessian(d);
+    hessian.block(row, row, p.size, p.size) += p.weight * p.law.hessian(model_place(i, ahead));
     descent.segment(row, p.size) -= p.weight * p.law.gradient(d);
     row += p.size;
   }
@@ -179,23 +208,65 @@ std::optional<VectorXd> Iteration::newton_direction(const std::vector<std::size_
   return direction;
 }
 
-// Whether the programme's value is not larger at `next`, up to the round-off of its own sum: near
-// the minimum the whole step must not be refused for that.
-bool Iteration::descends(const VectorXd &next) const {
+// Of the programme's value, and the round-off of its own sum: near the minimum the whole step must
+// not be refused for that.
+Iteration::Change Iteration::change_to(const VectorXd &next) const {
   const VectorXd change = next - d_;
   const VectorXd resisted = programme_.stiffness * change;
   const double work = force_.dot(change);
   const auto [more, round_off] = dissipated(next);
-  return change.dot(resisted) / 2 - work + more <= 1e-14 * (std::abs(work) + round_off);
+  return {change.dot(resisted) / 2 - work + more, 1e-14 * (std::abs(work) + round_off)};
 }
 
-bool Iteration::newton_step() {
+// Of the value along a direction that leaves points at their kinks where they are.
+double Iteration::slope(const VectorXd &direction, const VectorXd &resisted, double length) const {
+  double sum = length * direction.dot(resisted) - force_.dot(direction);
+  for (const ContactPoint &p : programme_.points) {
+    const Tangent along = direction.segment(p.offset, p.size);
+    if (!along.isZero(0))
+      sum += p.weight * p.law.gradient(d_.segment(p.offset, p.size) + length * along).dot(along);
+  }
+  return sum;
+}
+
+// Of a whole step or up to the first kink, where the value is convex and smooth.
+double Iteration::length_to_least(const VectorXd &direction) const {
+  constexpr int bisections = 40;
+  double low = 0, high = 1;
+  for (const ContactPoint &p : programme_.points)
+    high = std::min(high, length_to_turn(p, d_, direction, Turns::kinks_and_bends));
+  const VectorXd resisted = programme_.stiffness * direction;
+  if (slope(direction, resisted, high * (1 - 1e-14)) <= 0)
+    return high;
+  for (int k = 0; k < bisections; ++k) {
+    const double middle = (low + high) / 2;
+    (slope(direction, resisted, middle) <= 0 ? low : high) = middle;
+  }
+  return low;
+}
+
+// A foundation that yields answers more stiffly, or no more, beyond the bend where it begins to be
+// touched: what a step gains may be next to nothing, though it is not a loss.
+void Iteration::search(const VectorXd &direction, VectorXd &next) const {
+  constexpr double least_share = 0.1;
+  const double promised = -slope(direction, direction, 0) / 2;
+  const Change whole = change_to(next);
+  if (!(promised > 0) || whole.value <= -least_share * promised)
+    return;
+  const VectorXd exact = truncated(direction, length_to_least(direction), Turns::kinks_and_bends);
+  if (change_to(exact).value < whole.value)
+    next = exact;
+}
+
+bool Iteration::newton_step(bool ahead) {
   const std::vector<std::size_t> smooth = smooth_points();
-  const std::optional<VectorXd> found = newton_direction(smooth);
+  const std::optional<VectorXd> found = newton_direction(smooth, ahead);
   is_definite_ = found.has_value();
   if (!is_definite_)
     return false;
   VectorXd next = truncated(*found, 1, Turns::kinks);
+  if (may_yield_)
+    search(*found, next);
   if (!descends(next) && !shorten(*found, next))
     return false;  // round-off is all that is left of the step
   d_ = next;
@@ -285,6 +356,11 @@ InterfaceSolution minimise(const InterfaceProgramme &programme, VectorXd start,
     bool more = true;
     while (more && solved < settings.max_iterations) {
       more = iteration.newton_step();
+      ++solved;
+    }
+    if (iteration.may_yield() && iteration.is_definite() && solved < settings.max_iterations) {
+      iteration.update_residual_force();
+      iteration.newton_step(true);
       ++solved;
     }
   }

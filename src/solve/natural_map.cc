@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/shared_law.h"
 #include "larger.h"
 
 namespace tourmaline::solve {
@@ -30,17 +31,58 @@ double largest_eigenvalue(const MatrixXd &stiffness, const ContactPoint &p) {
 
 }  // namespace
 
-NaturalMap::NaturalMap(const CoupledProgramme &programme, double strength)
-    : convex_(programme.convex), couplings_(programme.couplings), strength_(strength) {
-  coupling_of_.assign(convex_.points.size(), -1);
-  for (std::size_t j = 0; j < couplings_.size(); ++j)
+NaturalMap::NaturalMap(const CoupledProgramme &programme, double strength,
+                       std::optional<double> ramp)
+    : convex_(programme.convex),
+      couplings_(programme.couplings),
+      strength_(strength),
+      coupling_of_(convex_.points.size(), -1),
+      ramp_(ramp) {
+  for (std::size_t j = 0; j < couplings_.size(); ++j) {
     coupling_of_[couplings_[j].slip] = static_cast<int>(j);
+    jump_.push_back(size_of_jump(couplings_[j]));
+  }
   for (const ContactPoint &p : convex_.points)
     curvature_.push_back(largest_eigenvalue(convex_.stiffness, p));
+  if (convex_.force.size() > 0)
+    largest_force_ = convex_.force.cwiseAbs().maxCoeff();
+}
+
+// None where the pressure is known, and where the contact cannot open.
+double NaturalMap::size_of_jump(const FrictionCoupling &coupling) const {
+  const ContactPoint &p = point(coupling.slip);
+  if (!coupling.normal || p.size == 0 || point(*coupling.normal).law.normal()->is_closed(-1))
+    return 0;
+  if (coupling.bound)
+    return p.weight * strength_ * coupling.bound->at(0, 0).bound;
+  const PointLaw &own = p.law.friction();
+  return p.weight * strength_ *
+         PointLaw(own.law()).dissipation(Tangent::Unit(p.size + own.held().size(), 0));
+}
+
+const FrictionCoupling *NaturalMap::coupling(std::size_t i) const {
+  return coupling_of_[i] < 0 ? nullptr : &couplings_[static_cast<std::size_t>(coupling_of_[i])];
+}
+
+bool NaturalMap::has_jumps() const {
+  return std::any_of(jump_.begin(), jump_.end(), [](double jump) { return jump > 0; });
 }
 
 NaturalMap::Place NaturalMap::at(VectorXd d) const {
-  Place x{std::move(d), {}};
+  Place x = at(std::move(d), VectorXd());
+  if (!ramp_)
+    return x;
+  x.share = VectorXd::Zero(static_cast<Index>(couplings_.size()));
+  for (std::size_t j = 0; j < couplings_.size(); ++j) {
+    const double touches = pressure(couplings_[j], x).is_closed ? 1 : 0;
+    x.share[static_cast<Index>(j)] =
+        jump_[j] == 0 || *ramp_ == 0 ? touches : std::clamp(normal_force(j, x) / *ramp_, 0., 1.);
+  }
+  return x;
+}
+
+NaturalMap::Place NaturalMap::at(VectorXd d, VectorXd share) const {
+  Place x{std::move(d), {}, std::move(share)};
   x.force = convex_.force - convex_.stiffness * x.d;
   return x;
 }
@@ -60,32 +102,63 @@ NaturalMap::Pressure NaturalMap::pressure(const FrictionCoupling &coupling, cons
   return {law.pressure(y, curvature_[n] / point(n).weight), law.is_closed(y)};
 }
 
+double NaturalMap::normal_force(std::size_t j, const Place &x) const {
+  const std::size_t n = *couplings_[j].normal;
+  return point(n).weight * trial(n, x)[0];
+}
+
+double NaturalMap::share(std::size_t j, const Place &x) const {
+  if (ramp_ && jump_[j] > 0)
+    return x.share[static_cast<Index>(j)];
+  return pressure(couplings_[j], x).is_closed ? 1 : 0;
+}
+
+// Before it is cut off at 0 and 1; a jump larger than all forces is none the less steep.
+double NaturalMap::share_wanted(std::size_t j, const Place &x) const {
+  const double s = share(j, x), scale = *ramp_ + std::min(jump_[j], largest_force_);
+  return s + (normal_force(j, x) - *ramp_ * s) / scale;
+}
+
+VectorXd NaturalMap::share_value(const Place &x) const {
+  VectorXd lacks = VectorXd::Zero(x.share.size());
+  for (std::size_t j = 0; j < couplings_.size() && ramp_; ++j)
+    if (jump_[j] > 0)
+      lacks[static_cast<Index>(j)] = (*ramp_ + std::min(jump_[j], largest_force_)) *
+                                     (share(j, x) - std::clamp(share_wanted(j, x), 0., 1.));
+  return lacks;
+}
+
 double NaturalMap::slip_size(std::size_t i, const Place &x) const {
   const ContactPoint &p = point(i);
   return std::hypot(x.d.segment(p.offset, p.size).norm(), p.law.held().norm());
 }
 
+// Of a point that carries all of it.
 FrictionBound::Value NaturalMap::bound(const FrictionCoupling &coupling, const Place &x) const {
-  const Pressure p = pressure(coupling, x);
-  if (!p.is_closed || !coupling.bound)
-    return {};
-  FrictionBound::Value value = coupling.bound->at(p.value, slip_size(coupling.slip, x));
+  FrictionBound::Value value =
+      coupling.bound->at(pressure(coupling, x).value, slip_size(coupling.slip, x));
   value.bound *= strength_;
   value.by_pressure *= strength_;
   value.by_slip *= strength_;
   return value;
 }
 
-PointLaw NaturalMap::friction(const FrictionCoupling &coupling, const Place &x) const {
+PointLaw NaturalMap::friction(std::size_t j, const Place &x, double share) const {
+  const FrictionCoupling &coupling = couplings_[j];
   const PointLaw &own = point(coupling.slip).law.friction();
-  if (!coupling.bound && pressure(coupling, x).is_closed)
-    return own;
-  return {Tresca{bound(coupling, x).bound}, own.held()};
+  if (share * strength_ == 0)
+    return {Tresca{0}, own.held()};
+  if (coupling.bound)
+    return {Tresca{share * bound(coupling, x).bound}, own.held()};
+  share *= strength_;
+  return share == 1 ? own : PointLaw{contact::shared(own.law(), share), own.held()};
 }
 
 LocalLaw NaturalMap::law(std::size_t i, const Place &x) const {
-  const int j = coupling_of_[i];
-  return j < 0 ? point(i).law : LocalLaw(friction(couplings_[static_cast<std::size_t>(j)], x));
+  if (coupling_of_[i] < 0)
+    return point(i).law;
+  const auto j = static_cast<std::size_t>(coupling_of_[i]);
+  return friction(j, x, share(j, x));
 }
 
 Tangent NaturalMap::point_value(std::size_t i, const Place &x) const {
@@ -106,6 +179,10 @@ double NaturalMap::merit(const Place &x) const {
   for (std::size_t i = 0; i < convex_.points.size(); ++i)
     if (point(i).size > 0)
       sum += point_value(i, x).squaredNorm() / (curvature_[i] * curvature_[i]);
+  const VectorXd shares = share_value(x);
+  for (Index j = 0; j < shares.size(); ++j)
+    if (shares[j] != 0)
+      sum += std::pow(shares[j] / curvature_[*couplings_[static_cast<std::size_t>(j)].normal], 2);
   return sum;
 }
 
@@ -113,6 +190,8 @@ double NaturalMap::residual(const Place &x) const {
   double largest = 0;
   for (std::size_t i = 0; i < convex_.points.size(); ++i)
     largest = larger(largest, point_value(i, x).norm());
+  for (const double lack : share_value(x))
+    largest = larger(largest, std::abs(lack));
   return relative_to(largest, size_of_forces(convex_, x.d));
 }
 
@@ -125,95 +204,143 @@ std::vector<std::size_t> NaturalMap::unsettled(const Place &x, double tolerance)
   return points;
 }
 
-// The ball's traction grows with its radius along itself; with known components of the slip its
-// difference quotient says how.
-Tangent NaturalMap::by_bound(std::size_t i, const Branch &branch, const Place &x) const {
-  const PointLaw law = this->law(i, x).friction();
-  const double r = curvature_[i] / point(i).weight;
-  const double b = branch.bound.bound, more = b == 0 ? 1 : b * (1 + 1e-6);
-  const PointLaw larger_law{Tresca{more}, law.held()};
-  return (larger_law.traction(branch.trial, r) - law.traction(branch.trial, r)) / (more - b);
+// Difference quotients, which serve with known components of the slip, too; without these the
+// traction of a ball is linear in its radius.
+void NaturalMap::add_coupling(std::size_t j, const Place &x, Branch &branch) const {
+  constexpr double more = 1e-6;
+  const std::size_t i = couplings_[j].slip;
+  const Tangent y = trial(i, x);
+  const double r = curvature_[i] / point(i).weight, s = share(j, x);
+  const Tangent now = friction(j, x, s).traction(y, r);
+  if (ramp_ && jump_[j] > 0)
+    branch.by_share = (friction(j, x, s + more).traction(y, r) - now) / more;
+  if (!couplings_[j].bound || s == 0)
+    return;
+  const FrictionBound::Value value = bound(couplings_[j], x);
+  const double b = s * value.bound, wider = b == 0 ? 1 : b * (1 + more);
+  const PointLaw wide{Tresca{wider}, point(i).law.held()};
+  const Tangent by_bound = (wide.traction(y, r) - now) / (wider - b);
+  branch.by_pressure = s * value.by_pressure * by_bound;
+  branch.by_slip = s * value.by_slip * by_bound;
 }
 
 NaturalMap::Branch NaturalMap::branch(std::size_t i, const Place &x) const {
   const ContactPoint &p = point(i);
-  const LocalLaw law = this->law(i, x);
   Branch found;
-  found.trial = trial(i, x);
-  found.derivative = law.traction_derivative(found.trial, curvature_[i] / p.weight);
-  found.by_bound = Tangent::Zero(p.size);
-  if (const int j = coupling_of_[i]; j >= 0) {
-    found.bound = bound(couplings_[static_cast<std::size_t>(j)], x);
-    if (!found.derivative.isIdentity(0) &&
-        (found.bound.by_pressure != 0 || found.bound.by_slip != 0))
-      found.by_bound = by_bound(i, found, x);
-  }
+  found.derivative = law(i, x).traction_derivative(trial(i, x), curvature_[i] / p.weight);
   found.is_held = p.size > 0 && found.derivative.isIdentity(0);
+  found.by_pressure = found.by_slip = found.by_share = Tangent::Zero(p.size);
+  if (coupling_of_[i] >= 0 && p.size > 0 && !found.is_held)
+    add_coupling(static_cast<std::size_t>(coupling_of_[i]), x, found);
   return found;
 }
 
-// Rows of F' = (I - D) lambda' - D c - w T_b b', lambda' = -A, for the points that are not held.
-VectorXd NaturalMap::newton_direction(const Place &x) const {
-  const MatrixXd &stiffness = convex_.stiffness;
-  std::vector<Branch> branches;
-  std::vector<Index> entries;
-  VectorXd direction = VectorXd::Zero(x.d.size());
+// Held points and shares at 0 or 1 go there at once.
+NaturalMap::Unknowns NaturalMap::unknowns(const Place &x) const {
+  Unknowns u;
+  u.d = VectorXd::Zero(x.d.size());
+  u.share = VectorXd::Zero(x.share.size());
   for (std::size_t i = 0; i < convex_.points.size(); ++i) {
     const ContactPoint &p = point(i);
-    branches.push_back(branch(i, x));
-    for (Index c = 0; c < p.size; ++c)
-      if (branches.back().is_held)
-        direction[p.offset + c] = -x.d[p.offset + c];
+    u.branches.push_back(branch(i, x));
+    for (Index c = p.offset; c < p.offset + p.size; ++c)
+      if (u.branches.back().is_held)
+        u.d[c] = -x.d[c];
       else
-        entries.push_back(p.offset + c);
+        u.entries.push_back(c);
   }
-  const VectorXd resisted =
-      direction.isZero(0) ? VectorXd(VectorXd::Zero(x.d.size())) : VectorXd(stiffness * direction);
-  const auto n = static_cast<Index>(entries.size());
-  MatrixXd jacobian(n, n);
-  VectorXd right_side(n);
-  Index row = 0;
-  for (std::size_t i = 0; i < convex_.points.size(); ++i) {
-    const ContactPoint &p = point(i);
-    if (branches[i].is_held || p.size == 0)
+  for (std::size_t j = 0; j < couplings_.size() && ramp_; ++j) {
+    if (jump_[j] == 0)
       continue;
-    const Branch &at = branches[i];
-    const TangentMatrix free = TangentMatrix::Identity(p.size, p.size) - at.derivative;
-    const MatrixXd rows = stiffness.middleRows(p.offset, p.size)(Eigen::all, entries);
-    jacobian.middleRows(row, p.size) = -free * rows;
-    TangentMatrix own = -curvature_[i] * at.derivative;
-    right_side.segment(row, p.size) =
-        -point_value(i, x) + free * resisted.segment(p.offset, p.size);
-    if (at.bound.by_slip != 0) {
-      const Tangent d = x.d.segment(p.offset, p.size);
-      if (const double size = slip_size(i, x); size > 0)
-        own -= p.weight * at.bound.by_slip / size * at.by_bound * d.transpose();
-    }
-    jacobian.block(row, row, p.size, p.size) += own;
-    if (const int j = coupling_of_[i];
-        j >= 0 && at.bound.by_pressure != 0 && couplings_[static_cast<std::size_t>(j)].normal) {
-      // w dp = D_n (lambda_n' + c_n dd_n)
-      const std::size_t k = *couplings_[static_cast<std::size_t>(j)].normal;
-      const ContactPoint &normal = point(k);
-      const Tangent by_force = p.weight / normal.weight * at.bound.by_pressure *
-                               branches[k].derivative(0, 0) * at.by_bound;
-      jacobian.middleRows(row, p.size) += by_force * stiffness.row(normal.offset)(entries).matrix();
-      const double known = -resisted[normal.offset] + curvature_[k] * direction[normal.offset];
-      right_side.segment(row, p.size) += by_force * known;
-      if (const auto found = std::lower_bound(entries.begin(), entries.end(), normal.offset);
-          found != entries.end() && *found == normal.offset)
-        jacobian.block(row, found - entries.begin(), p.size, 1) -= by_force * curvature_[k];
-    }
-    row += p.size;
+    if (const double wanted = share_wanted(j, x); wanted > 0 && wanted < 1)
+      u.shares.push_back(j);
+    else
+      u.share[static_cast<Index>(j)] = (wanted > 0 ? 1 : 0) - share(j, x);
   }
-  if (n == 0)
-    return direction;
-  const Eigen::PartialPivLU<MatrixXd> factor(jacobian);
-  const VectorXd solved = factor.solve(right_side);
-  if (!solved.allFinite())
-    return {};
-  direction(entries) = solved;
+  return u;
+}
+
+// F' = (I - D) lambda' - c D - w (T_p p' + T_s |d|' + T_s s'), lambda' = -A.
+void NaturalMap::fill_point(std::size_t i, const Place &x, const Unknowns &u, Index row,
+                            Rows &rows) const {
+  const ContactPoint &p = point(i);
+  const Branch &at = u.branches[i];
+  auto by_d = rows.by_d.middleRows(row, p.size);
+  by_d = (at.derivative - TangentMatrix::Identity(p.size, p.size)) *
+         convex_.stiffness.middleRows(p.offset, p.size);
+  by_d.middleCols(p.offset, p.size) -= curvature_[i] * at.derivative;
+  rows.right_side.segment(row, p.size) = -point_value(i, x);
+  const FrictionCoupling *coupling = this->coupling(i);
+  if (coupling == nullptr)
+    return;
+  if (const double size = slip_size(i, x); size > 0)
+    by_d.middleCols(p.offset, p.size) -=
+        p.weight / size * at.by_slip * x.d.segment(p.offset, p.size).transpose();
+  if (coupling->normal && !at.by_pressure.isZero(0)) {
+    // w p' = D (lambda' + c delta') at the normal's point
+    const std::size_t n = *coupling->normal;
+    const Tangent by_force =
+        p.weight / point(n).weight * u.branches[n].derivative(0, 0) * at.by_pressure;
+    by_d += by_force * convex_.stiffness.row(point(n).offset);
+    by_d.col(point(n).offset) -= curvature_[n] * by_force;
+  }
+  const auto j = static_cast<std::size_t>(coupling_of_[i]);
+  if (ramp_)
+    rows.right_side.segment(row, p.size) += p.weight * u.share[static_cast<Index>(j)] * at.by_share;
+  if (const auto k = std::find(u.shares.begin(), u.shares.end(), j); k != u.shares.end())
+    rows.by_share.block(row, k - u.shares.begin(), p.size, 1) = -p.weight * at.by_share;
+}
+
+// y - e s = 0, y' = lambda' + c delta'.
+void NaturalMap::fill_share(std::size_t k, const Place &x, const Unknowns &u, Index row,
+                            Rows &rows) const {
+  const std::size_t j = u.shares[k], n = *couplings_[j].normal;
+  rows.by_d.row(row) = -convex_.stiffness.row(point(n).offset);
+  rows.by_d(row, point(n).offset) += curvature_[n];
+  rows.by_share(row, static_cast<Index>(k)) = -*ramp_;
+  rows.right_side[row] = *ramp_ * share(j, x) - normal_force(j, x);
+}
+
+NaturalMap::Rows NaturalMap::rows(const Place &x, const Unknowns &u) const {
+  const auto n_shares = static_cast<Index>(u.shares.size());
+  const Index n = static_cast<Index>(u.entries.size()) + n_shares;
+  Rows all{MatrixXd(n, x.d.size()), MatrixXd::Zero(n, n_shares), VectorXd(n)};
+  Index row = 0;
+  for (std::size_t i = 0; i < convex_.points.size(); ++i)
+    if (!u.branches[i].is_held && point(i).size > 0) {
+      fill_point(i, x, u, row, all);
+      row += point(i).size;
+    }
+  for (std::size_t k = 0; k < u.shares.size(); ++k)
+    fill_share(k, x, u, row++, all);
+  return all;
+}
+
+std::optional<NaturalMap::Direction> NaturalMap::newton_direction(const Place &x) const {
+  const Unknowns u = unknowns(x);
+  Direction direction{u.d, {}, u.share};
+  const auto n_entries = static_cast<Index>(u.entries.size());
+  if (const auto n_shares = static_cast<Index>(u.shares.size()); n_entries + n_shares > 0) {
+    const Rows all = rows(x, u);
+    MatrixXd jacobian(all.right_side.size(), n_entries + n_shares);
+    jacobian << all.by_d(Eigen::all, u.entries), all.by_share;
+    const VectorXd solved = jacobian.partialPivLu().solve(all.right_side - all.by_d * direction.d);
+    if (!solved.allFinite())
+      return std::nullopt;
+    direction.d(u.entries) = solved.head(n_entries);
+    for (Index k = 0; k < n_shares; ++k)
+      direction.share[static_cast<Index>(u.shares[static_cast<std::size_t>(k)])] =
+          solved[n_entries + k];
+  }
+  direction.resisted = convex_.stiffness * direction.d;
   return direction;
+}
+
+// A whole step ends at a share that is one.
+NaturalMap::Place NaturalMap::along(const Place &x, const Direction &direction,
+                                    double length) const {
+  return {x.d + length * direction.d, x.force - length * direction.resisted,
+          (x.share + length * direction.share).cwiseMax(0).cwiseMin(1)};
 }
 
 // What a point's trial value exceeds its border by; it changes its branch where this changes its
@@ -227,24 +354,48 @@ double NaturalMap::excess(std::size_t i, const Place &x) const {
   return (y - law(i, x).traction(y, r)).norm() - 1e-14 * y.norm();
 }
 
-std::vector<double> NaturalMap::turns(const Place &x, const VectorXd &direction,
-                                      const VectorXd &resisted) const {
+// Of `moving` the entries that the point's branch depends on are those of the place on the way.
+// More than 1 where it does not turn.
+double NaturalMap::length_to_turn(std::size_t i, const Place &x, const Direction &direction,
+                                  Place &moving) const {
+  const auto excess_at = [&](double t) {
+    const auto move = [&](const ContactPoint &p) {
+      const auto along = Eigen::seqN(p.offset, p.size);
+      moving.d(along) = x.d(along) + t * direction.d(along);
+      moving.force(along) = x.force(along) - t * direction.resisted(along);
+    };
+    move(point(i));
+    if (const FrictionCoupling *coupling = this->coupling(i); coupling && coupling->normal)
+      move(point(*coupling->normal));
+    return excess(i, moving);
+  };
+  const bool start = excess_at(0) > 0;
+  if (start == (excess_at(1) > 0))
+    return 2;
   constexpr int bisections = 20;
-  const auto along = [&](double t) { return Place{x.d + t * direction, x.force - t * resisted}; };
-  const Place whole = along(1);
-  std::vector<double> lengths;
-  for (std::size_t i = 0; i < convex_.points.size(); ++i) {
-    if (point(i).size == 0 || (excess(i, x) > 0) == (excess(i, whole) > 0))
-      continue;
-    const bool start = excess(i, x) > 0;
-    double low = 0, high = 1;
-    for (int k = 0; k < bisections; ++k) {
-      const double middle = (low + high) / 2;
-      (((excess(i, along(middle)) > 0) == start) ? low : high) = middle;
-    }
-    lengths.push_back(high);
+  double low = 0, high = 1;
+  for (int k = 0; k < bisections; ++k) {
+    const double middle = (low + high) / 2;
+    (((excess_at(middle) > 0) == start) ? low : high) = middle;
   }
-  return lengths;
+  return high;
+}
+
+std::vector<double> NaturalMap::turns(const Place &x, const Direction &direction) const {
+  constexpr std::size_t most = 20;
+  Place moving = x;
+  std::vector<double> lengths;
+  for (std::size_t i = 0; i < convex_.points.size(); ++i)
+    if (point(i).size > 0)
+      if (const double length = length_to_turn(i, x, direction, moving); length <= 1)
+        lengths.push_back(length);
+  std::sort(lengths.begin(), lengths.end());
+  if (lengths.size() <= most)
+    return lengths;
+  std::vector<double> some;
+  for (std::size_t k = 0; k < most; ++k)
+    some.push_back(lengths[k * (lengths.size() - 1) / (most - 1)]);
+  return some;
 }
 
 NaturalMap::Place NaturalMap::settled(const Place &x) const {
@@ -252,13 +403,32 @@ NaturalMap::Place NaturalMap::settled(const Place &x) const {
   for (std::size_t i = 0; i < convex_.points.size(); ++i)
     if (branch(i, x).is_held)
       exact.d.segment(point(i).offset, point(i).size).setZero();
-  return exact.d == x.d ? x : at(exact.d);
+  return exact.d == x.d ? x : at(exact.d, exact.share);
 }
 
 std::vector<PointLaw> NaturalMap::friction_at(const Place &x) const {
   std::vector<PointLaw> laws;
-  for (const FrictionCoupling &coupling : couplings_)
-    laws.push_back(friction(coupling, x));
+  for (std::size_t j = 0; j < couplings_.size(); ++j)
+    laws.push_back(friction(j, x, share(j, x)));
+  return laws;
+}
+
+VectorXd NaturalMap::bounds(const Place &x) const {
+  VectorXd all(static_cast<Index>(couplings_.size()));
+  for (std::size_t j = 0; j < couplings_.size(); ++j)
+    all[static_cast<Index>(j)] =
+        share(j, x) * (couplings_[j].bound ? bound(couplings_[j], x).bound : 1);
+  return all;
+}
+
+std::vector<PointLaw> NaturalMap::friction_at(const Place &x, const VectorXd &bounds) const {
+  std::vector<PointLaw> laws;
+  for (std::size_t j = 0; j < couplings_.size(); ++j) {
+    const PointLaw &own = point(couplings_[j].slip).law.friction();
+    const double given = bounds[static_cast<Index>(j)];
+    laws.push_back(couplings_[j].bound ? PointLaw{Tresca{given}, own.held()}
+                                       : friction(j, x, std::min(given, 1.)));
+  }
   return laws;
 }
 
@@ -276,8 +446,11 @@ CoupledSolution NaturalMap::solution(const Place &x) const {
   }
   found.interface.residual = residual(x);
   found.friction = friction_at(x);
-  for (const FrictionCoupling &coupling : couplings_)
-    found.pressure.push_back(pressure(coupling, x).value);
+  for (std::size_t j = 0; j < couplings_.size(); ++j) {
+    found.pressure.push_back(pressure(couplings_[j], x).value);
+    if (jump_[j] > 0 && share(j, x) > 0)  // it touches, whatever round-off says
+      found.interface.status[*couplings_[j].normal] = ContactStatus::stick;
+  }
   return found;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <optional>
 #include <vector>
 
 #include "solve/coupled_programme.h"
@@ -13,31 +14,48 @@ namespace tourmaline::solve {
 ///
 /// r_i w_i the largest curvature of the point's own block of A. It is zero at solutions, and
 /// piecewise smooth. `strength` times the friction bounds are meant.
+///
+/// Where a point begins to touch, its bound jumps from zero to what it is without pressure
+/// (cohesion, all of Tresca's). If closing brings the friction that opens the point again, neither
+/// is a solution. The bound is then a share s of what it is, between 0 and 1, at delta = 0 and p =
+/// 0: the graph of the jump is filled, so that there is a solution. With a `ramp` e [N] >= 0 the
+/// shares are unknowns of their own, with the trial force y along the normal
+///
+///     s = 0 and y <= 0,   or   y = e s,   or   s = 1 and y >= e.
 class NaturalMap {
  public:
-  NaturalMap(const CoupledProgramme &programme, double strength);
+  NaturalMap(const CoupledProgramme &programme, double strength, std::optional<double> ramp = {});
 
-  /// d and f - A d.
+  /// d and f - A d, and by coupling s, without a ramp nothing.
   struct Place {
-    Eigen::VectorXd d, force;
+    Eigen::VectorXd d, force, share;
   };
   Place at(Eigen::VectorXd d) const;
+  /// With the shares given.
+  Place at(Eigen::VectorXd d, Eigen::VectorXd share) const;
+  /// Whether any bound jumps.
+  bool has_jumps() const;
 
   Eigen::VectorXd value(const Place &x) const;  ///< F [N]
+  /// What the shares lack of the relation above [N].
+  Eigen::VectorXd share_value(const Place &x) const;
   /// |F|^2, each point's part over its curvature [m^2].
   double merit(const Place &x) const;
   /// The largest |F_i| over the size of the forces.
   double residual(const Place &x) const;
   std::vector<std::size_t> unsettled(const Place &x, double tolerance) const;
 
-  /// Newton's direction for d; empty where the linear system cannot be solved. Points that are held
-  /// go there at once and take no part in it.
-  Eigen::VectorXd newton_direction(const Place &x) const;
+  struct Direction {
+    Eigen::VectorXd d, resisted, share;  // resisted = A d
+  };
+  /// Newton's; nothing where the linear system cannot be solved. Points that are held go there at
+  /// once and take no part in it.
+  std::optional<Direction> newton_direction(const Place &x) const;
+  Place along(const Place &x, const Direction &direction, double length) const;
 
-  /// Lengths between 0 and 1 at which a point changes its branch on the way from x along a
-  /// direction, `resisted` = A direction.
-  std::vector<double> turns(const Place &x, const Eigen::VectorXd &direction,
-                            const Eigen::VectorXd &resisted) const;
+  /// Lengths between 0 and 1 at which points change their branch on the way from x; at most some
+  /// twenty, in ascending order.
+  std::vector<double> turns(const Place &x, const Direction &direction) const;
 
   /// Held points put exactly where they are held.
   Place settled(const Place &x) const;
@@ -45,38 +63,68 @@ class NaturalMap {
   CoupledSolution solution(const Place &x) const;
   /// The friction laws with the bounds that hold at x.
   std::vector<contact::PointLaw> friction_at(const Place &x) const;
+  /// By coupling what friction at x depends on: the bound [N/m^2], or the share of the point's own
+  /// law that holds; and the friction laws with such numbers given.
+  Eigen::VectorXd bounds(const Place &x) const;
+  std::vector<contact::PointLaw> friction_at(const Place &x, const Eigen::VectorXd &bounds) const;
 
  private:
   struct Pressure {
     double value = 0;
     bool is_closed = false;
   };
-  /// A point's law as it is at x, and what its bound depends on.
+  /// A point's law as it is at x, and how its traction depends on what is not its own trial value.
   struct Branch {
-    contact::Tangent trial;  // [N/m^2]
     contact::TangentMatrix derivative;
-    contact::Tangent by_bound;  // of the traction
-    contact::FrictionBound::Value bound;
+    contact::Tangent by_pressure, by_slip, by_share;
     bool is_held = false;  // the row is that of d = 0
+  };
+  /// Of a direction what is known beforehand, and what is asked for: entries of d and shares.
+  struct Unknowns {
+    std::vector<Branch> branches;
+    std::vector<Eigen::Index> entries;
+    std::vector<std::size_t> shares;  // couplings
+    Eigen::VectorXd d, share;
+  };
+  /// F' d = -F, and beside it the columns of the shares that are asked for.
+  struct Rows {
+    Eigen::MatrixXd by_d, by_share;
+    Eigen::VectorXd right_side;
   };
 
   const ContactPoint &point(std::size_t i) const { return convex_.points[i]; }
+  const FrictionCoupling *coupling(std::size_t i) const;
+  double size_of_jump(const FrictionCoupling &coupling) const;
   contact::Tangent trial(std::size_t i, const Place &x) const;
+  double normal_force(std::size_t j, const Place &x) const;
   Pressure pressure(const FrictionCoupling &coupling, const Place &x) const;
+  double share(std::size_t j, const Place &x) const;
+  double share_wanted(std::size_t j, const Place &x) const;
   contact::LocalLaw law(std::size_t i, const Place &x) const;
-  contact::PointLaw friction(const FrictionCoupling &coupling, const Place &x) const;
+  contact::PointLaw friction(std::size_t j, const Place &x, double share) const;
   contact::FrictionBound::Value bound(const FrictionCoupling &coupling, const Place &x) const;
   double slip_size(std::size_t i, const Place &x) const;
   contact::Tangent point_value(std::size_t i, const Place &x) const;
   Branch branch(std::size_t i, const Place &x) const;
-  contact::Tangent by_bound(std::size_t i, const Branch &branch, const Place &x) const;
+  void add_coupling(std::size_t j, const Place &x, Branch &branch) const;
+  Unknowns unknowns(const Place &x) const;
+  void fill_point(std::size_t i, const Place &x, const Unknowns &u, Eigen::Index row,
+                  Rows &rows) const;
+  void fill_share(std::size_t k, const Place &x, const Unknowns &u, Eigen::Index row,
+                  Rows &rows) const;
+  Rows rows(const Place &x, const Unknowns &u) const;
   double excess(std::size_t i, const Place &x) const;
+  double length_to_turn(std::size_t i, const Place &x, const Direction &direction,
+                        Place &moving) const;
 
   const InterfaceProgramme &convex_;
   const std::vector<FrictionCoupling> &couplings_;
   double strength_;
   std::vector<double> curvature_;  // by point [N/m]
   std::vector<int> coupling_of_;   // by point; -1: none
+  std::optional<double> ramp_;
+  std::vector<double> jump_;  // by coupling: of the bound, where its point begins to touch [N]
+  double largest_force_ = 0;  // of f [N]
 };
 
 }  // namespace tourmaline::solve
