@@ -114,7 +114,7 @@ typename Balance<dim>::Columns Balance<dim>::step(double time, std::span<const d
   };
   Step step = step_from(std::move(before_), is_refined);
   Columns columns = columns_of(step);
-  const bool balances = std::all_of(judged_.begin(), judged_.end(), [](const auto &imbalance) {
+  const bool balances = std::all_of(judged_.begin(), judged_.end(), [&](const auto &imbalance) {
     return std::abs(imbalance.second) <=
            (has_foundation_columns() ? unquestioned_beside_it : unquestioned);
   });

@@ -117,8 +117,9 @@ CondensedRoute<dim>::CondensedRoute(const Model<dim> &model)
 template <int dim>
 double CondensedRoute<dim>::error_of_slips() const {
   double error = 0;
-  if (parallel::is_first() && slip_stiffness_.size() > 0 && left_to_contact_.empty()) {
-    const Eigen::LLT<MatrixXd> factor(slip_stiffness_);
+  const std::vector<Index> entries = contact_ ? contact_->movable() : std::vector<Index>{};
+  if (parallel::is_first() && !entries.empty() && left_to_contact_.empty()) {
+    const Eigen::LLT<MatrixXd> factor(slip_stiffness_(entries, entries));
     error = factor.info() == Eigen::Success
                 ? std::numeric_limits<double>::epsilon() / factor.rcond()
                 : std::numeric_limits<double>::infinity();

@@ -61,6 +61,18 @@ void ContactNodes<dim>::add_slip(std::size_t i, std::vector<Eigen::Triplet<doubl
 }
 
 template <int dim>
+std::vector<Index> ContactNodes<dim>::movable() const {
+  std::vector<Index> entries;
+  for (const Node &node : nodes_) {
+    if (node.normal != none && model_.laws->can_open())
+      entries.push_back(points_[node.normal].offset);
+    for (Index k = 0; k < points_[node.slip].size; ++k)
+      entries.push_back(points_[node.slip].offset + k);
+  }
+  return entries;
+}
+
+template <int dim>
 typename ContactNodes<dim>::Vector ContactNodes<dim>::displacement(std::span<const double> state,
                                                                    std::size_t i) const {
   return Vector::Map(&state[body::unknown<dim>(model_.interface[i].node, 0)]);

@@ -34,6 +34,8 @@ class ContactNodes {
   bool is_coupled() const { return !couplings_.empty(); }
   Eigen::Index n_unknowns() const { return n_; }
   const std::vector<ContactPoint> &points() const { return points_; }
+  /// Entries of z that are not held at zero whatever happens: all but those of bilateral normals.
+  std::vector<Eigen::Index> movable() const;
   const std::vector<FrictionCoupling> &couplings() const { return couplings_; }
   std::size_t node_of(std::size_t point) const { return node_of_[point]; }
 

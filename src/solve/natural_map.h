@@ -117,7 +117,7 @@ class NaturalMap {
   double length_to_turn(std::size_t i, const Place &x, const Direction &direction,
                         Place &moving) const;
 
-  const InterfaceProgramme &convex_;
+  const InterfaceProgramme convex_;  // refers to what is not its own
   const std::vector<FrictionCoupling> &couplings_;
   double strength_;
   std::vector<double> curvature_;  // by point [N/m]

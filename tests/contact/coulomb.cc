@@ -30,12 +30,18 @@ TEST(Coulomb, BeyondTheLimitThePressureDecidesNothing) {
 }
 
 TEST(Coulomb, WithoutPressureOnlyCohesionIsLeft) {
-  for (const double p : {0., -10.}) {
-    const FrictionBound::Value at = Coulomb({0.4, 0.2, 1e-3, 0, 1}, 5).at(p, 1e-4);
-    EXPECT_EQ(at.bound, 5);
-    EXPECT_EQ(at.by_pressure, 0);
-    EXPECT_EQ(at.by_slip, 0);
-  }
+  EXPECT_EQ(Coulomb(constant(0.4), 5).at(0, 1e-4).bound, 5);
+}
+
+// As bilateral contact may be.
+TEST(Coulomb, PulledItHasLessAndAtLeastNothing) {
+  const Coulomb law(constant(0.25), 5);
+  EXPECT_EQ(law.at(-8, 1e-4).bound, 3);
+  EXPECT_EQ(law.at(-8, 1e-4).by_pressure, 0.25);
+  const FrictionBound::Value none = law.at(-40, 1e-4);
+  EXPECT_EQ(none.bound, 0);
+  EXPECT_EQ(none.by_pressure, 0);
+  EXPECT_EQ(none.by_slip, 0);
 }
 
 TEST(Coulomb, ALimitAtTheCohesionIsTrescasBound) {
