@@ -42,8 +42,8 @@ struct Grid {
 /// Takes out of a grid the points that none of its cells uses; returns which are left, ascending.
 std::vector<std::uint32_t> keep_used_points(Grid &grid);
 
-/// A part of the boundary that has a name, its facets by their nodes: corners in a circle; a line
-/// from end to end, with its middle node if it has one.
+/// A part of the boundary that has a name, its facets by their nodes: corners in a circle, then the
+/// middles of sides and faces of degree 2; a line from end to end, its middle node between.
 struct NamedBoundary {
   std::string name;
   std::vector<std::vector<std::uint32_t>> facets;

@@ -142,6 +142,19 @@ std::map<std::string, std::uint64_t> file_sizes(const fs::path &directory) {
   return sizes;
 }
 
+std::vector<std::string> field_files(int step, int pieces) {
+  std::vector<std::string> names;
+  for (int i = 0; i < pieces; ++i)
+    names.push_back(piece_name(step, i, pieces));
+  if (pieces > 1)
+    names.push_back(fmt::format("result_{:04}.pvtu", step));
+  return names;
+}
+
+std::string contact_field_file(int step) {
+  return fmt::format("{}{:04}.vtu", of_contact, step);
+}
+
 ResultFolder::ResultFolder(fs::path directory, int dimension, Piece piece,
                            std::unique_ptr<FolderLock> lock)
     : directory_(std::move(directory)),
@@ -207,18 +220,12 @@ void ResultFolder::put_fields(int step, double time, const Grid &grid, const Poi
 }
 
 void ResultFolder::list_fields(int step, double time) {
-  std::string name = piece_name(step, 0, 1);
-  if (piece_.count > 1) {
-    std::vector<std::string> pieces;
-    pieces.reserve(piece_.count);
-    for (int i = 0; i < piece_.count; ++i)
-      pieces.push_back(piece_name(step, i, piece_.count));
-    unsynced_.insert(unsynced_.end(), pieces.begin(), pieces.end());
-    name = fmt::format("result_{:04}.pvtu", step);
-    write_file(directory_ / name, pvtu_text(time, pieces, optional_));
-  }
-  series_.push_back({time, name});
-  unsynced_.push_back(name);
+  const std::vector<std::string> names = field_files(step, piece_.count);
+  if (piece_.count > 1)
+    write_file(directory_ / names.back(),
+               pvtu_text(time, {names.begin(), names.end() - 1}, optional_));
+  unsynced_.insert(unsynced_.end(), names.begin(), names.end());
+  series_.push_back({time, names.back()});
   write_file(directory_ / "result.pvd", pvd_text(series_));
 }
 
@@ -233,7 +240,7 @@ void ResultFolder::put_contact_fields(int step, double time, const ContactFacets
                                       std::span<const ContactRow> rows) {
   if (!contact_surface_)
     contact_surface_.emplace(dimension_, rows, facets);
-  const std::string name = fmt::format("{}{:04}.vtu", of_contact, step);
+  const std::string name = contact_field_file(step);
   contact_surface_->write(directory_ / name, time, rows);
   contact_series_.push_back({time, name});
   unsynced_.push_back(name);

@@ -34,6 +34,11 @@ void require_position(const std::filesystem::path &directory, const FolderPositi
 /// contact's as "contact_*".
 std::map<std::string, std::uint64_t> file_sizes(const std::filesystem::path &directory);
 
+/// The names of a step's field files: of several pieces each of them and the one that joins them.
+std::vector<std::string> field_files(int step, int pieces);
+/// And that of its contact's.
+std::string contact_field_file(int step);
+
 /// The folder that a run leaves behind, and has for itself meanwhile. Every file in it is whole at
 /// every moment: one that is being written is called NAME.part. Whatever fails to be written is a
 /// MachineError with the file's name and the reason. In a parallel run every rank has one, in turn:

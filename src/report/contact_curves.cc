@@ -154,11 +154,13 @@ std::vector<fs::path> write_contact_curves(const Result &result, const std::stri
   const bool several = result.contact_pieces.size() > 1;
   std::vector<fs::path> files;
   for (const ContactPiece &piece : result.contact_pieces) {
-    const std::string moment =
-        (several ? " on " + piece.name : "") + ", t = " + number_text((*times)[first], 4) + " s";
+    const std::string moment = ", t = " + number_text((*times)[first], 4) + " s";
     const std::string number = several ? fmt::format("_{}", files.size() + 1) : "";
     files.push_back(directory / fmt::format("contact_{}{}.{}", column, number, name_of(format)));
-    write_plot(plot_of(piece, values, first, title + moment, unit), format, files.back());
+    Plot plot = plot_of(piece, values, first, title + moment, unit);
+    if (several)
+      plot.abscissa_name += " on " + piece.name;
+    write_plot(plot, format, files.back());
   }
   return files;
 }

@@ -1,10 +1,11 @@
 #include "report/legend.h"
 
-#include "tourmaline/case/case.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
+
+#include "report/number_text.h"
+#include "tourmaline/case/case.h"
 
 namespace tourmaline::report {
 namespace {
@@ -29,12 +30,25 @@ std::string traction_text(const casefile::FormulaVector &components) {
   return fmt::format("σν = ({}) N/m²", list);
 }
 
+/// A constant with its power of ten, or the formula.
+std::string text_of(const Formula &formula) {
+  const bool is_constant = !formula.depends_on_time() && !formula.depends_on_place();
+  return is_constant ? number_text(formula.value({}, 0), 6) : formula.text();
+}
+
+std::string compliance_text(const casefile::NormalCase &normal) {
+  const std::string c = text_of(normal.coefficient);
+  if (normal.exponent == 1)
+    return fmt::format("compliance, p = c (u_ν − g)₊, c = {} N/m³", c);
+  return fmt::format("compliance, p = c (u_ν − g)₊^{}, c = {} N/m^{}", normal.exponent, c,
+                     2 + normal.exponent);
+}
+
 std::string normal_text(const casefile::NormalCase &normal) {
   if (normal.law == "compliance")
-    return fmt::format("compliance, p = c d₊^{}, c = {} N/m^(2+m)", normal.exponent,
-                       normal.coefficient.text());
+    return compliance_text(normal);
   if (normal.law == "damped")
-    return fmt::format("damped contact, c = {} N s/m³", normal.coefficient.text());
+    return fmt::format("damped contact, c = {} N s/m³", text_of(normal.coefficient));
   return normal.law + " contact";
 }
 
@@ -43,7 +57,7 @@ std::string coefficient_text(const casefile::FrictionCoefficientCase &mu) {
     return "μ = " + mu.value->text();
   return fmt::format(
       "μ from {} to {} over {}", mu.at_rest->text(), mu.kinetic->text(),
-      mu.speed ? fmt::format("{} m/s", *mu.speed) : fmt::format("{} m", *mu.distance));
+      mu.speed ? number_text(*mu.speed, 6) + " m/s" : number_text(*mu.distance, 6) + " m of slip");
 }
 
 std::string friction_text(const casefile::FrictionCase &friction) {
@@ -61,7 +75,7 @@ std::string friction_text(const casefile::FrictionCase &friction) {
 
 void add_foundation(Conditions &conditions, const casefile::ContactCase &contact) {
   if (!contact.gap.is_zero())
-    conditions.texts.push_back(fmt::format("gap {} m", contact.gap.text()));
+    conditions.texts.push_back(fmt::format("gap g = {} m", text_of(contact.gap)));
   std::string list;
   for (const Formula &component : contact.foundation_displacement)
     list += (list.empty() ? "" : ", ") + component.text();

@@ -36,51 +36,20 @@ bool may_lock(const casefile::MeshCase &mesh) {
 }  // namespace
 
 template <int dim>
-LockingWatch<dim>::LockingWatch(const solve::Model<dim> &model)
-    : model_(model), is_needed_(may_lock(model.asked.mesh)) {
-  if (is_needed_)
-    strained_.assign(model.n_unknowns(), 0.);
-}
-
-template <int dim>
-void LockingWatch<dim>::step(const output::HistoryRow &row, const std::vector<double> &state) {
-  if (!is_needed_)
-    return;
-  const auto elastic = std::find_if(row.quantities.begin(), row.quantities.end(),
-                                    [](const auto &q) { return q.first == "elastic_energy"; });
-  if (elastic == row.quantities.end() || !(elastic->second > largest_))
-    return;
-  largest_ = elastic->second;
-  strained_ = state;
-}
-
-template <int dim>
-std::string LockingWatch<dim>::warning() const {
-  if (!is_needed_ || largest_ == 0 || body::slenderness(model_.body).ratio < least_slender)
+std::string locking_warning(const solve::Model<dim> &model, const std::vector<double> &state) {
+  if (!may_lock(model.asked.mesh) || body::slenderness(model.body).ratio < least_slender)
     return "";
-  const body::LockedShare share = body::locked_share(model_.body, model_.composition, strained_);
+  const body::LockedShare share = body::locked_share(model.body, model.composition, state);
   if (share.of_stress < largest_share || share.of_strain < least_of_strain)
     return "";
   return fmt::format(
       "linear cells are too stiff for how this body bends: they hold {:.0f} % of the energy of its "
       "stresses only because they cannot follow its shape, and displacements are too small. {}",
-      100 * share.of_stress, advice(model_.body.has_simplices()));
+      100 * share.of_stress, advice(model.body.has_simplices()));
 }
 
-template <int dim>
-void LockingWatch<dim>::save(output::SavedNumbers &numbers) const {
-  numbers.put("largest elastic energy", {largest_});
-  numbers.put("most strained state", strained_);
-}
-
-template <int dim>
-void LockingWatch<dim>::restore(const output::SavedNumbers &numbers) {
-  largest_ = numbers.get("largest elastic energy", 1)[0];
-  numbers.fill("most strained state", strained_);
-}
-
-template class LockingWatch<2>;
-template class LockingWatch<3>;
+template std::string locking_warning<2>(const solve::Model<2> &, const std::vector<double> &);
+template std::string locking_warning<3>(const solve::Model<3> &, const std::vector<double> &);
 
 namespace {
 

@@ -3,31 +3,15 @@
 #include <string>
 #include <vector>
 
-#include "output/checkpoint.h"
-#include "output/records.h"
 #include "solve/model.h"
 
 namespace tourmaline::run {
 
-/// Looks whether linear cells are too stiff for how the body bent, at the step of the run that had
-/// the largest elastic energy. Nothing to do for degree 2 and for incompatible modes.
+/// Whether linear cells are too stiff for how the body is bent in that state, the most strained one
+/// of a run: a warning, empty when all is well. There is none of degree 2 and of incompatible
+/// modes. All ranks ask together.
 template <int dim>
-class LockingWatch {
- public:
-  explicit LockingWatch(const solve::Model<dim> &model);
-
-  void step(const output::HistoryRow &row, const std::vector<double> &state);
-  /// For the summary, empty when all is well; all ranks ask together.
-  std::string warning() const;
-  void save(output::SavedNumbers &numbers) const;
-  void restore(const output::SavedNumbers &numbers);
-
- private:
-  const solve::Model<dim> &model_;
-  bool is_needed_;
-  double largest_ = 0;            // elastic energy [J]
-  std::vector<double> strained_;  // the state that had it
-};
+std::string locking_warning(const solve::Model<dim> &model, const std::vector<double> &state);
 
 /// What the mesh alone tells: of a slender body with linear cells how many times too stiff it would
 /// be if it were bent. Empty when the cells do or when that cannot be told. For `tourmaline check`.

@@ -136,20 +136,27 @@ std::vector<std::string> material_warnings(const casefile::Case &asked) {
 }
 
 template <int dim>
-std::string strain_warning(const solve::Model<dim> &model, std::span<const double> state) {
-  const body::LargestStrain found = body::largest_strain(model.body, state);
-  if (!(found.size > largest_strain))
+std::string strain_warning(const solve::Model<dim> &model, const std::vector<Moment> &moments) {
+  body::LargestStrain largest;
+  const Moment *when = nullptr;
+  for (const Moment &moment : moments)
+    if (const auto found = body::largest_strain(model.body, moment.state);
+        found.size > std::max(largest.size, largest_strain)) {
+      largest = found;
+      when = &moment;
+    }
+  if (!when)
     return "";
   std::string place;
   for (int axis = 0; axis < dim; ++axis)
-    place += fmt::format("{}{:.4g}", axis == 0 ? "(" : ", ", found.at[axis]);
+    place += fmt::format("{}{:.4g}", axis == 0 ? "(" : ", ", largest.at[axis]);
   return fmt::format(
-      "at the end strains reach {:.2g}, at {}), and the theory is linear, for strains far below 1; "
-      "check the units of loads and material constants",
-      found.size, place);
+      "strains reach {:.2g}, at {}) (step {}, t = {:g} s), and the theory is linear, for strains "
+      "far below 1; check the units of loads and material constants",
+      largest.size, place, when->step, when->time);
 }
 
-template std::string strain_warning<2>(const solve::Model<2> &, std::span<const double>);
-template std::string strain_warning<3>(const solve::Model<3> &, std::span<const double>);
+template std::string strain_warning<2>(const solve::Model<2> &, const std::vector<Moment> &);
+template std::string strain_warning<3>(const solve::Model<3> &, const std::vector<Moment> &);
 
 }  // namespace tourmaline::run

@@ -15,9 +15,16 @@ namespace tourmaline::run {
 /// CaseError for materials that are not complete.
 std::vector<std::string> material_warnings(const casefile::Case &asked);
 
-/// A warning of strains above 0.1, for which a linear theory does not hold; empty when there are
-/// none. All ranks ask together.
+/// A state of a run, and when it was.
+struct Moment {
+  std::span<const double> state;
+  int step;
+  double time;
+};
+
+/// A warning of strains above 0.1, for which a linear theory does not hold, with the largest of
+/// these moments; empty when there are none. All ranks ask together.
 template <int dim>
-std::string strain_warning(const solve::Model<dim> &model, std::span<const double> state);
+std::string strain_warning(const solve::Model<dim> &model, const std::vector<Moment> &moments);
 
 }  // namespace tourmaline::run

@@ -130,12 +130,6 @@ output::HistoryRow Recorder<dim>::step(int n, const solve::StepOutcome &outcome,
 }
 
 template <int dim>
-bool Recorder<dim>::has_fields(int n) const {
-  return model_.asked.output.fields &&
-         (n % model_.asked.output.every == 0 || n == model_.asked.time.steps);
-}
-
-template <int dim>
 output::CellFields Recorder<dim>::checked_fields(int n, std::span<const double> state) {
   prepare_fields();
   output::CellFields cells;

@@ -5,6 +5,7 @@
 
 #include "body/recovery.h"
 #include "output/result_folder.h"
+#include "run/schedule.h"
 #include "solve/balance.h"
 #include "solve/judgement.h"
 #include "solve/model.h"
@@ -48,7 +49,7 @@ class Recorder {
                                                std::span<const double> state) const;
   void put_boundaries();
   void prepare_fields();
-  bool has_fields(int n) const;
+  bool has_fields(int n) const { return writes_fields(model_.asked, n); }
   output::CellFields checked_fields(int n, std::span<const double> state);
   void put_fields(int n, std::span<const double> state, const output::CellFields &cells);
   double heat_coefficient(const Vector3 &point) const;

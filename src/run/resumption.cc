@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -11,6 +13,7 @@
 #include "case/resolved.h"
 #include "output/result_folder.h"
 #include "parallel/ranks.h"
+#include "run/schedule.h"
 #include "run/versions.h"
 #include "tourmaline/error.h"
 
@@ -132,20 +135,97 @@ void require_same_program(const output::Checkpoint &checkpoint, const fs::path &
         directory.string(), checkpoint.program, program_version()));
 }
 
-// Field files may have been taken away to make room, unless the page is still to be made of them.
-void require_whole(const nlohmann::json &summary, const fs::path &directory, bool with_fields) {
-  const auto sizes = output::file_sizes(directory);
-  const nlohmann::json files = summary.value("files", nlohmann::json::object());
+// All field files together, among the summary's files.
+constexpr std::array field_groups{"result_*", "contact_*"};
+
+bool is_of_fields(const std::string &name) {
+  return std::find(field_groups.begin(), field_groups.end(), name) != field_groups.end();
+}
+
+int ranks_of(const nlohmann::json &summary) {
+  const auto sizes = summary.value("sizes", nlohmann::json::object());
+  return sizes.is_object() && sizes.contains("ranks") && sizes["ranks"].is_number_integer()
+             ? sizes["ranks"].get<int>()
+             : 1;
+}
+
+std::vector<std::string> field_names(const casefile::Case &asked, bool of_contact, int ranks) {
+  std::vector<std::string> names;
+  for (int n = of_contact ? 1 : 0; n <= asked.time.steps; ++n)
+    if (writes_fields(asked, n) && of_contact)
+      names.push_back(output::contact_field_file(n));
+    else if (writes_fields(asked, n))
+      std::ranges::copy(output::field_files(n, ranks), std::back_inserter(names));
+  names.emplace_back(of_contact ? "contact.pvd" : "result.pvd");
+  return names;
+}
+
+std::vector<std::string> missing_fields(const casefile::Case &asked, const nlohmann::json &summary,
+                                        const fs::path &directory) {
+  std::vector<std::string> missing;
+  for (const char *group : field_groups)
+    if (summary["files"].contains(group))
+      for (const std::string &name : field_names(asked, group[0] == 'c', ranks_of(summary)))
+        if (std::error_code error; !fs::exists(directory / name, error))
+          missing.push_back(name);
+  return missing;
+}
+
+// "a, b and c", and of many "a, b, c, d and 96 more"
+std::string list_of(const std::vector<std::string> &names) {
+  constexpr std::size_t most = 4;
+  const std::size_t told = names.size() <= most ? names.size() - 1 : most;
+  std::string text = names.front();
+  for (std::size_t i = 1; i < told; ++i)
+    text += ", " + names[i];
+  if (names.size() == 1)
+    return text;
+  return text + " and " +
+         (names.size() <= most ? names.back() : fmt::format("{} more", names.size() - most));
+}
+
+// "" where all is there.
+std::string trouble_with_fields(const casefile::Case &asked, const nlohmann::json &summary,
+                                std::map<std::string, std::uint64_t> &sizes,
+                                const fs::path &directory) {
+  const auto missing = missing_fields(asked, summary, directory);
+  if (!missing.empty())
+    return fmt::format("{} of the complete run in {} {} missing", list_of(missing),
+                       directory.string(), missing.size() == 1 ? "is" : "are");
+  for (const auto &[name, bytes] : summary["files"].items())
+    if (is_of_fields(name) && bytes != sizes[name])
+      return fmt::format(
+          "the field files {} of the complete run in {} have {} bytes, and should have {}", name,
+          directory.string(), sizes[name], bytes.dump());
+  return "";
+}
+
+void require_tables(const nlohmann::json &files, const std::map<std::string, std::uint64_t> &sizes,
+                    const fs::path &directory) {
   for (const auto &[name, bytes] : files.items()) {
     const auto found = sizes.find(name);
-    if ((with_fields || (name != "result_*" && name != "contact_*")) &&
-        (found == sizes.end() || bytes != found->second))
+    if (!is_of_fields(name) && (found == sizes.end() || bytes != found->second))
       throw MachineError(fmt::format(
           "{} of the complete run in {} {}, and should have {} bytes; start again without --resume",
           name, directory.string(),
           found == sizes.end() ? "is missing" : fmt::format("has {} bytes", found->second),
           bytes.dump()));
   }
+}
+
+// Field files may have been taken away to make room, unless the page is still to be made of them.
+void require_whole(const casefile::Case &asked, const nlohmann::json &summary,
+                   const fs::path &directory, Resumption &found) {
+  if (!summary.contains("files"))
+    return;
+  auto sizes = output::file_sizes(directory);
+  require_tables(summary["files"], sizes, directory);
+  const std::string trouble = trouble_with_fields(asked, summary, sizes, directory);
+  if (!trouble.empty() && !found.has_report)
+    throw MachineError(trouble +
+                       ", and its page is to be made of them; start again without --resume");
+  if (!trouble.empty())
+    found.warning = trouble + "; without --resume it is run again";
 }
 
 }  // namespace
@@ -189,7 +269,7 @@ Resumption resumption(const casefile::Case &asked, const fs::path &directory,
                  inputs_of(asked, friction_name), directory);
     found.has_all_steps = true;
     found.has_report = !asked.output.report || fs::exists(directory / "report.html");
-    require_whole(summary, directory, !found.has_report);
+    require_whole(asked, summary, directory, found);
   } else if (const fs::path file = directory / output::checkpoint_name; fs::exists(file)) {
     found.checkpoint = output::read_checkpoint(file);
     require_same_program(*found.checkpoint, directory);

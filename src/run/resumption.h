@@ -27,6 +27,7 @@ struct Resumption {
   bool has_all_steps = false;                    ///< at most the page is missing
   bool has_report = false;                       ///< or is not asked for; all steps before it
   std::optional<output::Checkpoint> checkpoint;  ///< none: it starts from the beginning
+  std::string warning;  ///< where field files of a complete run are no longer there or whole
 
   bool is_complete() const { return has_all_steps && has_report; }
 };

@@ -6,6 +6,10 @@
 
 namespace tourmaline::run {
 
+bool writes_fields(const casefile::Case &asked, int n) {
+  return asked.output.fields && (n % asked.output.every == 0 || n == asked.time.steps);
+}
+
 bool Schedule::is_due(int step) const {
   if (interval_.steps > 0)
     return step % interval_.steps == 0;

@@ -4,8 +4,12 @@
 
 #include "case/interval.h"
 #include "run/stop_signals.h"
+#include "tourmaline/case/case.h"
 
 namespace tourmaline::run {
+
+/// Whether a run of the case writes fields behind step n; 0 is the beginning.
+bool writes_fields(const casefile::Case &asked, int n);
 
 /// What a run does between two steps besides going on. All ranks ask together and get the same
 /// answer.

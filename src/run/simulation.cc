@@ -63,6 +63,12 @@ Resumption find_in(const std::filesystem::path &directory, const casefile::Case 
   return found;
 }
 
+// Without being asked how loudly, as all warnings.
+void tell_warning(const Resumption &found) {
+  if (!found.warning.empty() && parallel::is_first())
+    std::cerr << "tourmaline: warning: " << found.warning << '\n';
+}
+
 void tell_start(const Resumption &found, const casefile::Case &asked, const std::string &name,
                 bool quiet) {
   if (found.is_complete())
@@ -113,6 +119,7 @@ void run_in(const casefile::Case &asked, const std::filesystem::path &directory,
   Resumption from = find_in(directory, asked, options, lock);
   if (options.start == Start::checkpoint)
     tell_start(from, asked, directory.string(), options.quiet);
+  tell_warning(from);
   if (from.has_all_steps) {
     parallel::on_first([&] { put_what_is_missing(from, directory); });
     if (!options.quiet && parallel::is_first())

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "body/fields.h"
 #include "material/constants.h"
 
 namespace tourmaline::run {
@@ -51,24 +50,47 @@ std::vector<std::string> temperature_warnings(const casefile::Case &asked) {
   return all;
 }
 
-template <int dim>
-std::string temperature_warning(const solve::Model<dim> &model, std::span<const double> state) {
-  const double reference = model.composition.reference_temperature();
-  double largest = 0;
-  for (body::Node node = 0; node < model.body.n_nodes(); ++node)
-    if (const double theta = state[body::unknown<dim>(node, body::Fields<dim>::temperature)];
-        std::abs(theta) > std::abs(largest))
-      largest = theta;
-  if (std::abs(largest) <= reference / 2)
+void TemperaturePeak::see(double temperature, int n, double time) {
+  if (std::abs(temperature) <= std::abs(value_))
+    return;
+  value_ = temperature;
+  step_ = n;
+  time_ = time;
+}
+
+void TemperaturePeak::begin(const std::vector<output::Extreme> &extremes) {
+  for (const output::Extreme &extreme : extremes)
+    if (extreme.field == "temperature") {
+      see(extreme.minimum, 0, 0);
+      see(extreme.maximum, 0, 0);
+    }
+}
+
+void TemperaturePeak::step(const output::HistoryRow &row) {
+  for (const auto &[name, value] : row.quantities)
+    if (name == "min_temperature" || name == "max_temperature")
+      see(value, row.step, row.time);
+}
+
+std::string TemperaturePeak::warning(double reference) const {
+  if (std::abs(value_) <= reference / 2)
     return "";
   return fmt::format(
-      "at the end the temperature reaches {:.4g} K{}; {}, and the theory is linear, "
-      "for differences far below that",
-      largest, largest <= -reference ? ", which is below absolute zero" : "",
+      "the temperature reaches {:.4g} K{} (step {}, t = {:g} s); {}, and the theory is linear, for "
+      "differences far below that",
+      value_, value_ <= -reference ? ", which is below absolute zero" : "", step_, time_,
       reference_words(reference));
 }
 
-template std::string temperature_warning<2>(const solve::Model<2> &, std::span<const double>);
-template std::string temperature_warning<3>(const solve::Model<3> &, std::span<const double>);
+void TemperaturePeak::save(output::SavedNumbers &numbers) const {
+  numbers.put("farthest temperature", {value_, static_cast<double>(step_), time_});
+}
+
+void TemperaturePeak::restore(const output::SavedNumbers &numbers) {
+  const auto saved = numbers.get("farthest temperature", 3);
+  value_ = saved[0];
+  step_ = static_cast<int>(saved[1]);
+  time_ = saved[2];
+}
 
 }  // namespace tourmaline::run

@@ -11,13 +11,13 @@
 #include "contact/checked_law.h"
 #include "parallel/ranks.h"
 #include "report/page.h"
+#include "run/locking.h"
 #include "run/lone_error.h"
 #include "run/memory.h"
 #include "run/plausibility.h"
 #include "run/resumption.h"
 #include "run/step_check.h"
 #include "run/survey.h"
-#include "run/temperatures.h"
 #include "run/versions.h"
 #include "stopwatch.h"
 #include "tourmaline/contact/friction.h"
@@ -58,7 +58,8 @@ TimeLoop<dim>::TimeLoop(const casefile::Case &asked, const std::filesystem::path
       progress_(asked.time.steps, options.quiet || !parallel::is_first()),
       iterative_(checkpoint_ ? ChosenRoute<dim>::was_iterative(checkpoint_->numbers)
                              : solves_iteratively(asked)),
-      model_(announced<dim>(asked, progress_)) {
+      model_(announced<dim>(asked, progress_)),
+      most_strained_(model_.n_unknowns()) {
   state_ = body::initial_state(model_.body, asked.initial);
   std::vector<double> trial = state_;
   prescribe(model_.time(1), trial);
@@ -72,7 +73,6 @@ TimeLoop<dim>::TimeLoop(const casefile::Case &asked, const std::filesystem::path
   }
   open_folder(directory, std::move(lock));
   recorder_.emplace(model_, *folder_);
-  locking_.emplace(model_);
   route_.emplace(model_, iterative_, progress_);
 }
 
@@ -99,6 +99,7 @@ template <int dim>
 int TimeLoop<dim>::begin() {
   if (!checkpoint_) {
     recorder_->initial(state_);
+    temperature_.begin(recorder_->extremes(state_));
     return 1;
   }
   restore();
@@ -135,7 +136,8 @@ void TimeLoop<dim>::step(int n) {
   account_.step(n, outcome, watch.lap());
   const output::HistoryRow row = record(n, outcome);
   highlights_.see(row);
-  locking_->step(row, next_);
+  most_strained_.step(row, next_);
+  temperature_.step(row);
   progress_.step(row);
   std::swap(state_, next_);
   done_ = n;
@@ -280,7 +282,8 @@ void TimeLoop<dim>::save(int n) {
     route_->save(numbers);
     recorder_->save(numbers);
     highlights_.save(numbers);
-    locking_->save(numbers);
+    most_strained_.save(numbers);
+    temperature_.save(numbers);
     folder_->put_checkpoint(std::move(checkpoint));
   });
   saved_step_ = n;
@@ -294,7 +297,8 @@ void TimeLoop<dim>::restore() {
   route_->restore(numbers);
   recorder_->restore(state_, numbers);
   highlights_.restore(numbers);
-  locking_->restore(numbers);
+  most_strained_.restore(numbers);
+  temperature_.restore(numbers);
 }
 
 template <int dim>
@@ -349,21 +353,24 @@ output::Summary TimeLoop<dim>::summary() const {
 template <int dim>
 std::vector<std::string> TimeLoop<dim>::warnings() const {
   std::vector<std::string> all = recorder_->warnings();
+  const auto add = [&](const std::string &text) {
+    if (!text.empty())
+      all.push_back(text);
+  };
   for (const std::string &warning : route_->warnings())
-    all.push_back(warning);
-  if (const std::string text = locking_->warning(); !text.empty())
-    all.push_back(text);
+    add(warning);
+  if (most_strained_.step() > 0)
+    add(locking_warning(model_, most_strained_.state()));
   for (const std::string &text : material_warnings(model_.asked))
-    all.push_back(text);
-  if (const std::string text = casefile::snapping_warning(model_.asked); !text.empty())
-    all.push_back(text);
+    add(text);
+  add(casefile::snapping_warning(model_.asked));
   const std::vector<std::string> given = temperature_warnings(model_.asked);
   all.insert(all.end(), given.begin(), given.end());
-  if (const std::string text = temperature_warning(model_, std::span(state_));
-      given.empty() && !text.empty())
-    all.push_back(text);
-  if (const std::string text = strain_warning(model_, std::span(state_)); !text.empty())
-    all.push_back(text);
+  if (given.empty())
+    add(temperature_.warning(model_.composition.reference_temperature()));
+  add(strain_warning(model_,
+                     {{most_strained_.state(), most_strained_.step(), most_strained_.time()},
+                      {state_, done_, model_.time(done_)}}));
   return all;
 }
 

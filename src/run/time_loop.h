@@ -15,9 +15,10 @@
 #include "run/account.h"
 #include "run/chosen_route.h"
 #include "run/ending.h"
-#include "run/locking.h"
+#include "run/most_strained.h"
 #include "run/recorder.h"
 #include "run/schedule.h"
+#include "run/temperatures.h"
 #include "solve/model.h"
 #include "tourmaline/case/case.h"
 #include "tourmaline/run/simulation.h"
@@ -76,7 +77,8 @@ class TimeLoop {
   int done_ = 0;        // steps
   int saved_step_ = 0;  // of the checkpoint that is there; 0: none
   Highlights highlights_;
-  std::optional<LockingWatch<dim>> locking_;
+  MostStrained most_strained_;
+  TemperaturePeak temperature_;
 };
 
 /// Makes report.html, where all other results are. Throws MachineError.

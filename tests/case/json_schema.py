@@ -298,7 +298,7 @@ class CaseSchema(unittest.TestCase):
         rng = random.Random(13)
         accepted = refused = 0
         with tempfile.TemporaryDirectory() as folder:
-            for number in range(80):
+            for number in range(110):
                 text = random_case(rng, self.schema)
                 with self.subTest(case=text):
                     said = check(text, folder)

@@ -17,9 +17,9 @@ const std::string laws = "tests/reference/contact_laws/cases/";
 const std::vector<std::string> few_steps{"time.steps=2"};
 
 /// A case with its field files, in a folder that goes away with the object.
-class Run {
+class RunWithFields {
  public:
-  Run(const std::string &file, std::vector<std::string> overrides) {
+  RunWithFields(const std::string &file, std::vector<std::string> overrides) {
     overrides.insert(overrides.end(), {"output.fields=true", "output.report=false"});
     const auto path = std::filesystem::path(TOURMALINE_SOURCE_DIR) / file;
     run::simulate(casefile::read_file(path, overrides), folder_.path(), {.quiet = true});
@@ -69,8 +69,9 @@ void expect_the_rows(const std::string &vtu, const Table &rows, int dimension) {
   const std::set<std::string> not_alone{"step", "time", "x", "y", "z", "status"};
   for (const auto &[name, cells] : rows.columns)
     if (!not_alone.contains(name) && !name.starts_with("slip_") &&
-        !name.starts_with("tangential_traction_"))
+        !name.starts_with("tangential_traction_")) {
       EXPECT_EQ(output::array_in<double>(vtu, name), rows.numbers(name)) << name;
+    }
   EXPECT_EQ(output::array_in<double>(vtu, "slip_rate"), rows.numbers("slip_rate"));
   const auto status = output::array_in<std::uint8_t>(vtu, "status");
   EXPECT_EQ(std::vector<double>(status.begin(), status.end()), status_numbers(rows));
@@ -84,7 +85,7 @@ struct Shipped {
 class ContactFiles : public ::testing::TestWithParam<Shipped> {};
 
 TEST_P(ContactFiles, HoldTheRowsOfContactCsv) {
-  const Run run(GetParam().file, few_steps);
+  const RunWithFields run(GetParam().file, few_steps);
   const Table contact = run.contact();
   for (const int step : {1, 2})
     expect_the_rows(run.content("contact_000" + std::to_string(step) + ".vtu"),
@@ -101,22 +102,22 @@ INSTANTIATE_TEST_SUITE_P(Cases, ContactFiles,
                                            Shipped{"cases/block-3d/twisted.toml", 3}));
 
 TEST(ContactFilesOfOneLaw, HaveTheBoundAndTheAccumulatedSlipWhereTheTableHasThem) {
-  const Run weakening(laws + "layer-slip-weakening.toml", few_steps);
+  const RunWithFields weakening(laws + "layer-slip-weakening.toml", few_steps);
   for (const std::string name : {"friction_bound", "accumulated_slip"})
     EXPECT_GT(largest(output::array_in<double>(weakening.content("contact_0002.vtu"), name)), 0);
-  const Run tresca("cases/ring/ring.toml", few_steps);
+  const RunWithFields tresca("cases/ring/ring.toml", few_steps);
   EXPECT_EQ(tresca.content("contact_0002.vtu").find("friction_bound"), std::string::npos);
 }
 
 TEST(ContactFilesOfOneLaw, TellOpenNodesFromThoseThatTouch) {
-  const Run run(laws + "hertz.toml", few_steps);
+  const RunWithFields run(laws + "hertz.toml", few_steps);
   const auto status = output::array_in<std::uint8_t>(run.content("contact_0002.vtu"), "status");
   EXPECT_EQ(status.front(), 0);
   EXPECT_NE(status[status.size() / 2], 0);
 }
 
 TEST(ContactFilesOfSeveralSteps, AreWrittenWithTheFields) {
-  const Run run(laws + "hertz.toml", {"time.steps=5", "output.every=2"});
+  const RunWithFields run(laws + "hertz.toml", {"time.steps=5", "output.every=2"});
   std::set<std::string> written;
   for (const std::string &name : run.names())
     if (name.starts_with("contact_"))
@@ -162,7 +163,7 @@ double size_of(const Points &points, const std::vector<std::int64_t> &corners) {
 TEST_P(Facets, CoverTheContactAndHaveTheirMiddleNodesBetweenTheCorners) {
   const output::TemporaryFolder folder;
   std::ofstream(folder / "case.toml") << box(GetParam().cell, GetParam().degree);
-  const Run run(folder / "case.toml", {});
+  const RunWithFields run(folder / "case.toml", {});
   const std::string vtu = run.content("contact_0001.vtu");
   const auto types = output::array_in<std::uint8_t>(vtu, "types");
   const auto nodes = output::array_in<std::int64_t>(vtu, "connectivity");

@@ -34,6 +34,22 @@ TEST_F(CompleteRun, ACompleteRunIsLeftAsItIs) {
   EXPECT_EQ(content_of(here() / "results/summary.json"), before);
 }
 
+TEST_F(CompleteRun, AFieldFileThatHasGoneIsNamedByResume) {
+  const std::string all = "run " + paper + " --set time.steps=2 -q -o results --resume";
+  ASSERT_EQ(run(all), 0);
+  EXPECT_EQ(complained_, "");
+  ASSERT_EQ(run(all), 0);
+  EXPECT_EQ(complained_, "");
+  fs::remove(here() / "results/result_0001.vtu");
+  EXPECT_EQ(run(all), 0);
+  EXPECT_EQ(complained_,
+            "tourmaline: warning: result_0001.vtu of the complete run in results is missing; "
+            "without --resume it is run again\n");
+  fs::remove(here() / "results/report.html");
+  EXPECT_EQ(run(all), 4);
+  EXPECT_THAT(complained_, HasSubstr("result_0001.vtu of the complete run in results is missing"));
+}
+
 class InTheEnd : public Interrupted {
  protected:
   // Its page takes longer than the moment between the summary and a signal.

@@ -46,6 +46,29 @@ TEST_F(Interrupted, ThePapersCaseGoesOn) {
   expect_to_go_on(paper + " --set time.steps=400 --set output.every=70", "150steps");
 }
 
+TEST_F(Interrupted, WhatWasLargestBeforeTheCheckpointIsStillWarnedOf) {
+  std::ofstream(here() / "peaks.toml") << R"toml(
+mesh.box = { min = [0, 0], max = [0.1, 0.1], cells = [12, 12] }
+material.library = "BaTiO3-Liu2014"
+time = { end = 0.2, steps = 1600 }
+output.every = 700
+[[boundary]]
+on = "right"
+displacement = [0, 0]
+potential = 0
+temperature = "400*exp(-(t/0.0025 - 2)^2)"
+[[boundary]]
+on = "top"
+traction = [0, "-0.5*t - 4e10*exp(-(t/0.0025 - 2)^2)"]
+[contact]
+on = "left"
+friction = { law = "tresca", bound = 15 }
+)toml";
+  expect_to_go_on("peaks.toml", "45steps");
+  EXPECT_THAT(warnings_, AllOf(HasSubstr("the temperature reaches 400 K (step 40, t = 0.005 s)"),
+                               HasSubstr("strains reach"), HasSubstr("(step 40,")));
+}
+
 TEST_F(Interrupted, TheMonolithicRouteGoesOn) {
   expect_to_go_on(paper + " --set solver.method=monolithic --set contact.friction.bound=0.02");
 }

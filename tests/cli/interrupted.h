@@ -71,13 +71,15 @@ class Interrupted : public Program {
   void expect_to_go_on(const std::string &arguments, const std::string &often = "2steps") {
     const std::string all = "run " + arguments + " --set output.checkpoint=" + often + " -q -o ";
     ASSERT_EQ(run(all + "one/results"), 0) << complained_;
-    const std::string warnings = complained_;
+    warnings_ = complained_;
     ASSERT_TRUE(kill_behind_a_checkpoint(all, "other/results"));
     EXPECT_TRUE(slips(here() / "other/results/contact.csv.part"));
     ASSERT_EQ(run(all + "other/results --resume"), 0) << complained_;
-    EXPECT_EQ(complained_, warnings);
+    EXPECT_EQ(complained_, warnings_);
     expect_same_results(here() / "one/results", here() / "other/results");
   }
+
+  std::string warnings_;  ///< of the run of `expect_to_go_on`
 
   /// Leaves a killed run with its checkpoint in `results`. Its lock goes with whoever looks there.
   void interrupt_a_run() {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "../output/temporary_folder.h"
 #include "report/number_text.h"
@@ -85,6 +86,69 @@ TEST_F(Figures, AnUnknownFieldIsAnsweredWithTheKnownOnes) {
       },
       ThrowsMessage<CaseError>(HasSubstr("stress.xx, stress.yy")));
   EXPECT_THROW(figure_format("gif"), CaseError);
+}
+
+TEST_F(Figures, CurvesAlongTheContactAreDrawnByTheirColumns) {
+  const auto svg = [&](const std::string &name, std::optional<double> time = {}) {
+    const auto files = write_figures(run.path(), out.path(), {FigureFormat::png, {name}, time});
+    EXPECT_EQ(names_of_files(files),
+              std::vector<std::string>{"contact_" + name.substr(std::string("contact.").size()) +
+                                       ".png"});
+    return output::content_of(files.front());
+  };
+  const std::set<std::string> pictures{
+      svg("contact.pressure"),   svg("contact.pressure", 0.07), svg("contact.normal_traction"),
+      svg("contact.gap"),        svg("contact.friction_bound"), svg("contact.slip_y"),
+      svg("contact.temperature")};
+  EXPECT_EQ(pictures.size(), 7U);
+}
+
+TEST_F(Figures, CurvesStandBesideFieldsInOneRequest) {
+  EXPECT_EQ(names_of_files(write_figures(run.path(), out.path(),
+                                         {FigureFormat::svg, {"contact.gap", "potential"}, {}})),
+            (std::vector<std::string>{"potential.svg", "contact_gap.svg"}));
+}
+
+TEST_F(Figures, AnUnknownCurveIsAnsweredWithTheKnownOnes) {
+  for (const char *name : {"contact.gp", "contact.status", "contact.x", "contact."})
+    EXPECT_THAT(
+        [&] {
+          write_figures(run.path(), out.path(), {FigureFormat::svg, {name}, {}});
+        },
+        ThrowsMessage<CaseError>(HasSubstr("contact.pressure, contact.normal_traction")))
+        << name;
+  EXPECT_THAT(
+      [&] {
+        write_figures(run.path(), out.path(), {FigureFormat::svg, {"gap"}, {}});
+      },
+      ThrowsMessage<CaseError>(HasSubstr("along the contact contact.pressure")));
+}
+
+TEST(ContactCurves, NeedNoFieldFilesAndArePiecesApart) {
+  const ResultFolder run({"time.steps=1", "output.fields=false", "output.report=false",
+                          "contact.on=[\"left\", \"right\"]",
+                          "boundary=[{on=\"top\", "
+                          "displacement=[0, 0], potential=0, temperature=0}]"});
+  const output::TemporaryFolder out;
+  EXPECT_EQ(names_of_files(write_figures(run.path(), out.path(),
+                                         {FigureFormat::svg, {"contact.pressure"}, {}})),
+            (std::vector<std::string>{"contact_pressure_1.svg", "contact_pressure_2.svg"}));
+  EXPECT_THROW(
+      write_figures(run.path(), out.path(), {FigureFormat::svg, {"contact.gap", "potential"}, {}}),
+      CaseError);
+}
+
+TEST(ContactCurves, OfASolidBodyAreRefusedWithWhatThereIsInstead) {
+  const auto file = std::filesystem::path(TOURMALINE_SOURCE_DIR) / "cases/block-3d/twisted.toml";
+  const output::TemporaryFolder run;
+  run::simulate(casefile::read_file(
+                    file, {"mesh.box.cells=[2, 2, 2]", "time.steps=1", "output.report=false"}),
+                run.path(), {.quiet = true});
+  EXPECT_THAT(
+      [&] {
+        write_figures(run.path(), run / "figures", {FigureFormat::svg, {"contact.gap"}, {}});
+      },
+      ThrowsMessage<CaseError>(HasSubstr("contact.pvd")));
 }
 
 TEST_F(Figures, TheSettingShowsThePoling) {

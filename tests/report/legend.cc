@@ -63,10 +63,10 @@ TEST(Legend, ContactNamesTheConstantsOfItsLaws) {
   mu.distance = 1e-6;
   EXPECT_THAT(
       conditions_on(asked, "left").texts,
-      ElementsAre("compliance, p = c d₊^1.5, c = 10000000000000 N/m^(2+m)", "gap 1e-6*y m",
+      ElementsAre("compliance, p = c (u_ν − g)₊^1.5, c = 1·10¹³ N/m^3.5", "gap g = 1e-6*y m",
                   "foundation moves by (0, t) m",
-                  "Coulomb friction, μ from 0.5 to 0.3 + y over 1e-06 m, cohesion 2 N/m², at most "
-                  "30 N/m²",
+                  "Coulomb friction, μ from 0.5 to 0.3 + y over 1·10⁻⁶ m of slip, cohesion 2 N/m², "
+                  "at most 30 N/m²",
                   "insulated, q·ν = 0"));
 }
 
@@ -80,7 +80,9 @@ TEST(Legend, ContactNamesItsNormalLaw) {
   EXPECT_THAT(conditions_on(asked, "left").texts,
               ElementsAre("unilateral contact", "Coulomb friction, μ = 0.3", "insulated, q·ν = 0"));
   asked.contact->normal = {"damped", Formula(1e9)};
-  EXPECT_EQ(conditions_on(asked, "left").texts[0], "damped contact, c = 1000000000 N s/m³");
+  EXPECT_EQ(conditions_on(asked, "left").texts[0], "damped contact, c = 1·10⁹ N s/m³");
+  asked.contact->normal = {"compliance", Formula(2e13), 1};
+  EXPECT_EQ(conditions_on(asked, "left").texts[0], "compliance, p = c (u_ν − g)₊, c = 2·10¹³ N/m³");
 }
 
 TEST(Legend, LawsOfAProgramStandInstead) {

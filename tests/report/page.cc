@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "../output/temporary_folder.h"
+#include "report/result.h"
 #include "result_folder.h"
 #include "tourmaline/error.h"
 #include "tourmaline/mesh/gmsh.h"
@@ -98,6 +99,17 @@ TEST(Page, TheFrictionBoundIsEvaluatedWhereAndWhenItActs) {
   ResultFolder run({"time.steps=3", "contact.friction.bound=\"10 + 100*y + t\""});
   const auto results = results_in(run.content("report.html"));
   EXPECT_EQ(results[0]["frictionBound"]["columns"], 3 * 4);
+}
+
+TEST(Page, ABoundThatTheTableHasStandsThereOnce) {
+  const ResultFolder run({"time.steps=1", "contact.normal=\"unilateral\"",
+                          "contact.friction={law=\"coulomb\", coefficient=0.3, cohesion=2}"});
+  const auto result = results_in(run.content("report.html"))[0];
+  EXPECT_FALSE(result.contains("frictionBound"));
+  EXPECT_THAT(result["contact"]["names"].dump(), HasSubstr("\"friction_bound\""));
+  const Result read = read_result(run.path(), {});
+  EXPECT_EQ(read.friction_bound, *read.contact->find("friction_bound"));
+  ASSERT_EQ(read.friction_bound.size(), 4U);
 }
 
 TEST(Page, ATitleCannotBreakThePage) {

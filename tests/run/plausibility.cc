@@ -177,11 +177,16 @@ std::vector<std::string> warnings_of(const std::vector<std::string> &overrides) 
   return run.summary()["warnings"].get<std::vector<std::string>>();
 }
 
-TEST(Plausibility, StrainsThatALinearTheoryDoesNotKnowAreToldAtTheEnd) {
+TEST(Plausibility, StrainsThatALinearTheoryDoesNotKnowAreTold) {
   EXPECT_THAT(warnings_of({}), ElementsAre(HasSubstr("strains reach 0.2")));
   EXPECT_THAT(warnings_of({"boundary[1].displacement=[\"0.02*t\",0]"}), IsEmpty());
   EXPECT_THAT(warnings_of({"solver.method=monolithic"}), ElementsAre(HasSubstr("strains reach")));
   EXPECT_THAT(warnings_of({"solver.body=iterative"}), ElementsAre(HasSubstr("strains reach")));
+}
+
+TEST(Plausibility, StrainsThatHaveGoneAtTheEndAreToldWithTheirMoment) {
+  EXPECT_THAT(warnings_of({"time={end=1,steps=4}", "boundary[1].displacement=[\"0.8*t*(1-t)\",0]"}),
+              ElementsAre(AllOf(HasSubstr("strains reach 0.2"), HasSubstr("(step 2, t = 0.5 s)"))));
 }
 
 TEST(Survey, TellsTheClassOfAnEntryThatDoesNotSayIt) {

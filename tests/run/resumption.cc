@@ -25,6 +25,7 @@ class Resuming : public ::testing::Test {
     std::string name = ::testing::TempDir() + "/tourmaline-XXXXXX";
     folder_ = mkdtemp(name.data());
     asked_.title = "a run";
+    asked_.output.every = 1;
     asked_.mesh.file = "/body.msh";
     mesh_->points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     mesh_->cells = {0, 1, 2};
@@ -128,12 +129,14 @@ class Complete : public Resuming {
     put("report.html", "");
   }
 
-  void summarise(const std::map<std::string, std::uint64_t> &files) {
+  void summarise(const std::map<std::string, std::uint64_t> &files, int ranks = 1) {
     output::Summary summary;
     summary.inputs = contents_of(asked_);
     summary.files = files;
+    summary.sizes = {{"ranks", ranks}};
     put("summary.json", output::summary_text(2, summary));
   }
+  std::string warning() const { return resumption(asked_, folder_).warning; }
 };
 
 TEST_F(Complete, OfTheSameCaseHasNothingToDo) {
@@ -185,10 +188,69 @@ TEST_F(Complete, FieldFilesAreNeededOnlyForAPageThatIsMissing) {
   summarise({{"result_*", 4}});
   EXPECT_TRUE(resumption(asked_, folder_).is_complete());
   std::filesystem::remove(folder_ / "report.html");
-  EXPECT_THAT(asking(), ThrowsMessage<MachineError>(HasSubstr("result_* of the complete run")));
+  EXPECT_THAT(asking(), ThrowsMessage<MachineError>(
+                            AllOf(HasSubstr("result_0000.vtu, result_0001.vtu and result.pvd of"),
+                                  HasSubstr("are missing, and its page is to be made of them"))));
   put("result_0000.vtu", "12");
   put("result_0001.vtu", "34");
+  put("result.pvd", "");
   EXPECT_TRUE(resumption(asked_, folder_).has_all_steps);
+  put("result_0001.vtu", "345");
+  EXPECT_THAT(asking(),
+              ThrowsMessage<MachineError>(HasSubstr("have 5 bytes, and should have 4, and its")));
+}
+
+TEST_F(Complete, FieldFilesThatHaveGoneAreNamed) {
+  asked_.time.steps = 12;
+  asked_.output.every = 5;
+  put("resolved.toml", casefile::resolved(asked_));
+  summarise({{"result_*", 4}});
+  for (const char *name :
+       {"result_0000.vtu", "result_0005.vtu", "result_0010.vtu", "result_0012.vtu", "result.pvd"})
+    put(name, name == std::string("result.pvd") ? "" : "1");
+  EXPECT_EQ(warning(), "");
+  std::filesystem::remove(folder_ / "result_0010.vtu");
+  EXPECT_THAT(warning(), HasSubstr("result_0010.vtu of the complete run in " + folder_.string() +
+                                   " is missing; without --resume"));
+  std::filesystem::remove(folder_ / "result_0012.vtu");
+  EXPECT_THAT(warning(), HasSubstr("result_0010.vtu and result_0012.vtu of the complete run in"));
+  put("result_0010.vtu", "1");
+  put("result_0012.vtu", "123");
+  EXPECT_THAT(warning(), HasSubstr("have 6 bytes, and should have 4"));
+  asked_.time.steps = 100;
+  put("resolved.toml", casefile::resolved(asked_));
+  summarise({{"result_*", 4}});
+  EXPECT_THAT(warning(), HasSubstr("result_0015.vtu, result_0020.vtu, result_0025.vtu, "
+                                   "result_0030.vtu and 14 more of the complete run in"));
+  EXPECT_TRUE(resumption(asked_, folder_).is_complete());
+}
+
+TEST_F(Complete, FieldFilesOfEveryRankAreLookedFor) {
+  summarise({{"result_*", 4}}, 2);
+  for (const char *name : {"result_0000_0.vtu", "result_0000_1.vtu", "result_0000.pvtu",
+                           "result_0001_0.vtu", "result.pvd"})
+    put(name, "");
+  EXPECT_THAT(warning(), HasSubstr("result_0001_1.vtu and result_0001.pvtu of the complete run"));
+}
+
+TEST_F(Complete, FieldFilesOfTheContactAreLookedForBehindItsSteps) {
+  asked_.time.steps = 2;
+  put("resolved.toml", casefile::resolved(asked_));
+  summarise({{"contact_*", 2}});
+  put("contact_0001.vtu", "1");
+  put("contact_0002.vtu", "1");
+  put("contact.pvd", "");
+  EXPECT_EQ(warning(), "");
+  put("contact_0002.vtu", "");
+  EXPECT_THAT(warning(), HasSubstr("the field files contact_* of the complete run in"));
+  std::filesystem::remove(folder_ / "contact_0002.vtu");
+  std::filesystem::remove(folder_ / "contact.pvd");
+  EXPECT_THAT(warning(), HasSubstr("contact_0002.vtu and contact.pvd of the complete run in"));
+}
+
+TEST_F(Complete, OneThatWroteNoFieldsMissesNone) {
+  summarise({});
+  EXPECT_EQ(warning(), "");
 }
 
 TEST_F(Complete, ACheckpointThatIsStillThereSaysNothing) {

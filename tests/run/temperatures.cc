@@ -54,14 +54,48 @@ TEST(Temperatures, AnAbsoluteOneIsWarnedOf) {
               HasSubstr("# warning: --set boundary[0].temperature=293"));
 }
 
-TEST(Temperatures, OnesInTheBodyAreWarnedOfAtTheEnd) {
+TEST(Temperatures, OnesInTheBodyAreWarnedOf) {
   const auto warnings = [](const std::string &temperature) {
     const RunCase run(square({"boundary[0].temperature=" + temperature}));
     return run.summary()["warnings"].dump();
   };
-  EXPECT_THAT(warnings("\"200*t\""), HasSubstr("the temperature reaches 200 K"));
+  EXPECT_THAT(warnings("\"200*t\""), HasSubstr("the temperature reaches 200 K (step 4, t = 1 s)"));
   EXPECT_THAT(warnings("\"-400*t\""), HasSubstr("below absolute zero"));
   EXPECT_THAT(warnings("\"20*t\""), Not(HasSubstr("temperature")));
+  // Gone again at the end.
+  EXPECT_THAT(warnings("\"800*t*(1-t)\""),
+              HasSubstr("the temperature reaches 200 K (step 2, t = 0.5 s)"));
+  EXPECT_THAT(warnings("\"-1600*t*(1-t)\""),
+              HasSubstr("the temperature reaches -400 K, which is below absolute zero (step 2"));
+}
+
+TEST(Temperatures, OneOfTheBeginningIsWarnedOf) {
+  const RunCase run(square({"initial.temperature=\"1e4*(0.01-x)*2\""}));
+  EXPECT_THAT(run.summary()["warnings"].dump(), HasSubstr("reaches 200 K (step 0, t = 0 s)"));
+}
+
+output::HistoryRow row(int step, double lowest, double highest) {
+  output::HistoryRow row;
+  row.step = step;
+  row.time = 0.1 * step;
+  row.quantities = {{"min_temperature", lowest}, {"max_temperature", highest}};
+  return row;
+}
+
+TEST(Temperatures, ThePeakGoesOnBehindACheckpoint) {
+  TemperaturePeak before;
+  before.step(row(1, -250, 200));
+  before.step(row(2, 0, 220));
+  output::SavedNumbers numbers;
+  before.save(numbers);
+  TemperaturePeak behind;
+  behind.restore(numbers);
+  behind.step(row(3, -249, 249));
+  EXPECT_EQ(behind.warning(293), before.warning(293));
+  EXPECT_THAT(behind.warning(293), HasSubstr("reaches -250 K (step 1, t = 0.1 s)"));
+  behind.step(row(4, 0, 251));
+  EXPECT_THAT(behind.warning(293), HasSubstr("reaches 251 K (step 4, t = 0.4 s)"));
+  EXPECT_EQ(behind.warning(503), "");
 }
 
 }  // namespace

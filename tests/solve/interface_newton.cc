@@ -54,7 +54,7 @@ TEST(InterfaceNewton, APointThatIsMovedAcrossGivesTheHandCalculation) {
   // Slip (3, 4) m at the bound 2 N: 4 N/m * 3 m + 2 N * 3 / 5.
   Problem p{MatrixXd::Constant(1, 1, 4),
             VectorXd::Constant(1, 13.2),
-            {{0, 1, 0.5, contact::PointLaw{contact::Tresca{4}, contact::Tangent::Constant(1, 4)}}},
+            {{0, 1, 0.5, contact::PointLaw(contact::Tresca{4}, contact::Tangent::Constant(1, 4))}},
             {2}};
   const InterfaceSolution s = p.solve(VectorXd::Zero(1));
   EXPECT_NEAR(s.increment[0], 3, 1e-14);

@@ -31,8 +31,10 @@ std::set<std::string> names_of(const std::vector<Output> &outputs) {
   return names;
 }
 
+const std::string laws = "tests/reference/contact_laws/cases/";
+
 struct Shipped {
-  const char *file;
+  std::string file;
   std::vector<std::string> overrides;
 };
 
@@ -61,7 +63,11 @@ INSTANTIATE_TEST_SUITE_P(
                     Shipped{"ouafik-2020/insulated.toml", {"mesh.box.cells=[8,8]", "time.steps=2"}},
                     Shipped{"devices/friction-sensor-loaded.toml", {"time.steps=2"}},
                     Shipped{"block-3d/twisted.toml", {"mesh.box.cells=[3,3,3]", "time.steps=1"}},
-                    Shipped{"ring/ring.toml", {"mesh.annulus.cells=[2,16]", "time.steps=1"}}));
+                    Shipped{"ring/ring.toml", {"mesh.annulus.cells=[2,16]", "time.steps=1"}},
+                    Shipped{"../" + laws + "coulomb-warmed.toml", {"time.steps=2"}},
+                    Shipped{"../" + laws + "hertz.toml", {"time.steps=1"}},
+                    Shipped{"../" + laws + "foundation-slides.toml", {"time.steps=1"}},
+                    Shipped{"../" + laws + "layer-slip-weakening.toml", {}}));
 
 const std::vector<casefile::Case> &paper() {
   static const std::vector<casefile::Case> both{shipped("ouafik-2020/insulated.toml", {}),

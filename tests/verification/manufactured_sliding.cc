@@ -54,7 +54,8 @@ Problem<dim> sliding_block() {
   const Vector<dim> normal = normal_of<dim>(all[0]);
   casefile::ContactCase &contact = problem.asked.contact.emplace();
   contact.on = {"left"};
-  contact.friction = {"tresca", Formula("-(" + problem.exact.traction(1, normal) + ")")};
+  contact.friction.law = "tresca";
+  contact.friction.bound = Formula("-(" + problem.exact.traction(1, normal) + ")");
   const double k_c = 2;
   contact.heat = {"exchange", k_c,
                   Formula(problem.exact.value(problem.exact.theta) +

@@ -183,7 +183,7 @@ heat = { law = "exchange", coefficient = 5e3, foundation_temperature = 10 }
                              "rubbed", overrides);
 }
 
-const std::string rubbed_plane = R"(
+const std::string rubbed_plane = R"toml(
 mesh.box = { min = [0, 0], max = [0.02, 0.01], cells = [8, 4], cell = "quadrilateral" }
 material = { library = "BaTiO3-Liu2014", pyroelectric = [5e-5, 1e-4], poling = [0.6, 0.8], axis1 = [0.8, -0.6] }
 time = { end = 1, steps = 4 }
@@ -193,7 +193,7 @@ boundary = [ { on = "top", displacement = ["1e-7*t", "-2e-7*sin(3*t)"], potentia
 [contact]
 on = "bottom"
 foundation_displacement = ["4e-7*sin(5*t)", "2e-8*t"]
-)";
+)toml";
 
 class RotationOfRubbing : public ::testing::TestWithParam<std::string> {};
 
@@ -204,7 +204,7 @@ TEST_P(RotationOfRubbing, RotatesTheResult) {
 }
 
 TEST_P(RotationOfRubbing, InSpaceRotatesTheResult) {
-  const std::string solid = R"(
+  const std::string solid = R"toml(
 mesh.box = { min = [0, 0, 0], max = [0.02, 0.015, 0.01], cells = [4, 3, 2], cell = "hexahedron" }
 material = { library = "BaTiO3-Liu2014", pyroelectric = [5e-5, -3e-5, 1e-4], poling = [0.2, -0.4, 0.9], axis1 = [1, 0.3, 0] }
 time = { end = 1, steps = 3 }
@@ -213,9 +213,9 @@ boundary = [ { on = "top", displacement = ["1e-7*t", "2e-7*t*t", "-2e-7*sin(3*t)
 [contact]
 on = "bottom"
 foundation_displacement = ["4e-7*sin(5*t)", "3e-7*t", "2e-8*t"]
-)";
+)toml";
   const Eigen::Vector3d axis = Eigen::Vector3d(1, -2, 0.7).normalized();
-expect_turned<3>(rubbed(solid, {GetParam()}), Eigen::AngleAxisd(1.1, axis).toRotationMatrix());
+  expect_turned<3>(rubbed(solid, {GetParam()}), Eigen::AngleAxisd(1.1, axis).toRotationMatrix());
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, RotationOfRubbing, ::testing::ValuesIn(rubbing_laws()));

@@ -2,6 +2,7 @@
 // pressure over opening.
 import { lineColours } from './colours';
 import { ContactLine, contactNodes, stepAt, stepEnds } from './contact_line';
+import { negligibleMove } from './contact_round_off';
 import { Diagram, Path } from './diagram';
 import { element } from './dom';
 import { shown } from './numbers';
@@ -126,14 +127,16 @@ export class ContactNode {
       });
       add(this.result.frictionBound ? 'Friction bound over pressure' : 'Tangential traction over pressure', ['p', 'N/m²'],
         ['S, |σ_τ|', 'N/m²'], () => [
-          ...(this.result.frictionBound ? [{ label: 'bound S', colour: lineColours[2], x: pressure(),
-            y: this.each((step) => this.bound(step)!), dashed: true }] : []),
           { label: 'size of the tangential traction', colour: lineColours[1], x: pressure(),
-            y: this.each((step) => size(this.vector('tangential_traction_', step))) }]);
+            y: this.each((step) => size(this.vector('tangential_traction_', step))) },
+          ...(this.result.frictionBound ? [{ label: 'bound S', colour: lineColours[2], x: pressure(),
+            y: this.each((step) => this.bound(step)!), dashed: true }] : [])]);
     }
+    const least = negligibleMove(this.result);
+    const opening = (step: number) => (Math.abs(this.value('gap', step)) > least ? this.value('gap', step) : 0);
     if (this.result.contactOpens)
       add('Pressure over opening', ['opening', 'm'], ['p', 'N/m²'], () => [
-        { label: 'p', colour: lineColours[0], x: this.each((step) => this.value('gap', step)), y: pressure() }]);
+        { label: 'p', colour: lineColours[0], x: this.each(opening), y: pressure() }]);
   }
 
   private say() {

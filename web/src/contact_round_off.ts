@@ -22,12 +22,17 @@ function greatestStress(result: Result): number {
   }));
 }
 
+/** Slips and openings up to this size [m] are round-off. */
+export function negligibleMove(result: Result): number {
+  const displacement = result.history?.column('max_displacement') ?? new Float32Array();
+  return roundOff * displacement.reduce((most, v) => Math.max(most, v), 0);
+}
+
 /** Over all moments; tractions beside each other and the stresses in the body, slips and openings beside its displacements. */
 export function contactRoundOff(result: Result): ContactRoundOff {
   const normal = greatest(result, 'normal_traction'), tangential = greatest(result, 'tangential_traction_');
   const slip = greatest(result, 'slip_'), gap = greatest(result, 'gap');
   const force = roundOff * Math.max(normal, tangential, greatestStress(result));
-  const displacement = result.history?.column('max_displacement') ?? new Float32Array();
-  const move = roundOff * displacement.reduce((most, v) => Math.max(most, v), 0);
+  const move = negligibleMove(result);
   return { normal: normal <= force, tangential: tangential <= force, slip: slip <= move, gap: gap <= move };
 }

@@ -89,6 +89,7 @@ export class Diagram {
       places.forEach(([x, y], k) => (k === 0 ? ctx.moveTo(x, y) : ctx.lineTo(x, y)));
       ctx.stroke();
       ctx.setLineDash([]);
+      if (path.dashed) continue;  // the marks are those of what it limits
       const at = this.at();
       places.forEach(([x, y], k) => {
         ctx.beginPath();

@@ -50,7 +50,7 @@ function groups(history: Table, dimension: 2 | 3): Group[] {
       ['thermal_energy', 'thermal'], ['coupling_energy', 'coupling'], ['contact_energy', 'contact']] },
     { title: 'Friction dissipation and power of the loads', unit: 'W' + per,
       columns: [['friction_dissipation', 'friction'], ['load_power', 'loads'], ['foundation_power', 'foundation'],
-        ['contact_dissipation', 'contact']] },
+        ['contact_dissipation', 'damped contact']] },
     { title: 'Power and losses', unit: 'W' + per, columns: [['stored_energy_rate', 'stored'], ['thermal_power', 'thermal'],
       ['conduction_loss', 'conduction'], ['time_step_loss', 'time step']] },
     { title: 'Newton iterations', unit: '', columns: [['newton_iterations', 'iterations']], bars: true },

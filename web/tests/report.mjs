@@ -579,6 +579,126 @@ for (const [out, what, silent, drawn] of [[turned, 'turned', 'Normal traction', 
     });
   });
 
+const lifting = (box, displacement) => `mesh.box = ${box}
+material.library = "BaTiO3-Liu2014"
+time = { end = 2, steps = 5 }
+boundary = [ { on = "top", displacement = ${displacement}, potential = 0, temperature = 0 } ]
+[contact]
+on = "bottom"
+gap = "2e-7*(1 - x/0.02)"
+foundation_displacement = ${displacement.split(',').length === 3 ? '["1e-7*t", 0, 0]' : '["1e-7*t", 0]'}
+normal = "unilateral"
+friction = { law = "coulomb", coefficient = 0.3 }
+heat = { law = "exchange", coefficient = 2e4, foundation_temperature = "20*t" }
+`;
+const plane = runText('lifting', lifting('{ min = [0, 0], max = [0.02, 0.01], cells = [20, 10], cell = "quadrilateral" }',
+  '["1e-6*sin(2*t)", "-5e-7*t"]'));
+const thick = runText('lifting-solid', lifting(
+  '{ min = [0, 0, 0], max = [0.02, 0.01, 0.01], cells = [8, 3, 3], cell = "hexahedron" }', '["1e-6*sin(2*t)", 0, "-5e-7*t"]'));
+
+/** What the page says of the chosen contact node. */
+const saidOfNode = async (tab) => Object.fromEntries(await tab.locator('.node .values [data-quantity]').evaluateAll((spans) =>
+  spans.map((s) => [s.dataset.quantity, s.dataset.value === undefined ? s.textContent : Number(s.dataset.value)])));
+const isClose = (value, wanted) => assert.ok(Math.abs(value - wanted) <= 1e-6 * Math.abs(wanted) + 1e-30, `${value}, contact.csv has ${wanted}`);
+
+await inBrowser(desktop, async (context) => {
+  const { tab, complaints } = await open(context, join(plane, 'report.html'));
+  const rows = tableOf(plane, 'contact.csv');
+  const at = (step) => rows.filter((r) => r.step === step);
+  await test('of contact that opens there are opening and pressure, with the values of contact.csv', async () => {
+    const titles = await tab.locator('[data-piece] figcaption').allTextContents();
+    assert.deepEqual(titles.slice(0, 3), ['Opening', 'Contact pressure', 'Tangential traction and the bound ±S']);
+    assert.ok(!titles.includes('Normal traction on the body') && titles.at(-1) === 'Open, stick and slip', String(titles));
+    await goTo(tab, 1);
+    for (const [chart, value] of [[0, (r) => r.gap], [1, (r) => -r.normal_traction]])
+      for (const across of [0, 0.3, 0.85]) {
+        const [x, said] = await hovered(tab, 'bottom', chart, across);
+        const row = at(1).find((r) => Math.abs(r.x - x) < 1e-5);
+        assert.ok(row, `nothing stands at x = ${x}`);
+        const wanted = value(row);
+        const power = Math.abs(wanted) < 1e-15 ? 1 : 1e3 ** Math.round(Math.log10(wanted / said) / 3);
+        assert.ok(Math.abs(said * power - wanted) <= 1e-3 * Math.abs(wanted) + 1e-15, `chart ${chart} at ${x}: ${said}, contact.csv has ${wanted}`);
+      }
+  });
+  await test('open nodes have a colour of their own, and every node of the map the status of contact.csv', async () => {
+    const colour = { open: '#aeb6c0', stick: '#3f7fb5', slip: '#e07b39' };
+    await goTo(tab, 0);
+    await settled(tab);
+    for (const row of rows)
+      assert.equal(await mapColour(tab, 'bottom', (row.step - 0.4) / 5, row.x / 0.02), colour[row.status],
+        `x = ${row.x}, step ${row.step}: ${row.status}`);
+    assert.deepEqual(new Set(rows.map((r) => r.status)), new Set(['open', 'stick', 'slip']));
+    assert.deepEqual(await tab.locator('[data-piece] .chart').last().locator('.legend li').allTextContents(), ['open', 'stick', 'slip']);
+  });
+  await test('a contact node is told and drawn over the steps as contact.csv has it', async () => {
+    assert.deepEqual(await tab.locator('.node figcaption').allTextContents(),
+      ['Tangential traction over slip', 'Friction bound over pressure', 'Pressure over opening']);
+    for (let i = 0; i < 3; ++i) assert.ok((await colours(tab, '.node canvas', i)) > 3, `diagram ${i} is empty`);
+    const images = new Set();
+    for (const node of [0, 7, 20]) {
+      await tab.locator('.node input').fill(String(node));
+      images.add(await pixels(tab, '.node canvas', 0));
+      for (const step of [1, 3, 5]) {
+        await goTo(tab, step);
+        await settled(tab);
+        const row = at(step).sort((a, b) => a.x - b.x)[node];
+        const said = await saidOfNode(tab);
+        isClose(said.slip, row.slip_x);
+        isClose(said.traction, row.tangential_traction_x);
+        isClose(said.pressure, -row.normal_traction);
+        isClose(said.bound, row.friction_bound);
+        isClose(said.opening, row.gap);
+        assert.equal(said.status, row.status);
+      }
+    }
+    assert.equal(images.size, 3);
+  });
+  await test('open nodes, the foundation\'s power and the contact are among what is drawn over time', async () => {
+    const legend = (title) => tab.locator('#history .chart', { hasText: title }).locator('.u-label').allTextContents();
+    assert.ok((await legend('Contact nodes')).includes('open'));
+    assert.ok((await legend('Friction dissipation and power of the loads')).includes('foundation'));
+  });
+  await test('of contact that opens nothing is complained of', () => assert.deepEqual(complaints, []));
+});
+
+await inBrowser(desktop, async (context) => {
+  const { tab, complaints } = await open(context, join(thick, 'report.html'));
+  const rows = tableOf(thick, 'contact.csv').filter((r) => r.step === 5);
+  await test('on the contact face of a solid body a click chooses the node that is told', async () => {
+    const titles = await tab.locator('#contact figcaption').allTextContents();
+    for (const title of ['Open, stick and slip', 'Opening', 'Contact pressure']) assert.ok(titles.includes(title), String(titles));
+    const seen = new Set();
+    for (const across of [0.1, 0.9]) {
+      const box = await centred(tab, '#contact canvas.face');
+      await tab.mouse.click(box.x + across * box.width, box.y + box.height / 2);
+      await settled(tab);
+      const where = (await tab.locator('.node output').textContent()).split(', ').map((text) => numberIn(text.replace('= ', '')));
+      seen.add(String(where));
+      const row = rows.find((r) => [r.x, r.y, r.z].every((v, i) => Math.abs(v - where[i]) < 1e-5));
+      assert.ok(row, `no node at ${where}`);
+      assert.ok(across < 0.5 ? row.x < 0.01 : row.x > 0.01, `x = ${row.x}`);
+      const said = await saidOfNode(tab);
+      isClose(said.pressure, -row.normal_traction);
+      isClose(said.bound, row.friction_bound);
+      isClose(said.opening, row.gap);
+      assert.ok(Math.abs(said.slip) <= Math.hypot(row.slip_x, row.slip_y, row.slip_z) * (1 + 1e-6));
+      assert.ok(Math.abs(said.traction) <= row.friction_bound * (1 + 1e-6) + 1e-9);
+    }
+    assert.equal(seen.size, 2);
+    for (let i = 0; i < 3; ++i) assert.ok((await colours(tab, '.node canvas', i)) > 3, `diagram ${i} is empty`);
+    assert.deepEqual(complaints, []);
+  });
+});
+await test('bilateral contact with Tresca\'s law has no opening and no diagrams of pressure', async () => {
+  await inBrowser(desktop, async (context) => {
+    const { tab } = await open(context, join(two, 'report.html'));
+    assert.equal(await tab.locator('.node').count(), 0);
+    const titles = await tab.locator('#contact figcaption').allTextContents();
+    assert.ok(titles.includes('Normal traction on the body') && titles.includes('Stick and slip'));
+    for (const title of ['Opening', 'Contact pressure', 'Open, stick and slip']) assert.ok(!titles.includes(title), title);
+  });
+});
+
 const alone = runText('alone', plate('"bottom"').replace(/\[contact\][^]*/, '').replace('"free"', '0'));
 await inBrowser(desktop, async (context) => {
   const titles = async (out) => {
