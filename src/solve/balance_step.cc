@@ -157,8 +157,8 @@ void excuse_leaks(const std::array<double, 3> &size, BalanceRoundOff &sums) {
       *of_field[f] = sums.energy[f] = anything;
 }
 
-// What moves or holds prescribed values works against the round-off of forces, charges and heats
-// [J].
+// What moves or holds prescribed values, and what moves at the contact, works against the round-off
+// of forces, charges and heats [J].
 template <int dim>
 std::array<double, 3> work_of_round_off(const Model<dim> &model, const BalanceStep<dim> &step,
                                         const BalanceRoundOff &sums) {
@@ -168,6 +168,9 @@ std::array<double, 3> work_of_round_off(const Model<dim> &model, const BalanceSt
     const double moved = field == 0 ? step.change(p.unknown) : step.now.unknowns[p.unknown];
     most[field] = larger(most[field], std::abs(moved));
   }
+  for (const contact::InterfaceNode<dim> &at : model.interface)
+    for (int c = 0; c < dim; ++c)
+      most[0] = larger(most[0], std::abs(step.change(body::unknown<dim>(at.node, c))));
   const double watt = model.op.reference_temperature() / model.step;
   return {most[0] * sums.force, most[1] * sums.charge, most[2] * sums.heat / watt};
 }

@@ -76,6 +76,8 @@ class CondensedRoute : public Route {
                        std::span<const double> state, VectorXd &c, StepOutcome &outcome);
   CoupledSolution solve_contact(double time, const VectorXd &s);
   CoupledSolution solve_programme(const InterfaceProgramme &programme) const;
+  CoupledSolution solve_leaning(const InterfaceProgramme &programme,
+                                const InterfaceSettings &settings) const;
   bool is_carried_off(const InterfaceProgramme &programme, const InterfaceSolution &solution) const;
   std::string unheld_motions(const InterfaceSolution &solution) const;
   [[noreturn]] void let_go(double time, const InterfaceSolution &solution) const;
@@ -151,11 +153,39 @@ template <int dim>
 CoupledSolution CondensedRoute<dim>::solve_programme(const InterfaceProgramme &programme) const {
   const InterfaceSettings settings{model_.asked.solver.tolerance,
                                    model_.asked.solver.max_iterations, left_to_contact_.empty()};
-  if (contact_->is_coupled())
+  if (contact_->is_coupled() && left_to_contact_.empty())
     return solve_coupled({programme, contact_->couplings()}, last_increment_, settings);
+  if (contact_->is_coupled())
+    return solve_leaning(programme, settings);
   CoupledSolution solution;
   solution.interface = minimise(programme, last_increment_, settings);
   solution.stage = ContactStage::convex;
+  return solution;
+}
+
+// Where only the contact holds the body, Newton's method may meet a singular matrix on its way.
+// Weak springs between contact and foundation lead it to where the contact holds.
+template <int dim>
+CoupledSolution CondensedRoute<dim>::solve_leaning(const InterfaceProgramme &programme,
+                                                   const InterfaceSettings &settings) const {
+  CoupledSolution solution =
+      solve_coupled({programme, contact_->couplings()}, last_increment_, settings);
+  int iterations = solution.interface.iterations;
+  VectorXd start = VectorXd::Zero(last_increment_.size());
+  for (const double weak : {1e-2, 1e-4, 1e-6}) {
+    if (solution.interface.converged && !is_carried_off(programme, solution.interface))
+      break;
+    MatrixXd stiffness = programme.stiffness;
+    stiffness.diagonal() *= 1 + weak;
+    const InterfaceProgramme sprung{stiffness, programme.force, programme.points,
+                                    programme.force_scale};
+    InterfaceSettings definite = settings;
+    definite.is_definite = true;
+    start = solve_coupled({sprung, contact_->couplings()}, start, definite).interface.increment;
+    solution = solve_coupled({programme, contact_->couplings()}, start, settings);
+    iterations += solution.interface.iterations;
+  }
+  solution.interface.iterations = iterations;
   return solution;
 }
 

@@ -31,8 +31,6 @@ class HeldBounds {
   /// differ by no more than `tolerance` [N/m^2].
   bool settle(const std::vector<State> &found, double tolerance);
 
-  const Eigen::VectorXd &values() const { return held_; }  ///< [N/m^2]
-
  private:
   Eigen::VectorXd asked_for(const std::vector<State> &states) const;
 

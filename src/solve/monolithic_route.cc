@@ -217,7 +217,10 @@ void MonolithicRoute<dim>::find_with_bounds(double time, const StepData &data,
     if (held.settle(states(time, data),
                     model_.asked.solver.tolerance * force_size_ / least_weight)) {
       outcome.stage = ContactStage::fixed_point;
-      outcome.friction_bound = held.values();
+      outcome.friction_bound = VectorXd::Zero(static_cast<Index>(laws.size()));
+      for (std::size_t p = 0; p < laws.size(); ++p)
+        if (const auto *ball = std::get_if<contact::Tresca>(&laws[p].friction.law()))
+          outcome.friction_bound[static_cast<Index>(p)] = ball->bound;
       return;
     }
   }
