@@ -101,7 +101,7 @@ TEST_F(ContactLaws, LetABodyGoThatIsNotPressed) {
 }
 
 TEST_F(ContactLaws, LetABodyGoThatIsPushedHarderThanItRubs) {
-  const std::string along = "nothing keeps the body from a translation along x,";
+  const std::string along = "nothing keeps the body from a translation along x";
   const std::string pushed = "--set 'boundary[0].traction=[2e6,-1e6]' --set ";
   expect_answer(3, pushed + "contact.normal=bilateral", {along});
   expect_answer(3, pushed + "'contact.friction={law=\"tresca\",bound=1e5}'", {along});
