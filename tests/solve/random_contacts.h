@@ -128,8 +128,8 @@ inline double violation(const ContactProblem &p, const VectorXd &d) {
                          std::min(std::abs(pressed - law), curvature * std::abs(depth - inverse)));
       }
     }
-    const double mu_bound = std::clamp(node.cohesion * node.weight + node.mu * pressed, 0.,
-                                       node.limit * node.weight);
+    const double mu_bound =
+        std::clamp(node.cohesion * node.weight + node.mu * pressed, 0., node.limit * node.weight);
     const double bound = p.friction == FrictionKind::tresca ? node.bound * node.weight : mu_bound;
     worst = std::max(worst, lack_of_friction(d.segment(node.offset + 1, p.dim - 1),
                                              force.segment(node.offset + 1, p.dim - 1),
