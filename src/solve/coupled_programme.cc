@@ -1,6 +1,7 @@
 #include "solve/coupled_programme.h"
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <functional>
 #include <limits>
@@ -84,8 +85,9 @@ double Cascade::damped(const NaturalMap &map, const Place &x, const Direction &d
   if (least <= (1 - 2 * armijo) * merit)
     return 1;
   std::vector<double> lengths = map.turns(x, direction);
-  for (double t = 0.5; t > 1e-4; t /= 2)
-    lengths.push_back(t);
+  constexpr int halvings = 13;
+  for (int k = 1; k <= halvings; ++k)
+    lengths.push_back(std::ldexp(1., -k));
   for (const double t : lengths)
     if (const double value = map.merit(map.along(x, direction, t)); value < least) {
       least = value;
@@ -214,7 +216,7 @@ bool Cascade::filled_from_any(const VectorXd &start, Place &x) {
   const std::vector<std::function<VectorXd()>> starts{
       [&] { return start; }, [&] { return with_bounds(none, VectorXd::Zero(n)); },
       [&] { return with_bounds(all, all.bounds(all.at(rest))); }, [&] { return without_contact(); },
-      [&] { return rest; }};
+      [&] { return VectorXd(rest); }};
   return all.has_jumps() && std::any_of(starts.begin(), starts.end(), [&](const auto &make) {
            x = all.at(make());
            return filled(x);

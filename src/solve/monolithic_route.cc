@@ -213,7 +213,8 @@ void MonolithicRoute<dim>::find_with_bounds(double time, const StepData &data,
   for (int k = 0; k < most; ++k) {
     for (std::size_t p = 0; p < laws.size(); ++p)
       laws[p].friction = held.law(p, own[p]);
-    find(time, data, k == 0 ? std::move(start) : x_, outcome);
+    find(time, data, start, outcome);
+    start = x_;
     if (held.settle(states(time, data),
                     model_.asked.solver.tolerance * force_size_ / least_weight)) {
       outcome.stage = ContactStage::fixed_point;
