@@ -341,6 +341,8 @@ StepOutcome CondensedRoute<dim>::advance(double time, std::span<const double> ri
       return outcome;
     refine();
     last_increment_ = start;
+    if (contact_)
+      contact_->take_back();
     outcome = solve(time, right_side, before, state);
     forget_errors();
     measure(right_side, state, outcome);

@@ -21,7 +21,7 @@ ContactNodes<dim>::ContactNodes(const Model<dim> &model, const std::vector<bool>
   }
   directions_.resize(dim * static_cast<Index>(nodes_.size()), n_);
   directions_.setFromTriplets(entries.begin(), entries.end());
-  slipped_ = VectorXd::Zero(static_cast<Index>(nodes_.size()));
+  slipped_ = slipped_before_ = VectorXd::Zero(static_cast<Index>(nodes_.size()));
 }
 
 // A bilateral point that is held by supports along its normal has its pressure from them, though
@@ -169,6 +169,7 @@ void ContactNodes<dim>::share_force(std::size_t i, const CoupledSolution &soluti
 
 template <int dim>
 void ContactNodes<dim>::end_step(const CoupledSolution &solution, StepOutcome &outcome) {
+  slipped_before_ = slipped_;
   outcome.stage = solution.stage;
   outcome.newton_iterations = solution.interface.iterations;
   outcome.residual = solution.interface.residual;

@@ -50,6 +50,8 @@ class ContactNodes {
   /// Of the nodal forces that hold the contact, `outcome.contact_forces`, takes away what supports
   /// bear, and says which part is friction; and the statuses of the nodes.
   void end_step(const CoupledSolution &solution, StepOutcome &outcome);
+  /// The step that has ended is to be taken again: its slip is forgotten.
+  void take_back() { slipped_ = slipped_before_; }
 
   void save(output::SavedNumbers &numbers) const;
   void restore(const output::SavedNumbers &numbers);
@@ -87,7 +89,7 @@ class ContactNodes {
   Eigen::Index n_ = 0;                // entries of z
   Eigen::SparseMatrix<double> directions_;
   Eigen::VectorXd held_, stuck_;
-  Eigen::VectorXd slipped_;  // accumulated slip by node [m]
+  Eigen::VectorXd slipped_, slipped_before_;  // accumulated slip by node, and a step ago [m]
   std::vector<double> carried_;
 };
 

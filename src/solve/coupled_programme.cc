@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <functional>
 #include <limits>
 #include <optional>
 
+#include "solve/anderson.h"
 #include "solve/natural_map.h"
 
 namespace tourmaline::solve {
@@ -20,34 +20,6 @@ using Place = NaturalMap::Place;
 using Direction = NaturalMap::Direction;
 
 namespace {
-
-/// Mixes the last iterates of a fixed point so that what they changed by cancels best. (D. G.
-/// Anderson, J. ACM 12 (1965) 547-560.)
-class Anderson {
- public:
-  VectorXd next(const VectorXd &x, const VectorXd &image) {
-    constexpr std::size_t depth = 5;
-    x_.push_back(image);
-    change_.push_back(image - x);
-    if (x_.size() > depth + 1) {
-      x_.pop_front();
-      change_.pop_front();
-    }
-    const auto m = static_cast<Index>(x_.size()) - 1;
-    if (m == 0)
-      return image;
-    MatrixXd changes(x.size(), m), images(x.size(), m);
-    for (Index k = 0; k < m; ++k) {
-      const auto at = static_cast<std::size_t>(k);
-      changes.col(k) = change_[at + 1] - change_[at];
-      images.col(k) = x_[at + 1] - x_[at];
-    }
-    return image - images * changes.completeOrthogonalDecomposition().solve(change_.back());
-  }
-
- private:
-  std::deque<VectorXd> x_, change_;
-};
 
 class Cascade {
  public:
@@ -129,8 +101,10 @@ bool Cascade::find_by_newton(const VectorXd &start, Place &x) {
   x = map.at(start);
   if (newton(map, x, most))
     return true;
+  if (!settings_.is_definite)
+    return false;
   x = map.at(without_contact());
-  return settings_.is_definite && newton(map, x, most);
+  return newton(map, x, most);
 }
 
 InterfaceSolution Cascade::convex(const std::vector<PointLaw> &friction, const VectorXd &start) {

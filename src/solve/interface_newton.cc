@@ -28,7 +28,7 @@ class Iteration {
   Iteration(const InterfaceProgramme &programme, VectorXd start, bool is_definite)
       : programme_(programme), d_(std::move(start)), may_be_singular_(!is_definite) {
     for (const ContactPoint &p : programme.points)
-      curvature_.push_back(largest_eigenvalue(p));
+      curvature_.push_back(largest_curvature(programme.stiffness, p));
     may_yield_ = std::any_of(
         programme.points.begin(), programme.points.end(),
         [](const ContactPoint &p) { return p.law.normal() != nullptr && !p.law.has_kink(p.size); });
@@ -51,7 +51,6 @@ class Iteration {
   bool may_yield() const { return may_yield_; }
 
  private:
-  double largest_eigenvalue(const ContactPoint &p) const;
   // lambda + r d as a traction; r is the largest curvature of the point's own block of A.
   Tangent trial(std::size_t i) const;
   Tangent friction_force(std::size_t i) const;
@@ -88,15 +87,6 @@ class Iteration {
   bool may_yield_;  // a normal law has no kink, but a bend where the body begins to touch
   bool is_definite_ = true;
 };
-
-double Iteration::largest_eigenvalue(const ContactPoint &p) const {
-  const TangentMatrix block = programme_.stiffness.block(p.offset, p.offset, p.size, p.size);
-  if (p.size == 1)
-    return block(0, 0);
-  return p.size == 0
-             ? 0
-             : Eigen::SelfAdjointEigenSolver<TangentMatrix>(block).eigenvalues()(p.size - 1);
-}
 
 Tangent Iteration::trial(std::size_t i) const {
   const ContactPoint &p = programme_.points[i];
@@ -329,6 +319,15 @@ InterfaceSolution nothing_to_slip(const InterfaceProgramme &programme) {
 }
 
 }  // namespace
+
+double largest_curvature(const Eigen::MatrixXd &stiffness, const ContactPoint &p) {
+  const TangentMatrix block = stiffness.block(p.offset, p.offset, p.size, p.size);
+  if (p.size == 1)
+    return block(0, 0);
+  return p.size == 0
+             ? 0
+             : Eigen::SelfAdjointEigenSolver<TangentMatrix>(block).eigenvalues()(p.size - 1);
+}
 
 double size_of_forces(const InterfaceProgramme &programme, const VectorXd &d) {
   double size = programme.force_scale;

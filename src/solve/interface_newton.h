@@ -48,6 +48,9 @@ struct InterfaceSolution {
   std::vector<std::size_t> unsettled;  ///< points that carry the residual, if not converged
 };
 
+/// The largest eigenvalue of the point's own block of A [N/m]; 0 where it has no entries.
+double largest_curvature(const Eigen::MatrixXd &stiffness, const ContactPoint &point);
+
 /// What a residual of the programme at d is compared to: the largest of the terms of its forces
 /// [N].
 double size_of_forces(const InterfaceProgramme &programme, const Eigen::VectorXd &d);

@@ -18,19 +18,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-namespace {
-
-double largest_eigenvalue(const MatrixXd &stiffness, const ContactPoint &p) {
-  const TangentMatrix block = stiffness.block(p.offset, p.offset, p.size, p.size);
-  if (p.size == 1)
-    return block(0, 0);
-  return p.size == 0
-             ? 0
-             : Eigen::SelfAdjointEigenSolver<TangentMatrix>(block).eigenvalues()(p.size - 1);
-}
-
-}  // namespace
-
 NaturalMap::NaturalMap(const CoupledProgramme &programme, double strength,
                        std::optional<double> ramp)
     : convex_(programme.convex),
@@ -43,7 +30,7 @@ NaturalMap::NaturalMap(const CoupledProgramme &programme, double strength,
     jump_.push_back(size_of_jump(couplings_[j]));
   }
   for (const ContactPoint &p : convex_.points)
-    curvature_.push_back(largest_eigenvalue(convex_.stiffness, p));
+    curvature_.push_back(largest_curvature(convex_.stiffness, p));
   if (convex_.force.size() > 0)
     largest_force_ = convex_.force.cwiseAbs().maxCoeff();
 }
