@@ -101,7 +101,8 @@ TEST(Reader, ReadsANormalLawWithItsConstants) {
 
 TEST(Reader, ReadsTheGapAndTheFoundationsMotion) {
   const ContactCase contact =
-      *read({"contact.gap='-1e-6*y'", "contact.foundation_displacement=[1e-9,'1e-6*t']"}).contact;
+      read({"contact.gap='-1e-6*y'", "contact.foundation_displacement=[1e-9,'1e-6*t']"})
+          .contacts.front();
   EXPECT_EQ(contact.gap.value({0, 2}, 0), -2e-6);
   ASSERT_EQ(contact.foundation_displacement.size(), 2u);
   EXPECT_EQ(contact.foundation_displacement[0].value({}, 3), 1e-9);
@@ -136,7 +137,7 @@ TEST(Reader, ReadsACoefficientOfFrictionThatFallsWithSlip) {
 }
 
 TEST(Reader, ACaseWithoutContactIsPossible) {
-  EXPECT_FALSE(read_text(cube, "cube.toml").contact);
+  EXPECT_TRUE(read_text(cube, "cube.toml").contacts.empty());
 }
 
 TEST(Reader, ThreeDimensionsFollowFromTheCells) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <functional>
+#include <set>
 
 #include "run_case.h"
 #include "tourmaline/contact/friction.h"
@@ -11,56 +12,57 @@
 namespace tourmaline::testing {
 namespace {
 
-/// Rectangles of squares in Gmsh's format, their sides in groups of given names.
-class Rectangles {
+/// Squares of a grid as a mesh in Gmsh's format, the sides of the body in groups of given names.
+class Squares {
  public:
-  using NameOf = std::function<std::string(const std::string &side, int facet)>;
-
-  void add(double x, int nx, int ny, double h, const NameOf &name_of) {
-    const int first = n_nodes_ + 1;
-    const auto node = [&](int i, int j) { return first + i * (ny + 1) + j; };
-    for (int i = 0; i <= nx; ++i)
-      for (int j = 0; j <= ny; ++j)
-        nodes_ += fmt::format("{} {} {} 0\n", ++n_nodes_, x + h * i, h * j);
-    for (int i = 0; i < nx; ++i)
-      for (int j = 0; j < ny; ++j)
-        element(3, group(2, "body"),
-                {node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)});
-    for (int i = 0; i < nx; ++i) {
-      element(1, group(1, name_of("bottom", i)), {node(i, 0), node(i + 1, 0)});
-      element(1, group(1, name_of("top", i)), {node(i, ny), node(i + 1, ny)});
-    }
-    for (int j = 0; j < ny; ++j) {
-      element(1, group(1, name_of("left", j)), {node(0, j), node(0, j + 1)});
-      element(1, group(1, name_of("right", j)), {node(nx, j), node(nx, j + 1)});
-    }
+  void add(int i_begin, int i_end, int j_begin, int j_end) {
+    for (int i = i_begin; i < i_end; ++i)
+      for (int j = j_begin; j < j_end; ++j)
+        cells_.insert({i, j});
   }
 
-  void write(const std::filesystem::path &file) const {
+  /// `name_of` gets twice the place of a side's middle, in sides of squares.
+  void write(const std::filesystem::path &file, double h,
+             const std::function<std::string(int, int)> &name_of) const {
+    std::map<std::pair<int, int>, int> nodes;
+    std::map<std::string, int> groups;
+    std::string elements;
+    int n = 0;
+    const auto node = [&](int i, int j) {
+      return nodes.try_emplace({i, j}, static_cast<int>(nodes.size()) + 1).first->second;
+    };
+    const auto line = [&](int i, int j, int to_i, int to_j) {
+      const int group =
+          groups.try_emplace(name_of(i + to_i, j + to_j), static_cast<int>(groups.size()) + 2)
+              .first->second;
+      elements +=
+          fmt::format("{} 1 2 {} {} {} {}\n", ++n, group, group, node(i, j), node(to_i, to_j));
+    };
+    for (const auto &[i, j] : cells_) {
+      elements += fmt::format("{} 3 2 1 1 {} {} {} {}\n", ++n, node(i, j), node(i + 1, j),
+                              node(i + 1, j + 1), node(i, j + 1));
+      if (!cells_.contains({i, j - 1}))
+        line(i, j, i + 1, j);
+      if (!cells_.contains({i, j + 1}))
+        line(i, j + 1, i + 1, j + 1);
+      if (!cells_.contains({i - 1, j}))
+        line(i, j, i, j + 1);
+      if (!cells_.contains({i + 1, j}))
+        line(i + 1, j, i + 1, j + 1);
+    }
     std::ofstream out(file);
-    out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n" << groups_.size() << "\n";
-    for (const auto &[group, number] : groups_)
-      out << group.first << " " << number << " \"" << group.second << "\"\n";
-    out << "$EndPhysicalNames\n$Nodes\n"
-        << n_nodes_ << "\n"
-        << nodes_ << "$EndNodes\n$Elements\n"
-        << n_elements_ << "\n"
-        << elements_ << "$EndElements\n";
+    out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n"
+        << groups.size() + 1 << "\n2 1 \"body\"\n";
+    for (const auto &[name, number] : groups)
+      out << "1 " << number << " \"" << name << "\"\n";
+    out << "$EndPhysicalNames\n$Nodes\n" << nodes.size() << "\n";
+    for (const auto &[place, number] : nodes)
+      out << fmt::format("{} {} {} 0\n", number, h * place.first, h * place.second);
+    out << "$EndNodes\n$Elements\n" << n << "\n" << elements << "$EndElements\n";
   }
 
  private:
-  int group(int dimension, const std::string &name) {
-    return groups_.try_emplace({dimension, name}, static_cast<int>(groups_.size()) + 1)
-        .first->second;
-  }
-  void element(int type, int group, const std::vector<int> &nodes) {
-    elements_ +=
-        fmt::format("{} {} 2 {} {} {}\n", ++n_elements_, type, group, group, fmt::join(nodes, " "));
-  }
-
-  std::map<std::pair<int, std::string>, int> groups_;
-  std::string nodes_, elements_;
-  int n_nodes_ = 0, n_elements_ = 0;
+  std::set<std::pair<int, int>> cells_;
 };
 
 RunCase run_text(const std::string &text, const std::vector<std::string> &overrides = {},
@@ -146,11 +148,11 @@ class OneContactInParts : public ::testing::TestWithParam<Laws> {};
 // The bottom in two parts that meet in the middle, where the node belongs to the first.
 TEST_P(OneContactInParts, IsTheContact) {
   const output::TemporaryFolder folder;
-  Rectangles mesh;
-  mesh.add(0, 12, 6, 0.02 / 12, [](const std::string &side, int facet) {
-    return side == "bottom" ? std::string(facet < 5 ? "near" : "far") : side;
+  Squares mesh;
+  mesh.add(0, 12, 0, 6);
+  mesh.write(folder / "body.msh", 0.02 / 12, [](int i, int j) {
+    return std::string(j == 12 ? "top" : j > 0 ? "side" : i < 10 ? "near" : "far");
   });
-  mesh.write(folder / "body.msh");
   const std::string body = R"toml(
 mesh = { file = "body.msh" }
 material = { library = "BaTiO3-Liu2014", pyroelectric = [0, 1e-4] }
@@ -186,7 +188,7 @@ boundary = [ { on = "top", displacement = ["5e-7*t", "-5e-7*t"], potential = 0, 
       std::count(rows.columns.at("contact").begin(), rows.columns.at("contact").end(), "near"),
       4 * 6);
   EXPECT_FALSE(whole.contact().columns.contains("contact"));
-  EXPECT_TRUE(parts.summary().at("warnings").empty());
+  EXPECT_EQ(parts.summary().at("warnings").dump().find("edge"), std::string::npos);
 }
 
 INSTANTIATE_TEST_SUITE_P(Routes, OneContactInParts,
@@ -198,56 +200,44 @@ INSTANTIATE_TEST_SUITE_P(Routes, OneContactInParts,
 
 // 2. Contacts that do not know of each other.
 
-class TwoBodies : public ::testing::TestWithParam<const char *> {};
+class TwoBlocks : public ::testing::TestWithParam<const char *> {};
 
-// Two rectangles without a common node, each with a contact of its own laws and foundation.
-TEST_P(TwoBodies, EachDoesWhatItDoesAlone) {
+// Two blocks, joined by a bridge that is one square high, so that all its nodes are held: neither
+// block feels the other. Each has a contact with laws and a foundation of its own.
+TEST_P(TwoBlocks, EachDoesWhatItDoesWithoutTheContactOfTheOther) {
   const output::TemporaryFolder folder;
-  const auto add = [](Rectangles &mesh, double x, const std::string &name) {
-    mesh.add(x, 12, 6, 0.02 / 12, [&](const std::string &side, int) { return name + side; });
-  };
-  Rectangles first, second, both;
-  add(first, 0, "a");
-  add(second, 0.05, "b");
-  add(both, 0, "a");
-  add(both, 0.05, "b");
-  first.write(folder / "first.msh");
-  second.write(folder / "second.msh");
-  both.write(folder / "both.msh");
-  const std::string physics = R"toml(
+  Squares mesh;
+  mesh.add(0, 12, 0, 6);
+  mesh.add(12, 15, 3, 4);
+  mesh.add(15, 27, 0, 6);
+  mesh.write(folder / "blocks.msh", 0.02 / 12, [](int i, int j) {
+    const std::string block = i <= 24 ? "a" : "b";
+    return i > 24 && i < 30 ? "bridge" : block + (j == 0 ? "bottom" : j == 12 ? "top" : "side");
+  });
+  const std::string body = R"toml(
+mesh = { file = "blocks.msh" }
 material = { library = "BaTiO3-Liu2014", pyroelectric = [0, 1e-4] }
 time = { end = 1, steps = 4 }
-)toml";
-  const std::string of_a = R"toml(
-[[boundary]]
-on = "atop"
-displacement = ["5e-7*t", "-5e-7*t"]
-potential = 0
-temperature = "2*t"
-)toml",
-                    of_b = R"toml(
-[[boundary]]
-on = "btop"
-displacement = ["4e-7*t^2", "-3e-7*t"]
-potential = "t"
-temperature = 0
+boundary = [
+  { on = "bridge", displacement = [0, 0], potential = 0, temperature = 0 },
+  { on = "atop", displacement = ["5e-7*t", "-5e-7*t"], potential = 0, temperature = "2*t" },
+  { on = "btop", displacement = ["4e-7*t^2", "-3e-7*t"], potential = "t", temperature = 0 },
+]
 )toml";
   const std::string contact_a = "[[contact]]\non = \"abottom\"\n" + tresca + exchange;
   const std::string contact_b = R"toml(
 [[contact]]
 on = "bbottom"
-gap = "3e-3*(x - 0.058)^2"
+gap = "3e-3*(x - 0.033)^2"
 foundation_displacement = ["5e-7*sin(4*t)", 0]
 normal = "unilateral"
 friction = { law = "coulomb", coefficient = 0.3 }
 heat = { law = "exchange", coefficient = 5e3, foundation_temperature = -3 }
 )toml";
-  const auto run = [&](const std::string &mesh, const std::string &rest) {
-    return run_text("mesh = { file = \"" + mesh + "\" }\n" + physics + rest, {GetParam()},
-                    folder.path());
+  const auto run = [&](const std::string &contacts) {
+    return run_text(body + contacts, {GetParam()}, folder.path());
   };
-  const RunCase a = run("first.msh", of_a + contact_a), b = run("second.msh", of_b + contact_b),
-                together = run("both.msh", of_b + of_a + contact_b + contact_a);
+  const RunCase a = run(contact_a), b = run(contact_b), together = run(contact_b + contact_a);
   expect_same_contact(rows_with(together.contact(), "contact", "abottom"), a.contact());
   expect_same_contact(rows_with(together.contact(), "contact", "bbottom"), b.contact());
   for (const char *status : {"stick", "slip", "open"})
@@ -273,7 +263,7 @@ heat = { law = "exchange", coefficient = 5e3, foundation_temperature = -3 }
   EXPECT_EQ(together.summary().at("contacts").at(1).at("nodes"), 13);
 }
 
-INSTANTIATE_TEST_SUITE_P(Routes, TwoBodies,
+INSTANTIATE_TEST_SUITE_P(Routes, TwoBlocks,
                          ::testing::Values("solver.method=condensed", "solver.method=monolithic"));
 
 // 3. Contacts that mirror each other.
@@ -296,7 +286,7 @@ boundary = [ { on = "bottom", displacement = ["free", 0, 0], potential = 0 },
 )toml";
   const auto contact = [&](const std::string &on, const std::string &towards) {
     return "[[contact]]\non = \"" + on + "\"\nfoundation_displacement = [\"" + towards +
-           "1e-7*(t + t^2)\", " + (dim == 3 ? "0, " : "") + "\"-1e-7*t^2\"]\n" +
+           "1e-7*(t + t^2)\", " + (dim == 3 ? "0, \"-3e-8*t^2\"]\n" : "\"-1e-7*t^2\"]\n") +
            normal_and_friction +
            "heat = { law = \"exchange\", coefficient = 1e4, foundation_temperature = \"5*t\" }\n";
   };
@@ -360,7 +350,7 @@ TEST(SeveralContacts, ExchangeHeatEachWithItsOwnFoundation) {
     const RunCase run =
         run_text(fmt::format(R"toml(
 mesh.box = {{ min = [0, 0], max = [{}, {}], cells = [8, 3], cell = "quadrilateral" }}
-material = {{ symmetry = "isotropic", young = 200e9, poisson = 0.3, eps11 = 1e-9, k11 = {}, density = 7800, specific_heat = 500, reference_temperature = 293 }}
+material = {{ symmetry = "isotropic", young = 200e9, poisson = 0.3, eps11 = 100, k11 = {}, density = 7800, specific_heat = 500, reference_temperature = 293 }}
 time = {{ end = 1e6, steps = 3 }}
 boundary = [ {{ on = "bottom", displacement = [0, 0], potential = 0 }} ]
 contact = [ {{ on = "left", heat = {{ law = "exchange", coefficient = {}, foundation_temperature = {} }} }},
@@ -408,7 +398,8 @@ TEST(SeveralContacts, OfDifferentLawsAreTheSameOnBothRoutes) {
 
 TEST(SeveralContacts, WithTrescasLawEachAreTheSameOnTheIterativeRoute) {
   const std::string file = "cases/clamped-block/block.toml";
-  std::vector<std::string> overrides{"contact[1].normal=bilateral",
+  std::vector<std::string> overrides{"boundary[0].displacement=['free', 0]",
+                                     "contact[1].normal=bilateral",
                                      "contact[1].friction={law='tresca', bound=1e5}"};
   const RunCase direct(file, overrides);
   overrides.push_back("solver.body=iterative");
