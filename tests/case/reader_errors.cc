@@ -62,7 +62,7 @@ const Mistake names[] = {
     {"friction = ",
      "frictoin = ",
      {"case.toml:31:1 [contact] frictoin",
-      "allowed: on, gap, foundation_displacement, normal, friction, heat",
+      "allowed: name, on, gap, foundation_displacement, normal, friction, heat",
       "did you mean \"friction\"?"}},
     {"bound = 15",
      "bonud = 15",

@@ -282,13 +282,13 @@ boundary = [ { on = "bottom", displacement = ["free", 0], potential = 0 },
 mesh.box = { min = [-0.01, 0, 0], max = [0.01, 0.01, 0.01], cells = [6, 3, 4], cell = "hexahedron" }
 material = { library = "BaTiO3-Liu2014", pyroelectric = [0, 0, 1e-4] }
 boundary = [ { on = "bottom", displacement = ["free", 0, 0], potential = 0 },
-             { on = "top", traction = [0, 0, "-1e6*t"], temperature = "t" } ]
+             { on = "top", traction = [0, 0, "-1e6*t"], temperature = "0.3*t" } ]
 )toml";
   const auto contact = [&](const std::string &on, const std::string &towards) {
     return "[[contact]]\non = \"" + on + "\"\nfoundation_displacement = [\"" + towards +
            "1e-7*(t + t^2)\", " + (dim == 3 ? "0, \"-3e-8*t^2\"]\n" : "\"-1e-7*t^2\"]\n") +
            normal_and_friction +
-           "heat = { law = \"exchange\", coefficient = 1e4, foundation_temperature = \"5*t\" }\n";
+           "heat = { law = \"exchange\", coefficient = 1e3, foundation_temperature = \"5*t\" }\n";
   };
   const RunCase run = run_text(
       "time = { end = 1, steps = 4 }\n" + body + contact("left", "") + contact("right", "-"),
