@@ -24,7 +24,10 @@ namespace {
 class Cascade {
  public:
   Cascade(const CoupledProgramme &programme, const InterfaceSettings &settings)
-      : programme_(programme), settings_(settings) {}
+      : programme_(programme), settings_(settings) {
+    if (!settings_.factors)
+      settings_.factors = &own_;
+  }
 
   CoupledSolution solve(const VectorXd &start);
 
@@ -43,7 +46,8 @@ class Cascade {
   void begin_attempt() { last_ = iterations_ + settings_.max_iterations; }
 
   const CoupledProgramme &programme_;
-  const InterfaceSettings settings_;
+  InterfaceSettings settings_;
+  KeptFactors own_;
   int iterations_ = 0;  // linear systems
   int last_ = 0;        // of the attempt
 };
@@ -69,10 +73,10 @@ double Cascade::damped(const NaturalMap &map, const Place &x, const Direction &d
 }
 
 bool Cascade::newton(const NaturalMap &map, Place &x, int most) {
-  for (int k = 0; map.residual(x) > settings_.tolerance; ++k) {
+  for (int k = 0; !map.is_zero(x, settings_.tolerance); ++k) {
     if (k == most || !is_left())
       return false;
-    const std::optional<Direction> direction = map.newton_direction(x);
+    const std::optional<Direction> direction = map.newton_direction(x, settings_.factors->coupled);
     ++iterations_;
     if (!direction)
       return false;
@@ -83,7 +87,7 @@ bool Cascade::newton(const NaturalMap &map, Place &x, int most) {
     x = map.at(x.d, x.share);
   }
   x = map.settled(x);
-  return map.residual(x) <= settings_.tolerance;
+  return map.is_zero(x, settings_.tolerance);
 }
 
 VectorXd Cascade::without_contact() const {
@@ -113,8 +117,9 @@ InterfaceSolution Cascade::convex(const std::vector<PointLaw> &friction, const V
     points[programme_.couplings[j].slip].law = friction[j];
   const InterfaceProgramme held{programme_.convex.stiffness, programme_.convex.force, points,
                                 programme_.convex.force_scale};
-  InterfaceSolution found = minimise(
-      held, start, {settings_.tolerance, std::max(1, last_ - iterations_), settings_.is_definite});
+  InterfaceSettings left = settings_;
+  left.max_iterations = std::max(1, last_ - iterations_);
+  InterfaceSolution found = minimise(held, start, left);
   iterations_ += found.iterations;
   return found;
 }

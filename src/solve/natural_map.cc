@@ -70,7 +70,8 @@ NaturalMap::Place NaturalMap::at(VectorXd d) const {
 
 NaturalMap::Place NaturalMap::at(VectorXd d, VectorXd share) const {
   Place x{std::move(d), {}, std::move(share)};
-  x.force = convex_.force - convex_.stiffness * x.d;
+  x.force = convex_.force;
+  subtract_product(convex_.stiffness, x.d, x.force);
   return x;
 }
 
@@ -173,13 +174,21 @@ double NaturalMap::merit(const Place &x) const {
   return sum;
 }
 
-double NaturalMap::residual(const Place &x) const {
+double NaturalMap::largest_value(const Place &x) const {
   double largest = 0;
   for (std::size_t i = 0; i < convex_.points.size(); ++i)
     largest = larger(largest, point_value(i, x).norm());
   for (const double lack : share_value(x))
     largest = larger(largest, std::abs(lack));
-  return relative_to(largest, size_of_forces(convex_, x.d));
+  return largest;
+}
+
+double NaturalMap::residual(const Place &x) const {
+  return relative_to(largest_value(x), size_of_forces(convex_, x.d));
+}
+
+bool NaturalMap::is_zero(const Place &x, double tolerance) const {
+  return is_within(convex_, x.d, largest_value(x), tolerance);
 }
 
 std::vector<std::size_t> NaturalMap::unsettled(const Place &x, double tolerance) const {
@@ -252,46 +261,42 @@ void NaturalMap::fill_point(std::size_t i, const Place &x, const Unknowns &u, In
                             Rows &rows) const {
   const ContactPoint &p = point(i);
   const Branch &at = u.branches[i];
-  auto by_d = rows.by_d.middleRows(row, p.size);
-  by_d = (at.derivative - TangentMatrix::Identity(p.size, p.size)) *
-         convex_.stiffness.middleRows(p.offset, p.size);
-  by_d.middleCols(p.offset, p.size) -= curvature_[i] * at.derivative;
+  rows.of_unknowns.add_of_force(row, p.offset,
+                                at.derivative - TangentMatrix::Identity(p.size, p.size));
+  rows.of_unknowns.add_local(row, p.offset, -curvature_[i] * at.derivative);
   rows.right_side.segment(row, p.size) = -point_value(i, x);
   const FrictionCoupling *coupling = this->coupling(i);
   if (coupling == nullptr)
     return;
   if (const double size = slip_size(i, x); size > 0)
-    by_d.middleCols(p.offset, p.size) -=
-        p.weight / size * at.by_slip * x.d.segment(p.offset, p.size).transpose();
+    rows.of_unknowns.add_local(
+        row, p.offset, -p.weight / size * at.by_slip * x.d.segment(p.offset, p.size).transpose());
   if (coupling->normal && !at.by_pressure.isZero(0)) {
     // w p' = D (lambda' + c delta') at the normal's point
     const std::size_t n = *coupling->normal;
     const Tangent by_force =
         p.weight / point(n).weight * u.branches[n].derivative(0, 0) * at.by_pressure;
-    by_d += by_force * convex_.stiffness.row(point(n).offset);
-    by_d.col(point(n).offset) -= curvature_[n] * by_force;
+    rows.of_unknowns.add_of_force(row, point(n).offset, by_force);
+    rows.of_unknowns.add_local(row, point(n).offset, -curvature_[n] * by_force);
   }
-  const auto j = static_cast<std::size_t>(coupling_of_[i]);
   if (ramp_)
-    rows.right_side.segment(row, p.size) += p.weight * u.share[static_cast<Index>(j)] * at.by_share;
-  if (const auto k = std::find(u.shares.begin(), u.shares.end(), j); k != u.shares.end())
-    rows.by_share.block(row, k - u.shares.begin(), p.size, 1) = -p.weight * at.by_share;
+    rows.of_unknowns.add_local(row, x.d.size() + coupling_of_[i], -p.weight * at.by_share);
 }
 
 // y - e s = 0, y' = lambda' + c delta'.
 void NaturalMap::fill_share(std::size_t k, const Place &x, const Unknowns &u, Index row,
                             Rows &rows) const {
   const std::size_t j = u.shares[k], n = *couplings_[j].normal;
-  rows.by_d.row(row) = -convex_.stiffness.row(point(n).offset);
-  rows.by_d(row, point(n).offset) += curvature_[n];
-  rows.by_share(row, static_cast<Index>(k)) = -*ramp_;
+  const auto one = [](double value) { return TangentMatrix::Constant(1, 1, value); };
+  rows.of_unknowns.add_of_force(row, point(n).offset, one(-1));
+  rows.of_unknowns.add_local(row, point(n).offset, one(curvature_[n]));
+  rows.of_unknowns.add_local(row, x.d.size() + static_cast<Index>(j), one(-*ramp_));
   rows.right_side[row] = *ramp_ * share(j, x) - normal_force(j, x);
 }
 
 NaturalMap::Rows NaturalMap::rows(const Place &x, const Unknowns &u) const {
-  const auto n_shares = static_cast<Index>(u.shares.size());
-  const Index n = static_cast<Index>(u.entries.size()) + n_shares;
-  Rows all{MatrixXd(n, x.d.size()), MatrixXd::Zero(n, n_shares), VectorXd(n)};
+  Rows all;
+  all.right_side.resize(static_cast<Index>(u.entries.size() + u.shares.size()));
   Index row = 0;
   for (std::size_t i = 0; i < convex_.points.size(); ++i)
     if (!u.branches[i].is_held && point(i).size > 0) {
@@ -303,24 +308,32 @@ NaturalMap::Rows NaturalMap::rows(const Place &x, const Unknowns &u) const {
   return all;
 }
 
-std::optional<NaturalMap::Direction> NaturalMap::newton_direction(const Place &x) const {
+InterfaceSystem NaturalMap::system(const Unknowns &u, const Rows &rows) const {
+  std::vector<Index> unknowns = u.entries;
+  for (const std::size_t j : u.shares)
+    unknowns.push_back(u.d.size() + static_cast<Index>(j));
+  return rows.of_unknowns.system(std::move(unknowns), u.d.size(), u.d.size() + u.share.size());
+}
+
+std::optional<NaturalMap::Direction> NaturalMap::newton_direction(const Place &x,
+                                                                  KeptFactor &factor) const {
   const Unknowns u = unknowns(x);
-  Direction direction{u.d, {}, u.share};
-  const auto n_entries = static_cast<Index>(u.entries.size());
-  if (const auto n_shares = static_cast<Index>(u.shares.size()); n_entries + n_shares > 0) {
-    const Rows all = rows(x, u);
-    MatrixXd jacobian(all.right_side.size(), n_entries + n_shares);
-    jacobian << all.by_d(Eigen::all, u.entries), all.by_share;
-    const VectorXd solved = jacobian.partialPivLu().solve(all.right_side - all.by_d * direction.d);
-    if (!solved.allFinite())
+  VectorXd known(u.d.size() + u.share.size());
+  known << u.d, u.share;
+  VectorXd resisted = VectorXd::Zero(u.d.size());
+  if (!u.d.isZero(0))
+    resisted = symmetric_product(convex_.stiffness, u.d);
+  const Rows all = rows(x, u);
+  const InterfaceSystem asked = system(u, all);
+  if (asked.size() > 0) {
+    const std::optional<KeptFactor::Solved> found = factor.solve(
+        asked, convex_.stiffness, all.right_side - asked.of_force * resisted - asked.local * known);
+    if (!found)
       return std::nullopt;
-    direction.d(u.entries) = solved.head(n_entries);
-    for (Index k = 0; k < n_shares; ++k)
-      direction.share[static_cast<Index>(u.shares[static_cast<std::size_t>(k)])] =
-          solved[n_entries + k];
+    known += found->x;
+    resisted += found->resisted;
   }
-  direction.resisted = convex_.stiffness * direction.d;
-  return direction;
+  return Direction{known.head(u.d.size()), resisted, known.tail(u.share.size())};
 }
 
 // A whole step ends at a share that is one.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solve/coupled_programme.h"
+#include "solve/kept_factor.h"
 
 namespace tourmaline::solve {
 
@@ -43,14 +44,15 @@ class NaturalMap {
   double merit(const Place &x) const;
   /// The largest |F_i| over the size of the forces.
   double residual(const Place &x) const;
+  bool is_zero(const Place &x, double tolerance) const;  ///< whether the residual is within it
   std::vector<std::size_t> unsettled(const Place &x, double tolerance) const;
 
   struct Direction {
     Eigen::VectorXd d, resisted, share;  // resisted = A d
   };
-  /// Newton's; nothing where the linear system cannot be solved. Points that are held go there at
-  /// once and take no part in it.
-  std::optional<Direction> newton_direction(const Place &x) const;
+  /// Newton's, or of large systems nearly Newton's; nothing where the linear system cannot be
+  /// solved. Points that are held go there at once and take no part in it.
+  std::optional<Direction> newton_direction(const Place &x, KeptFactor &factor) const;
   Place along(const Place &x, const Direction &direction, double length) const;
 
   /// Lengths between 0 and 1 at which points change their branch on the way from x; at most some
@@ -86,14 +88,15 @@ class NaturalMap {
     std::vector<std::size_t> shares;  // couplings
     Eigen::VectorXd d, share;
   };
-  /// F' d = -F, and beside it the columns of the shares that are asked for.
+  /// F' d = -F in the changes of d and, behind them, of the shares.
   struct Rows {
-    Eigen::MatrixXd by_d, by_share;
+    SystemRows of_unknowns;
     Eigen::VectorXd right_side;
   };
 
   const ContactPoint &point(std::size_t i) const { return convex_.points[i]; }
   const FrictionCoupling *coupling(std::size_t i) const;
+  double largest_value(const Place &x) const;
   double size_of_jump(const FrictionCoupling &coupling) const;
   contact::Tangent trial(std::size_t i, const Place &x) const;
   double normal_force(std::size_t j, const Place &x) const;
@@ -113,6 +116,7 @@ class NaturalMap {
   void fill_share(std::size_t k, const Place &x, const Unknowns &u, Eigen::Index row,
                   Rows &rows) const;
   Rows rows(const Place &x, const Unknowns &u) const;
+  InterfaceSystem system(const Unknowns &u, const Rows &rows) const;
   double excess(std::size_t i, const Place &x) const;
   double length_to_turn(std::size_t i, const Place &x, const Direction &direction,
                         Place &moving) const;
