@@ -241,7 +241,7 @@ boundary = [
   { on = "btop", displacement = ["4e-7*t^2", "-3e-7*t"], potential = "t", temperature = 0 },
 ]
 )toml";
-  const std::string contact_a = "[[contact]]\non = \"abottom\"\n" + tresca + exchange;
+  const std::string contact_a = "[[contact]]\non = \"abottom\"\ngap = -1e-8\n" + tresca + exchange;
   const std::string contact_b = R"toml(
 [[contact]]
 on = "bbottom"
