@@ -69,8 +69,7 @@ TEST_F(ContactLaws, SeveralContactsOnOneBoundaryAreRefused) {
 TEST_F(ContactLaws, OfSeveralContactsThatMeetAtAnEdgeCheckTells) {
   std::ofstream(here() / "corner.toml") << leaning;
   EXPECT_EQ(run("check corner.toml --set 'contact=[{on=\"bottom\"},{on=\"left\"}]' " + rollers), 0);
-  EXPECT_THAT(said_,
-              HasSubstr("# warning: corner.toml: contacts meet at an edge, at (-0.01, 0"));
+  EXPECT_THAT(said_, HasSubstr("# warning: corner.toml: contacts meet at an edge, at (-0.01, 0"));
   EXPECT_EQ(run("check corner.toml --set 'contact=[{on=\"right\"},{on=\"left\"}]' " + rollers), 0);
   EXPECT_THAT(said_, Not(HasSubstr("warning")));
 }
