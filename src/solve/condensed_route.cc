@@ -227,7 +227,7 @@ std::string CondensedRoute<dim>::unheld_motions(const InterfaceSolution &solutio
   const std::vector<ContactPoint> &points = contact_->points();
   for (std::size_t i = 0; i < points.size(); ++i) {
     const contact::InterfaceNode<dim> &at = model_.interface[contact_->node_of(i)];
-    if (!model_.laws->can_open())
+    if (!model_.laws.of(at).can_open())
       add(at.point, at.normal);
     const bool holds = points[i].law.normal() ? solution.status[i] != ContactStatus::open
                                               : solution.status[i] == ContactStatus::stick;
@@ -313,7 +313,7 @@ StepOutcome CondensedRoute<dim>::solve(double time, std::span<const double> righ
     const auto n_nodes = static_cast<Index>(model_.interface.size());
     if (contact_->is_coupled())
       outcome.friction_bound = VectorXd::Zero(n_nodes);
-    if (model_.laws->remembers_slip())
+    if (model_.laws.remembers_slip())
       outcome.accumulated_slip = VectorXd::Zero(n_nodes);
     parallel::on_first([&] { advance_contact(time, s, before, state, c, outcome); });
     share(outcome);

@@ -67,8 +67,8 @@ class ContactNodes {
     std::size_t coupling = none;
     double pressure = 0;
   };
-  bool is_moved_along_normal(const Node &node) const {
-    return node.normal == none && model_.laws->can_open();
+  bool is_moved_along_normal(std::size_t i) const {
+    return nodes_[i].normal == none && model_.laws.of(model_.interface[i]).can_open();
   }
 
   void add_normal(std::size_t i, std::vector<Eigen::Triplet<double>> &entries);
@@ -76,7 +76,8 @@ class ContactNodes {
   void set_friction(std::size_t i, double time, const Vector &carried);
   void know_pressure(std::size_t i, double time, std::span<const double> before);
   void share_force(std::size_t i, const CoupledSolution &solution, StepOutcome &outcome) const;
-  ContactStatus status(const Node &node, const CoupledSolution &solution) const;
+  const contact::PointLaw &friction(const Node &node, const CoupledSolution &solution) const;
+  ContactStatus status(std::size_t i, const CoupledSolution &solution) const;
   double penetration(std::size_t i, double time, std::span<const double> before) const;
   Vector displacement(std::span<const double> state, std::size_t i) const;
 
