@@ -27,6 +27,8 @@ void Account::step(int n, const solve::StepOutcome &outcome, double seconds) {
   newton_max_ = std::max(newton_max_, outcome.newton_iterations);
   if (n == 1)
     newton_first_ = outcome.newton_iterations;
+  if (outcome.slip_jumped && ++slip_jumps_ == 1)
+    first_slip_jump_ = n;
   in_steps_ += seconds;
   if (outcome.friction_bound.size() > 0)
     ++stages_[static_cast<std::size_t>(outcome.stage)];
@@ -60,6 +62,8 @@ void Account::put_iterations(const solve::RouteReport &report, output::Summary &
     summary
         .iterations[fmt::format("steps_by_{}", name_of(static_cast<solve::ContactStage>(stage)))] =
         static_cast<std::int64_t>(stages_[static_cast<std::size_t>(stage)]);
+  if (slip_jumps_ > 0)
+    summary.iterations["steps_with_slip_jumps"] = slip_jumps_;
   if (report.krylov_iterations > 0) {
     summary.iterations["krylov_total"] = static_cast<std::int64_t>(report.krylov_iterations);
     summary.iterations["krylov_max"] = report.krylov_largest;
@@ -68,19 +72,34 @@ void Account::put_iterations(const solve::RouteReport &report, output::Summary &
   }
 }
 
+std::string Account::jump_warning() const {
+  if (slip_jumps_ == 0)
+    return "";
+  return fmt::format(
+      "slip jumped in {}: where it set in, friction falls faster with slip than the body unloads, "
+      "and nothing quasistatic holds it until it has come to rest. What stands behind such a step "
+      "is in equilibrium; of several such states it need not be the one that a simulation with "
+      "inertia comes to",
+      slip_jumps_ == 1 ? fmt::format("step {}", first_slip_jump_)
+                       : fmt::format("{} steps, first in step {}", slip_jumps_, first_slip_jump_));
+}
+
 void Account::save(output::SavedNumbers &numbers) const {
   numbers.put("contact stages", stages_);
-  numbers.put("newton", {double(newton_total_), double(newton_max_), double(newton_first_)});
+  numbers.put("newton", {double(newton_total_), double(newton_max_), double(newton_first_),
+                         double(slip_jumps_), double(first_slip_jump_)});
   numbers.put("seconds", {in_steps_, before_ + process_age()});
 }
 
 void Account::restore(const output::SavedNumbers &numbers) {
   const auto stages = numbers.get("contact stages", stages_.size());
   std::copy(stages.begin(), stages.end(), stages_.begin());
-  const auto newton = numbers.get("newton", 3);
+  const auto newton = numbers.get("newton", 5);
   newton_total_ = static_cast<int>(newton[0]);
   newton_max_ = static_cast<int>(newton[1]);
   newton_first_ = static_cast<int>(newton[2]);
+  slip_jumps_ = static_cast<int>(newton[3]);
+  first_slip_jump_ = static_cast<int>(newton[4]);
   const auto seconds = numbers.get("seconds", 2);
   in_steps_ = seconds[0];
   before_ = seconds[1];

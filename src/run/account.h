@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 #include "output/checkpoint.h"
 #include "output/summary.h"
@@ -20,6 +21,9 @@ class Account {
   /// Collective.
   void put(const solve::RouteReport &report, int steps, output::Summary &summary) const;
 
+  /// A warning of slip that jumped; empty where none did.
+  std::string jump_warning() const;
+
   void save(output::SavedNumbers &numbers) const;
   void restore(const output::SavedNumbers &numbers);
 
@@ -30,6 +34,7 @@ class Account {
   double before_ = 0;    // seconds of the processes that it goes on from
   double in_steps_ = 0;  // seconds
   int newton_total_ = 0, newton_max_ = 0, newton_first_ = 0;
+  int slip_jumps_ = 0, first_slip_jump_ = 0;  // steps with one, and the first of them
   // Steps by the stage that has found their contact, where friction depends on the pressure.
   std::array<double, solve::n_contact_stages> stages_{};
 };

@@ -364,6 +364,7 @@ std::vector<std::string> TimeLoop<dim>::warnings() const {
     add(warning);
   if (most_strained_.step() > 0)
     add(locking_warning(model_, most_strained_.state()));
+  add(account_.jump_warning());
   for (const std::string &text : material_warnings(model_.asked))
     add(text);
   for (const std::string &text : casefile::snapping_warnings(model_.asked))

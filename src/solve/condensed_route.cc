@@ -33,7 +33,8 @@ constexpr double worth_refining = 1e-8;
 // From the first rank to the others.
 void share(StepOutcome &outcome) {
   std::vector<double> numbers{static_cast<double>(outcome.newton_iterations), outcome.residual,
-                              static_cast<double>(outcome.stage)};
+                              static_cast<double>(outcome.stage),
+                              static_cast<double>(outcome.slip_jumped)};
   for (const auto status : outcome.status)
     numbers.push_back(static_cast<double>(status));
   for (const VectorXd &by_node : {outcome.contact_forces, outcome.friction_forces,
@@ -43,7 +44,8 @@ void share(StepOutcome &outcome) {
   outcome.newton_iterations = static_cast<int>(numbers[0]);
   outcome.residual = numbers[1];
   outcome.stage = static_cast<ContactStage>(numbers[2]);
-  const double *next = &numbers[3];
+  outcome.slip_jumped = numbers[3] != 0;
+  const double *next = &numbers[4];
   for (auto &status : outcome.status)
     status = static_cast<ContactStatus>(*next++);
   for (VectorXd *by_node : {&outcome.contact_forces, &outcome.friction_forces,
@@ -296,6 +298,7 @@ void CondensedRoute<dim>::advance_contact(double time, const VectorXd &s,
   // exactly.
   c = contact_->displacements(last_increment_);
   outcome.contact_forces = condensed_.stiffness() * c - s;
+  outcome.slip_jumped = solution.slip_jumped;
   contact_->end_step(solution, outcome);
 }
 

@@ -40,6 +40,7 @@ class Cascade {
   bool filled(Place &x);
   bool filled_from_any(const VectorXd &start, Place &x);
   bool continuation(Place &x);
+  bool sets_in_unstable(const VectorXd &start, const CoupledSolution &found) const;
   CoupledSolution solve_convex(const VectorXd &start);
   InterfaceSolution convex(const std::vector<PointLaw> &friction, const VectorXd &start);
   bool is_left() const { return iterations_ < last_; }
@@ -250,6 +251,33 @@ CoupledSolution Cascade::solve_convex(const VectorXd &start) {
   return found;
 }
 
+// Whether the body, held by friction that falls from the state of the last step on (of the slip
+// rate: from the one then), is softer along the slips of this step than friction falls.
+bool Cascade::sets_in_unstable(const VectorXd &start, const CoupledSolution &found) const {
+  std::vector<Index> entries;
+  std::vector<std::pair<Index, MatrixXd>> falls;  // from that row and column on
+  for (std::size_t j = 0; j < programme_.couplings.size(); ++j) {
+    const FrictionCoupling &coupling = programme_.couplings[j];
+    const ContactPoint &p = programme_.convex.points[coupling.slip];
+    const VectorXd slip = found.interface.increment.segment(p.offset, p.size);
+    if (!coupling.bound || slip.isZero(0))
+      continue;
+    const double fall =
+        coupling.bound->at(found.pressure[j], start.segment(p.offset, p.size).norm()).by_slip;
+    if (fall < 0)
+      falls.emplace_back(static_cast<Index>(entries.size()),
+                         p.weight * fall * slip * slip.transpose() / slip.squaredNorm());
+    for (Index c = 0; c < p.size; ++c)
+      entries.push_back(p.offset + c);
+  }
+  if (falls.empty() || is_large(static_cast<Index>(entries.size())))
+    return false;
+  MatrixXd stiffness = programme_.convex.stiffness(entries, entries);
+  for (const auto &[row, fall] : falls)
+    stiffness.block(row, row, fall.rows(), fall.cols()) += fall;
+  return Eigen::LLT<MatrixXd>(stiffness).info() != Eigen::Success;
+}
+
 CoupledSolution Cascade::solve(const VectorXd &start) {
   if (programme_.couplings.empty())
     return solve_convex(start);
@@ -279,6 +307,7 @@ CoupledSolution Cascade::solve(const VectorXd &start) {
   found.stage = stage;
   found.interface.iterations = iterations_;
   found.interface.converged = converged;
+  found.slip_jumped = converged && settings_.is_definite && sets_in_unstable(start, found);
   if (!converged)
     found.interface.unsettled = map->unsettled(x, settings_.tolerance);
   return found;

@@ -38,6 +38,7 @@ struct CoupledProgramme {
 struct CoupledSolution {
   InterfaceSolution interface;
   ContactStage stage = ContactStage::newton;
+  bool slip_jumped = false;  ///< as in `StepOutcome`
   /// of each coupling: the law at its point, with the bound that holds, and the pressure [N/m^2]
   std::vector<contact::PointLaw> friction;
   std::vector<double> pressure;

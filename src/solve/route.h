@@ -36,6 +36,10 @@ struct StepOutcome {
   /// by interface node, where friction depends on the pressure; else empty
   Eigen::VectorXd friction_bound;    ///< [N/m^2]
   Eigen::VectorXd accumulated_slip;  ///< over all steps [m]; empty, too, where no law depends on it
+  /// Whether friction fell faster with the slip of this step, where it began, than the body
+  /// unloads: then the slip is a jump. Looked for in the condensed route, on contacts of less than
+  /// a thousand slipping unknowns.
+  bool slip_jumped = false;
 };
 
 /// What a route did to get ready, and how well it solves.

@@ -3,6 +3,7 @@
 // SSNV128.
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 
 #include <functional>
 #include <numbers>
@@ -136,6 +137,20 @@ TEST(SlipWeakening, TheBoundFallsWithAllTheSlipThatHasBeenForwardAndBack) {
   expect_in_time(contact, "accumulated_slip", [&](double t) { return at(t).accumulated; });
   expect_in_time(contact, "tangential_traction_x", [&](double t) { return -at(t).shear; });
   expect_balances(run.history());
+}
+
+int steps_with_jumps(const RunCase &run) {
+  return run.summary()["iterations"].value("steps_with_slip_jumps", 0);
+}
+
+// Below G/h = p (mu_s - mu_d)/distance nothing quasistatic holds the slip once it has set in.
+TEST(SlipWeakening, ThatIsSteeperThanTheLayerUnloadsJumpsAndSaysSo) {
+  EXPECT_EQ(steps_with_jumps(verification("contact-slip-weakening")), 0);
+  const RunCase steep =
+      verification("contact-slip-weakening", {"contact.friction.coefficient.distance=2e-7"});
+  EXPECT_GT(steps_with_jumps(steep), 0);
+  EXPECT_THAT(steep.summary()["warnings"].dump(), ::testing::HasSubstr("slip jumped in"));
+  expect_balances(steep.history());
 }
 
 // 3. SSNV128. The third column is another program's (cases/ssnv128/README.md), all its digits.
