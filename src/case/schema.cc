@@ -136,7 +136,6 @@ void declare(Visitor &v, SolverCase &solver, const std::optional<ContactCase> &c
         &solver.threads);
   declare_augmented_lagrangian(v, solver);
   v.check("multiplier", [&] { return multiplier_complaint(contact, solver.multiplier); });
-  v.check("body", [&] { return body_complaint(contact, solver.body); });
 }
 
 void declare(Visitor &v, OutputCase &output) {

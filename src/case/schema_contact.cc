@@ -259,16 +259,6 @@ std::string multiplier_complaint(const std::optional<ContactCase> &contact,
       law, multiplier);
 }
 
-std::string body_complaint(const std::optional<ContactCase> &contact, const std::string &body) {
-  const std::string law = law_of_the_state(contact);
-  if (law.empty() || body != "iterative")
-    return "";
-  return fmt::format(
-      "contact with {} is not available with solver.body = \"iterative\" in this version; take "
-      "\"direct\"",
-      law);
-}
-
 void declare_contact(Visitor &v, std::optional<ContactCase> &contact, const MeshCase &mesh,
                      int dimension) {
   const Key key = {.name = "contact",

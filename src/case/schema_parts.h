@@ -30,10 +30,8 @@ void declare_boundaries(Visitor &v, std::vector<BoundaryCase> &boundaries, const
 void declare_electrodes(Visitor &v, std::vector<ElectrodeCase> &electrodes, const MeshCase &mesh);
 void declare_contact(Visitor &v, std::optional<ContactCase> &contact, const MeshCase &mesh,
                      int dimension);
-/// Of a contact whose laws the way of solving cannot take; empty: it can. `solver` and `body` are
-/// those of [solver].
+/// Of a contact whose laws the way of solving cannot take; empty: it can.
 std::string multiplier_complaint(const std::optional<ContactCase> &contact,
                                  const std::string &multiplier);
-std::string body_complaint(const std::optional<ContactCase> &contact, const std::string &body);
 
 }  // namespace tourmaline::casefile

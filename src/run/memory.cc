@@ -45,7 +45,6 @@ bool solves_iteratively(const casefile::Case &asked) {
   if (asked.solver.method != "condensed" || asked.solver.body == "direct")
     return false;
   const bool too_large = asked.dimension == 3 && casefile::all_voltages_given(asked) &&
-                         !(asked.contact && asked.contact->depends_on_state()) &&
                          casefile::left_to_contact(asked).empty() &&
                          factorised_memory(asked) > available_memory().bytes / 2;
   return asked.solver.body == "iterative" || parallel::from_first(too_large) != 0;

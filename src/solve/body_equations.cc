@@ -145,6 +145,32 @@ bool BodyEquations<dim>::correct(std::span<const double> free_residual, double r
 }
 
 template <int dim>
+void BodyEquations<dim>::solve_held(double time,
+                                    const std::vector<krylov::NodeTangent<dim>> &held) {
+  system_.set_contact(held);
+  system_.refresh();
+  forget_lack();
+  const auto free_residual = [&] {
+    std::vector<double> residual = residual_;
+    system_.project(residual);
+    return residual;
+  };
+  constexpr int patience = 5;
+  double least = lack_;
+  for (int without_gain = 0; without_gain < patience; ++without_gain) {
+    update_residual();
+    if (is_solved(free_residual()))
+      return;
+    if (lack_ < least / 2) {
+      least = lack_;
+      without_gain = 0;
+    }
+    correct(free_residual(), std::clamp(0.3 / lack_, 1e-6, 1e-1));
+  }
+  give_up(time, free_residual());
+}
+
+template <int dim>
 void BodyEquations<dim>::refine() {
   system_.refine(model_.cells);
 }
@@ -165,6 +191,7 @@ double BodyEquations<dim>::backward_error(std::span<const double> free_residual)
   return system_.backward_error(free_residual, right_side_, state_);
 }
 
+// With what is left in each field.
 template <int dim>
 void BodyEquations<dim>::give_up(double time, std::span<const double> free_residual) const {
   constexpr std::array<const char *, 3> names{"displacement", "potential", "temperature"};

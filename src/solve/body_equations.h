@@ -49,6 +49,9 @@ class BodyEquations {
   /// Adds the solution of the linear system, its residual taken down by `reduction`, to the state.
   /// False where the iteration did not come as far.
   bool correct(std::span<const double> free_residual, double reduction);
+  /// Corrects the state until all that is free beside the contact, which is `held`, is solved; throws
+  /// SolveError where that does not succeed.
+  void solve_held(double time, const std::vector<krylov::NodeTangent<dim>> &held);
   /// The last correction.
   const std::vector<double> &increment() const { return increment_; }
   void forget_increment();
@@ -66,10 +69,8 @@ class BodyEquations {
   krylov::BodySystem<dim> &system() { return system_; }
   const krylov::BodySystem<dim> &system() const { return system_; }
 
-  /// Throws SolveError with what is left in each field.
-  [[noreturn]] void give_up(double time, std::span<const double> free_residual) const;
-
  private:
+  [[noreturn]] void give_up(double time, std::span<const double> free_residual) const;
   std::array<double, 3> field_sizes() const;
   std::array<double, 3> round_off() const;
 

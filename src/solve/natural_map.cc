@@ -15,25 +15,35 @@ using contact::Tangent;
 using contact::TangentMatrix;
 using contact::Tresca;
 using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-NaturalMap::NaturalMap(const CoupledProgramme &programme, double strength,
+NaturalMap::NaturalMap(std::shared_ptr<ContactBody> body, const std::vector<ContactPoint> &points,
+                       const std::vector<FrictionCoupling> &couplings, double strength,
                        std::optional<double> ramp)
-    : convex_(programme.convex),
-      couplings_(programme.couplings),
+    : body_(std::move(body)),
+      points_(points),
+      couplings_(couplings),
       strength_(strength),
-      coupling_of_(convex_.points.size(), -1),
-      ramp_(ramp) {
+      coupling_of_(points.size(), -1),
+      ramp_(ramp),
+      largest_force_(body_->largest_force()) {
   for (std::size_t j = 0; j < couplings_.size(); ++j) {
     coupling_of_[couplings_[j].slip] = static_cast<int>(j);
     jump_.push_back(size_of_jump(couplings_[j]));
   }
-  for (const ContactPoint &p : convex_.points)
-    curvature_.push_back(largest_curvature(convex_.stiffness, p));
-  if (convex_.force.size() > 0)
-    largest_force_ = convex_.force.cwiseAbs().maxCoeff();
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    curvature_.push_back(body_->curvature(i));
 }
+
+NaturalMap::NaturalMap(const CoupledProgramme &programme, double strength,
+                       std::optional<double> ramp)
+    : NaturalMap(std::make_shared<DenseBody>(programme.convex), programme.convex.points,
+                 programme.couplings, strength, ramp) {}
+
+// The body belongs to somebody else.
+NaturalMap::NaturalMap(const CoupledContact &contact, double strength, std::optional<double> ramp)
+    : NaturalMap(std::shared_ptr<ContactBody>(std::shared_ptr<void>(), &contact.body),
+                 contact.points, contact.couplings, strength, ramp) {}
 
 // None where the pressure is known, and where the contact cannot open.
 double NaturalMap::size_of_jump(const FrictionCoupling &coupling) const {
@@ -70,7 +80,7 @@ NaturalMap::Place NaturalMap::at(VectorXd d) const {
 
 NaturalMap::Place NaturalMap::at(VectorXd d, VectorXd share) const {
   Place x{std::move(d), {}, std::move(share)};
-  x.force = convex_.force - convex_.stiffness * x.d;
+  x.force = body_->force(x.d);
   return x;
 }
 
@@ -156,14 +166,14 @@ Tangent NaturalMap::point_value(std::size_t i, const Place &x) const {
 
 VectorXd NaturalMap::value(const Place &x) const {
   VectorXd all(x.d.size());
-  for (std::size_t i = 0; i < convex_.points.size(); ++i)
+  for (std::size_t i = 0; i < points_.size(); ++i)
     all.segment(point(i).offset, point(i).size) = point_value(i, x);
   return all;
 }
 
 double NaturalMap::merit(const Place &x) const {
   double sum = 0;
-  for (std::size_t i = 0; i < convex_.points.size(); ++i)
+  for (std::size_t i = 0; i < points_.size(); ++i)
     if (point(i).size > 0)
       sum += point_value(i, x).squaredNorm() / (curvature_[i] * curvature_[i]);
   const VectorXd shares = share_value(x);
@@ -175,17 +185,17 @@ double NaturalMap::merit(const Place &x) const {
 
 double NaturalMap::residual(const Place &x) const {
   double largest = 0;
-  for (std::size_t i = 0; i < convex_.points.size(); ++i)
+  for (std::size_t i = 0; i < points_.size(); ++i)
     largest = larger(largest, point_value(i, x).norm());
   for (const double lack : share_value(x))
     largest = larger(largest, std::abs(lack));
-  return relative_to(largest, size_of_forces(convex_, x.d));
+  return relative_to(largest, body_->size_of_forces(x.d));
 }
 
 std::vector<std::size_t> NaturalMap::unsettled(const Place &x, double tolerance) const {
-  const double allowed = tolerance * size_of_forces(convex_, x.d);
+  const double allowed = tolerance * body_->size_of_forces(x.d);
   std::vector<std::size_t> points;
-  for (std::size_t i = 0; i < convex_.points.size(); ++i)
+  for (std::size_t i = 0; i < points_.size(); ++i)
     if (!(point_value(i, x).norm() <= allowed))
       points.push_back(i);
   return points;
@@ -227,14 +237,11 @@ NaturalMap::Unknowns NaturalMap::unknowns(const Place &x) const {
   Unknowns u;
   u.d = VectorXd::Zero(x.d.size());
   u.share = VectorXd::Zero(x.share.size());
-  for (std::size_t i = 0; i < convex_.points.size(); ++i) {
+  for (std::size_t i = 0; i < points_.size(); ++i) {
     const ContactPoint &p = point(i);
     u.branches.push_back(branch(i, x));
-    for (Index c = p.offset; c < p.offset + p.size; ++c)
-      if (u.branches.back().is_held)
-        u.d[c] = -x.d[c];
-      else
-        u.entries.push_back(c);
+    if (u.branches.back().is_held)
+      u.d.segment(p.offset, p.size) = -x.d.segment(p.offset, p.size);
   }
   for (std::size_t j = 0; j < couplings_.size() && ramp_; ++j) {
     if (jump_[j] == 0)
@@ -248,78 +255,63 @@ NaturalMap::Unknowns NaturalMap::unknowns(const Place &x) const {
 }
 
 // F' = (I - D) lambda' - c D - w (T_p p' + T_s |d|' + T_s s'), lambda' = -A.
-void NaturalMap::fill_point(std::size_t i, const Place &x, const Unknowns &u, Index row,
-                            Rows &rows) const {
+ContactTangent::Point NaturalMap::tangent_at(std::size_t i, const Place &x,
+                                             const Unknowns &u) const {
   const ContactPoint &p = point(i);
   const Branch &at = u.branches[i];
-  auto by_d = rows.by_d.middleRows(row, p.size);
-  by_d = (at.derivative - TangentMatrix::Identity(p.size, p.size)) *
-         convex_.stiffness.middleRows(p.offset, p.size);
-  by_d.middleCols(p.offset, p.size) -= curvature_[i] * at.derivative;
-  rows.right_side.segment(row, p.size) = -point_value(i, x);
+  ContactTangent::Point row;
+  row.point = i;
+  row.derivative = at.derivative;
+  row.of_own = -curvature_[i] * at.derivative;
+  row.right_side = -point_value(i, x);
   const FrictionCoupling *coupling = this->coupling(i);
   if (coupling == nullptr)
-    return;
+    return row;
   if (const double size = slip_size(i, x); size > 0)
-    by_d.middleCols(p.offset, p.size) -=
-        p.weight / size * at.by_slip * x.d.segment(p.offset, p.size).transpose();
+    row.of_own -= p.weight / size * at.by_slip * x.d.segment(p.offset, p.size).transpose();
   if (coupling->normal && !at.by_pressure.isZero(0)) {
     // w p' = D (lambda' + c delta') at the normal's point
     const std::size_t n = *coupling->normal;
-    const Tangent by_force =
-        p.weight / point(n).weight * u.branches[n].derivative(0, 0) * at.by_pressure;
-    by_d += by_force * convex_.stiffness.row(point(n).offset);
-    by_d.col(point(n).offset) -= curvature_[n] * by_force;
+    row.normal = n;
+    row.of_force = p.weight / point(n).weight * u.branches[n].derivative(0, 0) * at.by_pressure;
+    row.of_normal = -curvature_[n] * row.of_force;
   }
   const auto j = static_cast<std::size_t>(coupling_of_[i]);
   if (ramp_)
-    rows.right_side.segment(row, p.size) += p.weight * u.share[static_cast<Index>(j)] * at.by_share;
-  if (const auto k = std::find(u.shares.begin(), u.shares.end(), j); k != u.shares.end())
-    rows.by_share.block(row, k - u.shares.begin(), p.size, 1) = -p.weight * at.by_share;
+    row.right_side += p.weight * u.share[static_cast<Index>(j)] * at.by_share;
+  if (const auto k = std::find(u.shares.begin(), u.shares.end(), j); k != u.shares.end()) {
+    row.share = static_cast<std::size_t>(k - u.shares.begin());
+    row.of_share = -p.weight * at.by_share;
+  }
+  return row;
 }
 
-// y - e s = 0, y' = lambda' + c delta'.
-void NaturalMap::fill_share(std::size_t k, const Place &x, const Unknowns &u, Index row,
-                            Rows &rows) const {
-  const std::size_t j = u.shares[k], n = *couplings_[j].normal;
-  rows.by_d.row(row) = -convex_.stiffness.row(point(n).offset);
-  rows.by_d(row, point(n).offset) += curvature_[n];
-  rows.by_share(row, static_cast<Index>(k)) = -*ramp_;
-  rows.right_side[row] = *ramp_ * share(j, x) - normal_force(j, x);
-}
-
-NaturalMap::Rows NaturalMap::rows(const Place &x, const Unknowns &u) const {
-  const auto n_shares = static_cast<Index>(u.shares.size());
-  const Index n = static_cast<Index>(u.entries.size()) + n_shares;
-  Rows all{MatrixXd(n, x.d.size()), MatrixXd::Zero(n, n_shares), VectorXd(n)};
-  Index row = 0;
-  for (std::size_t i = 0; i < convex_.points.size(); ++i)
-    if (!u.branches[i].is_held && point(i).size > 0) {
-      fill_point(i, x, u, row, all);
-      row += point(i).size;
-    }
-  for (std::size_t k = 0; k < u.shares.size(); ++k)
-    fill_share(k, x, u, row++, all);
+// Of a share y - e s = 0, y' = lambda' + c delta'.
+ContactTangent NaturalMap::tangent(const Place &x, const Unknowns &u) const {
+  ContactTangent all;
+  all.known = u.d;
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    if (!u.branches[i].is_held && point(i).size > 0)
+      all.points.push_back(tangent_at(i, x, u));
+  for (const std::size_t j : u.shares) {
+    const std::size_t n = *couplings_[j].normal;
+    all.shares.push_back({n, curvature_[n], -*ramp_, *ramp_ * share(j, x) - normal_force(j, x)});
+  }
   return all;
+}
+
+ContactTangent NaturalMap::tangent(const Place &x) const {
+  return tangent(x, unknowns(x));
 }
 
 std::optional<NaturalMap::Direction> NaturalMap::newton_direction(const Place &x) const {
   const Unknowns u = unknowns(x);
-  Direction direction{u.d, {}, u.share};
-  const auto n_entries = static_cast<Index>(u.entries.size());
-  if (const auto n_shares = static_cast<Index>(u.shares.size()); n_entries + n_shares > 0) {
-    const Rows all = rows(x, u);
-    MatrixXd jacobian(all.right_side.size(), n_entries + n_shares);
-    jacobian << all.by_d(Eigen::all, u.entries), all.by_share;
-    const VectorXd solved = jacobian.partialPivLu().solve(all.right_side - all.by_d * direction.d);
-    if (!solved.allFinite())
-      return std::nullopt;
-    direction.d(u.entries) = solved.head(n_entries);
-    for (Index k = 0; k < n_shares; ++k)
-      direction.share[static_cast<Index>(u.shares[static_cast<std::size_t>(k)])] =
-          solved[n_entries + k];
-  }
-  direction.resisted = convex_.stiffness * direction.d;
+  const std::optional<ContactBody::Moved> moved = body_->solve(tangent(x, u));
+  if (!moved)
+    return std::nullopt;
+  Direction direction{moved->x, moved->resisted, u.share};
+  for (std::size_t k = 0; k < u.shares.size(); ++k)
+    direction.share[static_cast<Index>(u.shares[k])] = moved->share[static_cast<Index>(k)];
   return direction;
 }
 
@@ -372,7 +364,7 @@ std::vector<double> NaturalMap::turns(const Place &x, const Direction &direction
   constexpr std::size_t most = 20;
   Place moving = x;
   std::vector<double> lengths;
-  for (std::size_t i = 0; i < convex_.points.size(); ++i)
+  for (std::size_t i = 0; i < points_.size(); ++i)
     if (point(i).size > 0)
       if (const double length = length_to_turn(i, x, direction, moving); length <= 1)
         lengths.push_back(length);
@@ -387,7 +379,7 @@ std::vector<double> NaturalMap::turns(const Place &x, const Direction &direction
 
 NaturalMap::Place NaturalMap::settled(const Place &x) const {
   Place exact = x;
-  for (std::size_t i = 0; i < convex_.points.size(); ++i)
+  for (std::size_t i = 0; i < points_.size(); ++i)
     if (branch(i, x).is_held)
       exact.d.segment(point(i).offset, point(i).size).setZero();
   return exact.d == x.d ? x : at(exact.d, exact.share);
@@ -423,7 +415,7 @@ CoupledSolution NaturalMap::solution(const Place &x) const {
   CoupledSolution found;
   found.interface.increment = x.d;
   found.interface.force = VectorXd::Zero(x.d.size());
-  for (std::size_t i = 0; i < convex_.points.size(); ++i) {
+  for (std::size_t i = 0; i < points_.size(); ++i) {
     const ContactPoint &p = point(i);
     const double r = curvature_[i] / p.weight;
     const LocalLaw law = this->law(i, x);

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <optional>
+#include <vector>
+
+#include "solve/interface_newton.h"
+
+namespace tourmaline::solve {
+
+/// A step of Newton's method for a contact problem, linear in the change x of its unknowns and the
+/// change s of shares (`NaturalMap`). Entries of x that are held are known; the others are asked
+/// for, with A x the nodal forces [N] that resist.
+struct ContactTangent {
+  /// Of a point that is not held, n the point of its normal:
+  ///
+  ///     (D - I) (A x)_i + C x_i + b (A x)_n + c x_n + a s = g
+  struct Point {
+    std::size_t point = 0;
+    contact::TangentMatrix derivative;        ///< D, symmetric, from 0 to I
+    contact::TangentMatrix of_own;            ///< C [N/m]
+    std::optional<std::size_t> normal;        ///< n; nothing: b = c = 0
+    contact::Tangent of_force, of_normal;     ///< b, c [N/m]
+    std::optional<std::size_t> share;         ///< of `shares`; nothing: a = 0
+    contact::Tangent of_share, right_side;    ///< a, g [N]
+  };
+  /// -(A x)_n + c x_n + a s = g
+  struct Share {
+    std::size_t normal = 0;
+    double of_normal = 0, of_share = 0, right_side = 0;
+  };
+
+  Eigen::VectorXd known;  ///< x of held points, elsewhere 0 [m]
+  std::vector<Point> points;
+  std::vector<Share> shares;
+};
+
+/// The body as the contact sees it, in unknowns d of its points: slip increments and penetrations
+/// [m]. It answers with nodal forces f - A d [N], with A symmetric and positive semidefinite.
+class ContactBody {
+ public:
+  virtual ~ContactBody() = default;
+
+  virtual Eigen::VectorXd force(const Eigen::VectorXd &d) = 0;  ///< f - A d
+  /// What a residual at the d that was asked for last is compared to: the largest of the terms of
+  /// its forces [N]; not 0.
+  virtual double size_of_forces(const Eigen::VectorXd &d) const = 0;
+  /// Size of f [N].
+  virtual double largest_force() const = 0;
+  /// About the largest eigenvalue of the point's own block of A [N/m].
+  virtual double curvature(std::size_t point) const = 0;
+
+  struct Moved {
+    Eigen::VectorXd x, resisted, share;  ///< resisted = A x
+  };
+  /// Nothing where the linear system cannot be solved.
+  virtual std::optional<Moved> solve(const ContactTangent &tangent) = 0;
+  /// d without contact, A d = f; 0 where that cannot be solved.
+  virtual Eigen::VectorXd without_contact() = 0;
+  /// The convex programme with the laws of `points`.
+  virtual InterfaceSolution minimise(const std::vector<ContactPoint> &points,
+                                     Eigen::VectorXd start, const InterfaceSettings &settings) = 0;
+};
+
+/// With the matrix A at hand.
+class DenseBody : public ContactBody {
+ public:
+  /// What it refers to outlives this.
+  explicit DenseBody(const InterfaceProgramme &programme);
+
+  Eigen::VectorXd force(const Eigen::VectorXd &d) override;
+  double size_of_forces(const Eigen::VectorXd &d) const override;
+  double largest_force() const override;
+  double curvature(std::size_t point) const override { return curvature_[point]; }
+  std::optional<Moved> solve(const ContactTangent &tangent) override;
+  Eigen::VectorXd without_contact() override;
+  InterfaceSolution minimise(const std::vector<ContactPoint> &points, Eigen::VectorXd start,
+                             const InterfaceSettings &settings) override;
+
+ private:
+  /// Columns of all d, then of the shares.
+  struct Rows {
+    Eigen::MatrixXd by_d, by_share;
+    Eigen::VectorXd right_side;
+  };
+  void fill(const ContactTangent::Point &at, Eigen::Index row, Rows &rows) const;
+  Rows rows(const ContactTangent &tangent) const;
+
+  const InterfaceProgramme programme_;  // refers to what is not its own
+  std::vector<double> curvature_;       // by point [N/m]
+};
+
+}  // namespace tourmaline::solve
