@@ -95,7 +95,7 @@ template <int dim>
 std::array<double, 3> BodyEquations<dim>::round_off() const {
   std::vector<double> terms = model_.op.sizes(model_.step, state_);
   for (std::size_t i = 0; i < terms.size(); ++i)
-    terms[i] = is_prescribed_[i] ? 0 : 2e-15 * (terms[i] + std::abs(right_side_[i]));
+    terms[i] = is_prescribed_[i] ? 0 : of_round_off * (terms[i] + std::abs(right_side_[i]));
   return norms<dim>(terms);
 }
 

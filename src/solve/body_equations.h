@@ -24,6 +24,9 @@ namespace tourmaline::solve {
 template <int dim>
 class BodyEquations {
  public:
+  /// Of the terms of a row of K x, what their round-off may leave of it.
+  static constexpr double of_round_off = 2e-15;
+
   /// All outlive the equations. What the iterations take is added to `count`.
   BodyEquations(const Model<dim> &model, const std::vector<bool> &is_prescribed,
                 RouteReport &count);

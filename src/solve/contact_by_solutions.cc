@@ -57,7 +57,7 @@ class ContactBySolutions : public IterativeRoute<dim>, private ContactBody, priv
   VectorXd possible(VectorXd d) const;
   void put(const VectorXd &d);
   void add_at_contact(const VectorXd &by_node, std::span<double> vector) const;
-  double largest_term() const;
+  double size_at_state() const;
   NaturalMap::Place place() const;
   CoupledContact coupled() { return {*this, contact_.points(), contact_.couplings()}; }
   std::vector<double> product(std::span<const double> x) const;
@@ -162,15 +162,20 @@ void ContactBySolutions<dim>::put(const VectorXd &d) {
 }
 
 // The largest of the nodal forces that each field of its own exerts on a node, the supports' among
-// them.
+// them. Where all these are nothing, as the body has left the foundation, round-off is what counts.
 template <int dim>
-double ContactBySolutions<dim>::largest_term() const {
+double ContactBySolutions<dim>::size_at_state() const {
+  using Vector = Eigen::Matrix<double, dim, 1>;
   body::FieldProducts products;
   model_.op.multiply_by_field(state_, products);
-  double largest = 0;
+  double largest = 0, square = 0;
   for (const std::vector<double> &of_one : products.of)
     for (std::size_t i = 0; i < of_one.size(); i += body::Fields<dim>::count)
-      largest = larger(largest, Eigen::Matrix<double, dim, 1>::Map(&of_one[i]).norm());
+      largest = larger(largest, Vector::Map(&of_one[i]).norm());
+  const std::vector<double> terms = model_.op.sizes(model_.step, state_);
+  for (std::size_t i = 0; i < terms.size(); i += body::Fields<dim>::count)
+    square += Vector::Map(&terms[i]).squaredNorm();
+  largest = larger(largest, BodyEquations<dim>::of_round_off * std::sqrt(square) / contact_tolerance());
   return largest == 0 ? 1 : largest;
 }
 
@@ -326,7 +331,7 @@ VectorXd ContactBySolutions<dim>::force(const VectorXd &d) {
   }
   put(d);
   body_.solve_held(time_, held());
-  size_ = largest_term();
+  size_ = size_at_state();
   is_solved_ = true;
   force_ = contact_.directions().transpose() * at_contact(body_.residual());
   return force_;
@@ -390,7 +395,7 @@ bool ContactBySolutions<dim>::find_fast() {
   double least = std::numeric_limits<double>::infinity(), least_of_body = least;
   for (int k = 0, last_gain = 0; k <= most && k - last_gain < patience; ++k) {
     body_.update_residual();
-    size_ = largest_term();
+    size_ = size_at_state();
     const NaturalMap::Place x = place();
     const ContactTangent tangent = map.tangent(x);
     const NodeSystem<dim> system(contact_, model_, tangent);
