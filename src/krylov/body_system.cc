@@ -63,7 +63,7 @@ struct BodySystem<dim>::Parts {
   std::vector<bool> is_prescribed;
   std::vector<NodeTangent<dim>> contact, preconditioned;
   std::vector<NodeCoupling<dim>> coupling;  // as `contact`, or empty
-  std::vector<int> contact_index;     // by node; -1: not at the contact
+  std::vector<int> contact_index;           // by node; -1: not at the contact
   std::vector<Block> contact_blocks;  // diagonal blocks of this rank's contact nodes, without C
   NodeRows rows;
   std::vector<std::pair<PetscInt, Block>> held;  // own rows, from the first one on, where Q != 1

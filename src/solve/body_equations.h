@@ -52,8 +52,8 @@ class BodyEquations {
   /// Adds the solution of the linear system, its residual taken down by `reduction`, to the state.
   /// False where the iteration did not come as far.
   bool correct(std::span<const double> free_residual, double reduction);
-  /// Corrects the state until all that is free beside the contact, which is `held`, is solved; throws
-  /// SolveError where that does not succeed.
+  /// Corrects the state until all that is free beside the contact, which is `held`, is solved;
+  /// throws SolveError where that does not succeed.
   void solve_held(double time, const std::vector<krylov::NodeTangent<dim>> &held);
   /// The last correction.
   const std::vector<double> &increment() const { return increment_; }

@@ -35,9 +35,8 @@ VectorXd DenseBody::without_contact() {
 
 InterfaceSolution DenseBody::minimise(const std::vector<ContactPoint> &points, VectorXd start,
                                       const InterfaceSettings &settings) {
-  return solve::minimise(
-      {programme_.stiffness, programme_.force, points, programme_.force_scale}, std::move(start),
-      settings);
+  return solve::minimise({programme_.stiffness, programme_.force, points, programme_.force_scale},
+                         std::move(start), settings);
 }
 
 void DenseBody::fill(const ContactTangent::Point &at, Index row, Rows &rows) const {

@@ -17,12 +17,12 @@ struct ContactTangent {
   ///     (D - I) (A x)_i + C x_i + b (A x)_n + c x_n + a s = g
   struct Point {
     std::size_t point = 0;
-    contact::TangentMatrix derivative;        ///< D, symmetric, from 0 to I
-    contact::TangentMatrix of_own;            ///< C [N/m]
-    std::optional<std::size_t> normal;        ///< n; nothing: b = c = 0
-    contact::Tangent of_force, of_normal;     ///< b, c [N/m]
-    std::optional<std::size_t> share;         ///< of `shares`; nothing: a = 0
-    contact::Tangent of_share, right_side;    ///< a, g [N]
+    contact::TangentMatrix derivative;      ///< D, symmetric, from 0 to I
+    contact::TangentMatrix of_own;          ///< C [N/m]
+    std::optional<std::size_t> normal;      ///< n; nothing: b = c = 0
+    contact::Tangent of_force, of_normal;   ///< b, c [N/m]
+    std::optional<std::size_t> share;       ///< of `shares`; nothing: a = 0
+    contact::Tangent of_share, right_side;  ///< a, g [N]
   };
   /// -(A x)_n + c x_n + a s = g
   struct Share {
@@ -58,8 +58,8 @@ class ContactBody {
   /// d without contact, A d = f; 0 where that cannot be solved.
   virtual Eigen::VectorXd without_contact() = 0;
   /// The convex programme with the laws of `points`.
-  virtual InterfaceSolution minimise(const std::vector<ContactPoint> &points,
-                                     Eigen::VectorXd start, const InterfaceSettings &settings) = 0;
+  virtual InterfaceSolution minimise(const std::vector<ContactPoint> &points, Eigen::VectorXd start,
+                                     const InterfaceSettings &settings) = 0;
 };
 
 /// With the matrix A at hand.

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <string>
 #include <utility>
 
+#include "case/holding.h"
 #include "larger.h"
 #include "solve/contact_nodes.h"
 #include "solve/coupled_programme.h"
@@ -49,6 +51,7 @@ class ContactBySolutions : public IterativeRoute<dim>, private ContactBody, priv
   void restore_contact(const output::SavedNumbers &numbers) override { contact_.restore(numbers); }
 
   bool find_fast();
+  CoupledSolution solve_from(const VectorXd &start);
   void find_safely(const VectorXd &start);
   [[noreturn]] void give_up_contact() const;
 
@@ -63,14 +66,14 @@ class ContactBySolutions : public IterativeRoute<dim>, private ContactBody, priv
   std::vector<double> product(std::span<const double> x) const;
   bool correct(const NodeSystem<dim> &system, const VectorXd &known, const VectorXd &force,
                std::vector<double> residual, double reduction);
+  ContactTangent with_springs(ContactTangent tangent) const;
   std::optional<Moved> response(const NodeSystem<dim> &system, const VectorXd &known,
                                 const VectorXd &force, double reduction);
   bool add_shares(const NodeSystem<dim> &system, const ContactTangent &tangent, double reduction,
                   Moved &moved);
   std::vector<krylov::NodeTangent<dim>> held() const;
   ContactTangent of_points(const std::vector<bool> &is_free,
-                           const std::vector<TangentMatrix> &hessian,
-                           const VectorXd &force) const;
+                           const std::vector<TangentMatrix> &hessian, const VectorXd &force) const;
 
   // ContactBody and SlipResponse
   VectorXd force(const VectorXd &d) override;
@@ -88,23 +91,31 @@ class ContactBySolutions : public IterativeRoute<dim>, private ContactBody, priv
   double accuracy() const override { return model_.asked.solver.linear_tolerance * size_; }
 
   ContactNodes<dim> contact_;
+  std::string left_to_contact_;     // rigid motions
   std::vector<double> curvatures_;  // by point [N/m]
+  VectorXd stiffness_;              // the same by unknown
+  double springs_ = 0;  // to the foundation, over this stiffness: a means to find a start
   // Of the step at hand:
-  VectorXd d_;          // unknowns of the contact nodes, as the state has them
-  VectorXd force_;      // f - A d, where the body is solved with them
+  VectorXd d_;      // unknowns of the contact nodes, as the state has them
+  VectorXd force_;  // f - A d, where the body is solved with them
   bool is_solved_ = false;
-  double size_ = 1;     // of the forces [N]
+  double size_ = 1;            // of the forces [N]
   std::vector<double> moved_;  // by the body in the last linear solve
   CoupledSolution solution_;
 };
 
 template <int dim>
 ContactBySolutions<dim>::ContactBySolutions(const Model<dim> &model)
-    : IterativeRoute<dim>(model), contact_(model, this->is_prescribed_) {
+    : IterativeRoute<dim>(model),
+      contact_(model, this->is_prescribed_),
+      left_to_contact_(casefile::left_to_contact(model.asked)),
+      stiffness_(contact_.n_unknowns()) {
   const std::vector<double> diagonal = model.op.diagonal(model.step);
   for (std::size_t i = 0; i < contact_.points().size(); ++i) {
     const std::size_t first = body::unknown<dim>(model.interface[contact_.node_of(i)].node, 0);
     curvatures_.push_back(std::accumulate(&diagonal[first], &diagonal[first] + dim, 0.));
+    stiffness_.segment(contact_.points()[i].offset, contact_.points()[i].size)
+        .setConstant(curvatures_.back());
   }
 }
 
@@ -175,7 +186,8 @@ double ContactBySolutions<dim>::size_at_state() const {
   const std::vector<double> terms = model_.op.sizes(model_.step, state_);
   for (std::size_t i = 0; i < terms.size(); i += body::Fields<dim>::count)
     square += Vector::Map(&terms[i]).squaredNorm();
-  largest = larger(largest, BodyEquations<dim>::of_round_off * std::sqrt(square) / contact_tolerance());
+  largest =
+      larger(largest, BodyEquations<dim>::of_round_off * std::sqrt(square) / contact_tolerance());
   return largest == 0 ? 1 : largest;
 }
 
@@ -272,12 +284,31 @@ std::optional<ContactBody::Moved> ContactBySolutions<dim>::solve(const ContactTa
   constexpr std::size_t most_shares = 20;
   if (tangent.shares.size() > most_shares)
     return std::nullopt;
-  const NodeSystem<dim> system(contact_, model_, tangent);
+  const ContactTangent sprung = with_springs(tangent);
+  const NodeSystem<dim> system(contact_, model_, sprung);
   std::optional<Moved> moved = response(system, system.known, system.force, reduction);
   ++iterations_;
-  if (moved && !add_shares(system, tangent, reduction, *moved))
+  if (moved && !add_shares(system, sprung, reduction, *moved))
     return std::nullopt;
+  if (moved)
+    moved->resisted += springs_ * stiffness_.cwiseProduct(moved->x);
   return moved;
+}
+
+// A with the springs is A and a diagonal matrix.
+template <int dim>
+ContactTangent ContactBySolutions<dim>::with_springs(ContactTangent tangent) const {
+  if (springs_ == 0)
+    return tangent;
+  for (ContactTangent::Point &at : tangent.points) {
+    const auto n = at.derivative.rows();
+    at.of_own += springs_ * curvatures_[at.point] * (at.derivative - TangentMatrix::Identity(n, n));
+    if (at.normal)
+      at.of_normal += springs_ * curvatures_[*at.normal] * at.of_force;
+  }
+  for (ContactTangent::Share &share : tangent.shares)
+    share.of_normal -= springs_ * curvatures_[share.normal];
+  return tangent;
 }
 
 // They are few: what one unit of each does to the body, and then those that their equations want.
@@ -291,8 +322,8 @@ bool ContactBySolutions<dim>::add_shares(const NodeSystem<dim> &system,
     return true;
   std::vector<Moved> units;
   for (Index k = 0; k < n; ++k) {
-    const auto unit = response(system, VectorXd::Zero(moved.x.size()), system.of_share.col(k),
-                               reduction);
+    const auto unit =
+        response(system, VectorXd::Zero(moved.x.size()), system.of_share.col(k), reduction);
     if (!unit)
       return false;
     units.push_back(*unit);
@@ -322,7 +353,7 @@ bool ContactBySolutions<dim>::add_shares(const NodeSystem<dim> &system,
 template <int dim>
 VectorXd ContactBySolutions<dim>::force(const VectorXd &d) {
   if (is_solved_ && d == d_)
-    return force_;
+    return force_ - springs_ * stiffness_.cwiseProduct(d);
   const VectorXd moved = contact_.directions().transpose() * at_contact(moved_);
   if (const double size = moved.squaredNorm(); size > 0) {
     const double share = moved.dot(d - d_) / size;
@@ -334,7 +365,7 @@ VectorXd ContactBySolutions<dim>::force(const VectorXd &d) {
   size_ = size_at_state();
   is_solved_ = true;
   force_ = contact_.directions().transpose() * at_contact(body_.residual());
-  return force_;
+  return force_ - springs_ * stiffness_.cwiseProduct(d);
 }
 
 // Rows A x + H x = force of the points that are free, H block diagonal.
@@ -432,24 +463,46 @@ bool ContactBySolutions<dim>::find_fast() {
 }
 
 template <int dim>
+CoupledSolution ContactBySolutions<dim>::solve_from(const VectorXd &start) {
+  moved_.assign(state_.size(), 0.);
+  is_solved_ = false;
+  const InterfaceSettings settings{contact_tolerance(), model_.asked.solver.max_iterations,
+                                   left_to_contact_.empty()};
+  if (contact_.is_coupled())
+    return solve_coupled(coupled(), start, settings);
+  CoupledSolution solution;
+  solution.interface = minimise(contact_.points(), start, settings);
+  return solution;
+}
+
+// Where only the contact holds the body, a linear system on the way may have no solution. Weak
+// springs between contact and foundation lead to where the contact holds.
+template <int dim>
 void ContactBySolutions<dim>::find_safely(const VectorXd &start) {
   ++so_far_.safe_steps;
-  moved_.assign(state_.size(), 0.);
-  const InterfaceSettings settings{contact_tolerance(),
-                                   std::max(1, model_.asked.solver.max_iterations - iterations_)};
-  if (contact_.is_coupled())
-    solution_ = solve_coupled(coupled(), start, settings);
-  else
-    solution_.interface = minimise(contact_.points(), start, settings);
+  solution_ = solve_from(start);
+  VectorXd sprung = start;
+  for (const double weak : {1e-2, 1e-4, 1e-6}) {
+    if (solution_.interface.converged || left_to_contact_.empty())
+      break;
+    springs_ = weak;
+    sprung = solve_from(sprung).interface.increment;
+    springs_ = 0;
+    solution_ = solve_from(sprung);
+  }
   if (!solution_.interface.converged)
     give_up_contact();
 }
 
+// Both stages begin with the state that is predicted.
 template <int dim>
 void ContactBySolutions<dim>::settle() {
   const VectorXd start = d_;
-  if (!find_fast())
+  const std::vector<double> state(state_.begin(), state_.end());
+  if (!find_fast()) {
+    std::copy(state.begin(), state.end(), state_.begin());
     find_safely(start);
+  }
   if (!contact_.is_coupled())
     solution_.stage = ContactStage::convex;
 }
@@ -472,6 +525,14 @@ StepOutcome ContactBySolutions<dim>::outcome() {
 
 template <int dim>
 void ContactBySolutions<dim>::give_up_contact() const {
+  if (!left_to_contact_.empty())
+    throw SolveError(fmt::format(
+        "the contact problem at t = {:g} s has no solution that was found: residual {:.3g} of the "
+        "largest force after {} iterations. Nothing but the contact keeps the body from {}, and "
+        "with these loads it may not: the body would move rigidly. Prescribe further components "
+        "of `displacement`, press the body to the foundation in every step, or take solver.body = "
+        "\"direct\"",
+        time_, solution_.interface.residual, iterations_, left_to_contact_));
   const std::vector<std::size_t> &unsettled = solution_.interface.unsettled;
   throw SolveError(fmt::format(
       "the contact iteration did not converge at t = {:g} s: residual {:.3g} of the largest force "

@@ -178,8 +178,8 @@ bool Cascade::filled_from_any(const VectorXd &start, Place &x) {
   };
   const std::vector<std::function<VectorXd()>> starts{
       [&] { return start; }, [&] { return with_bounds(none, VectorXd::Zero(n)); },
-      [&] { return with_bounds(all, all.bounds(all.at(rest))); }, [&] { return programme_.body.without_contact(); },
-      [&] { return VectorXd(rest); }};
+      [&] { return with_bounds(all, all.bounds(all.at(rest))); },
+      [&] { return programme_.body.without_contact(); }, [&] { return VectorXd(rest); }};
   return all.has_jumps() && std::any_of(starts.begin(), starts.end(), [&](const auto &make) {
            x = all.at(make());
            return filled(x);

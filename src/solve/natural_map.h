@@ -85,7 +85,8 @@ class NaturalMap {
     contact::Tangent by_pressure, by_slip, by_share;
     bool is_held = false;  // the row is that of d = 0
   };
-  /// Of a direction what is known beforehand, and what is asked for: points that are not held, and shares.
+  /// Of a direction what is known beforehand, and what is asked for: points that are not held, and
+  /// shares.
   struct Unknowns {
     std::vector<Branch> branches;
     std::vector<std::size_t> shares;  // couplings

@@ -37,8 +37,8 @@ void NodeSystem<dim>::add(const ContactTangent::Point &at) {
   const ContactPoint &p = contact_.points()[at.point];
   const std::size_t node = contact_.node_of(at.point);
   const double vertical = p.law.normal() == nullptr ? 1e-3 : 1e-9;
-  const Eigen::SelfAdjointEigenSolver<TangentMatrix> modes(
-      TangentMatrix::Identity(p.size, p.size) - at.derivative);
+  const Eigen::SelfAdjointEigenSolver<TangentMatrix> modes(TangentMatrix::Identity(p.size, p.size) -
+                                                           at.derivative);
   TangentMatrix inverse = TangentMatrix::Zero(p.size, p.size), free = inverse;
   for (Index k = 0; k < p.size; ++k) {
     const Tangent v = modes.eigenvectors().col(k);

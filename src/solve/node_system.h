@@ -26,8 +26,8 @@ struct NodeSystem {
 
   std::vector<krylov::NodeTangent<dim>> tangents;
   std::vector<krylov::NodeCoupling<dim>> couplings;
-  Eigen::VectorXd known;  ///< x of what is held [m]
-  Eigen::VectorXd force;  ///< [N]
+  Eigen::VectorXd known;     ///< x of what is held [m]
+  Eigen::VectorXd force;     ///< [N]
   Eigen::MatrixXd of_share;  ///< what one unit of each share adds to it, by column
 
  private:
