@@ -24,9 +24,6 @@ namespace tourmaline::solve {
 template <int dim>
 class BodyEquations {
  public:
-  /// Of the terms of a row of K x, what their round-off may leave of it.
-  static constexpr double of_round_off = 2e-15;
-
   /// All outlive the equations. What the iterations take is added to `count`.
   BodyEquations(const Model<dim> &model, const std::vector<bool> &is_prescribed,
                 RouteReport &count);
@@ -40,6 +37,16 @@ class BodyEquations {
   const std::vector<double> &residual() const { return residual_; }
   /// The same with the products cell by cell.
   std::vector<double> residual_by_cells() const;
+
+  /// The largest of the forces [N] that each field of the state exerts on a node by itself, those
+  /// at supports among them; and what round-off of the state may make of a node's force.
+  struct NodalForces {
+    double largest = 0, round_off = 0;
+  };
+  NodalForces nodal_forces() const;
+  /// The same of the state with which the step began. All others are summed from it and
+  /// corrections, so its round-off stays in them.
+  const NodalForces &first_nodal_forces() const { return first_nodal_forces_; }
 
   /// Whether the free residual is within solver.linear_tolerance in each field or, where an
   /// iteration gains little, within round-off. Refined equations are solved when corrections do not
@@ -75,7 +82,7 @@ class BodyEquations {
  private:
   [[noreturn]] void give_up(double time, std::span<const double> free_residual) const;
   std::array<double, 3> field_sizes() const;
-  std::array<double, 3> round_off() const;
+  std::array<double, 3> round_off(std::span<const double> right_side) const;
 
   const Model<dim> &model_;
   const std::vector<bool> &is_prescribed_;
@@ -85,6 +92,8 @@ class BodyEquations {
   // Of the step at hand:
   std::span<const double> right_side_;
   std::span<double> state_;
+  NodalForces first_nodal_forces_;
+  std::array<double, 3> first_round_off_{};
   double lack_ = 0;
   double correction_ = 0;
   bool corrections_fall_ = true;

@@ -9,12 +9,12 @@
 #include <string>
 #include <utility>
 
-#include "case/holding.h"
 #include "larger.h"
 #include "solve/contact_nodes.h"
 #include "solve/coupled_programme.h"
 #include "solve/first_places.h"
 #include "solve/iterative_body.h"
+#include "solve/leaning.h"
 #include "solve/natural_map.h"
 #include "solve/node_system.h"
 #include "solve/slip_descent.h"
@@ -28,6 +28,8 @@ using contact::TangentMatrix;
 using Eigen::Index;
 using Eigen::VectorXd;
 
+constexpr double slightly = 1e-8;  // of the stiffness of the contact's points
+
 template <int dim>
 class ContactBySolutions : public IterativeRoute<dim>, private ContactBody, private SlipResponse {
  public:
@@ -40,6 +42,7 @@ class ContactBySolutions : public IterativeRoute<dim>, private ContactBody, priv
   using IterativeRoute<dim>::state_;
   using IterativeRoute<dim>::iterations_;
   using IterativeRoute<dim>::so_far_;
+  using IterativeRoute<dim>::left_to_contact_;
   using IterativeRoute<dim>::contact_tolerance;
 
   void begin_contact(std::span<const double> before) override;
@@ -47,6 +50,9 @@ class ContactBySolutions : public IterativeRoute<dim>, private ContactBody, priv
   std::vector<double> freed(std::vector<double> residual) const override;
   void set_contact() override;
   StepOutcome outcome() override;
+  std::string unheld() const override {
+    return unheld_motions(model_, contact_, solution_.interface.status);
+  }
   void save_contact(output::SavedNumbers &numbers) const override { contact_.save(numbers); }
   void restore_contact(const output::SavedNumbers &numbers) override { contact_.restore(numbers); }
 
@@ -91,7 +97,6 @@ class ContactBySolutions : public IterativeRoute<dim>, private ContactBody, priv
   double accuracy() const override { return model_.asked.solver.linear_tolerance * size_; }
 
   ContactNodes<dim> contact_;
-  std::string left_to_contact_;     // rigid motions
   std::vector<double> curvatures_;  // by point [N/m]
   VectorXd stiffness_;              // the same by unknown
   double springs_ = 0;  // to the foundation, over this stiffness: a means to find a start
@@ -108,7 +113,6 @@ template <int dim>
 ContactBySolutions<dim>::ContactBySolutions(const Model<dim> &model)
     : IterativeRoute<dim>(model),
       contact_(model, this->is_prescribed_),
-      left_to_contact_(casefile::left_to_contact(model.asked)),
       stiffness_(contact_.n_unknowns()) {
   const std::vector<double> diagonal = model.op.diagonal(model.step);
   for (std::size_t i = 0; i < contact_.points().size(); ++i) {
@@ -172,23 +176,13 @@ void ContactBySolutions<dim>::put(const VectorXd &d) {
         state_[u] = c[dim * static_cast<Index>(i) + k];
 }
 
-// The largest of the nodal forces that each field of its own exerts on a node, the supports' among
-// them. Where all these are nothing, as the body has left the foundation, round-off is what counts.
+// Where there are no forces, as the body has left the foundation, round-off is what counts.
 template <int dim>
 double ContactBySolutions<dim>::size_at_state() const {
-  using Vector = Eigen::Matrix<double, dim, 1>;
-  body::FieldProducts products;
-  model_.op.multiply_by_field(state_, products);
-  double largest = 0, square = 0;
-  for (const std::vector<double> &of_one : products.of)
-    for (std::size_t i = 0; i < of_one.size(); i += body::Fields<dim>::count)
-      largest = larger(largest, Vector::Map(&of_one[i]).norm());
-  const std::vector<double> terms = model_.op.sizes(model_.step, state_);
-  for (std::size_t i = 0; i < terms.size(); i += body::Fields<dim>::count)
-    square += Vector::Map(&terms[i]).squaredNorm();
-  largest =
-      larger(largest, BodyEquations<dim>::of_round_off * std::sqrt(square) / contact_tolerance());
-  return largest == 0 ? 1 : largest;
+  const auto [largest, round_off] = body_.nodal_forces();
+  const double size = larger(
+      largest, larger(round_off, body_.first_nodal_forces().round_off) / contact_tolerance());
+  return size == 0 ? 1 : size;
 }
 
 // What contact and prescribed unknowns leave free of a residual.
@@ -295,19 +289,21 @@ std::optional<ContactBody::Moved> ContactBySolutions<dim>::solve(const ContactTa
   return moved;
 }
 
-// A with the springs is A and a diagonal matrix.
+// A with springs is A and a diagonal matrix. Where only the contact holds the body, A may be
+// singular: then directions are found for slightly more than it.
 template <int dim>
 ContactTangent ContactBySolutions<dim>::with_springs(ContactTangent tangent) const {
-  if (springs_ == 0)
+  const double springs = springs_ + (left_to_contact_.empty() ? 0 : slightly);
+  if (springs == 0)
     return tangent;
   for (ContactTangent::Point &at : tangent.points) {
     const auto n = at.derivative.rows();
-    at.of_own += springs_ * curvatures_[at.point] * (at.derivative - TangentMatrix::Identity(n, n));
+    at.of_own += springs * curvatures_[at.point] * (at.derivative - TangentMatrix::Identity(n, n));
     if (at.normal)
-      at.of_normal += springs_ * curvatures_[*at.normal] * at.of_force;
+      at.of_normal += springs * curvatures_[*at.normal] * at.of_force;
   }
   for (ContactTangent::Share &share : tangent.shares)
-    share.of_normal -= springs_ * curvatures_[share.normal];
+    share.of_normal -= springs * curvatures_[share.normal];
   return tangent;
 }
 
@@ -429,7 +425,7 @@ bool ContactBySolutions<dim>::find_fast() {
     size_ = size_at_state();
     const NaturalMap::Place x = place();
     const ContactTangent tangent = map.tangent(x);
-    const NodeSystem<dim> system(contact_, model_, tangent);
+    const NodeSystem<dim> system(contact_, model_, with_springs(tangent));
     const std::vector<double> residual = freed(body_.residual());
     const double worst = map.residual(x);
     const bool contact_is_solved = worst <= contact_tolerance();
@@ -526,13 +522,7 @@ StepOutcome ContactBySolutions<dim>::outcome() {
 template <int dim>
 void ContactBySolutions<dim>::give_up_contact() const {
   if (!left_to_contact_.empty())
-    throw SolveError(fmt::format(
-        "the contact problem at t = {:g} s has no solution that was found: residual {:.3g} of the "
-        "largest force after {} iterations. Nothing but the contact keeps the body from {}, and "
-        "with these loads it may not: the body would move rigidly. Prescribe further components "
-        "of `displacement`, press the body to the foundation in every step, or take solver.body = "
-        "\"direct\"",
-        time_, solution_.interface.residual, iterations_, left_to_contact_));
+    give_up_leaning(time_, solution_.interface, left_to_contact_);
   const std::vector<std::size_t> &unsettled = solution_.interface.unsettled;
   throw SolveError(fmt::format(
       "the contact iteration did not converge at t = {:g} s: residual {:.3g} of the largest force "

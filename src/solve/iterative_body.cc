@@ -2,6 +2,10 @@
 
 #include <algorithm>
 
+#include "case/holding.h"
+#include "larger.h"
+#include "solve/leaning.h"
+
 namespace tourmaline::solve {
 
 namespace {
@@ -15,6 +19,7 @@ template <int dim>
 IterativeRoute<dim>::IterativeRoute(const Model<dim> &model)
     : model_(model),
       is_prescribed_(body::mask_of(model.prescribed, model.n_unknowns())),
+      left_to_contact_(casefile::left_to_contact(model.asked)),
       body_(model, is_prescribed_, so_far_) {
   so_far_.safe_steps = 0;
 }
@@ -32,6 +37,20 @@ void IterativeRoute<dim>::predict(std::span<const double> before) {
       if (!is_prescribed_[i])
         state_[i] += before[i] - two_before_[i];
   two_before_.assign(before.begin(), before.end());
+}
+
+// Where nothing holds the body, round-off of its stiffness does: loads then move it by so much that
+// the round-off of the forces that hold it is a part of them that counts.
+template <int dim>
+void IterativeRoute<dim>::check_held() const {
+  constexpr double counts = 1e-7;
+  if (left_to_contact_.empty())
+    return;
+  const auto [largest, round_off] = body_.nodal_forces();
+  if (!(round_off > counts * larger(largest, body_.first_nodal_forces().largest)))
+    return;
+  const std::string motions = unheld();
+  let_go(time_, motions.empty() ? left_to_contact_ : motions);
 }
 
 // A step that moves a field as never before tells whether refinement helps, and goes on with it if
@@ -63,6 +82,7 @@ StepOutcome IterativeRoute<dim>::advance(double time, std::span<const double> ri
   body_.begin_step(right_side, state);
   begin_contact(before);
   settle();
+  check_held();
   if (is_refined() || this->template outgrew_measured<dim>(state))
     measure();
   see_backward_error(body_.backward_error(freed(body_.residual())));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "solve/body_equations.h"
@@ -31,6 +32,7 @@ class IterativeRoute : public Route {
 
   const Model<dim> &model_;
   const std::vector<bool> is_prescribed_;
+  const std::string left_to_contact_;  // rigid motions
   BodyEquations<dim> body_;
   // Of the step at hand:
   double time_ = 0;
@@ -48,10 +50,14 @@ class IterativeRoute : public Route {
   /// Sets the body's matrix to that of the contact as it was found.
   virtual void set_contact() = 0;
   virtual StepOutcome outcome() = 0;
+  /// The rigid motions that neither supports nor the contact as it was found keep the body from, as
+  /// a phrase; empty: it is not known better than by `left_to_contact_`.
+  virtual std::string unheld() const { return ""; }
   virtual void save_contact(output::SavedNumbers &numbers) const = 0;
   virtual void restore_contact(const output::SavedNumbers &numbers) = 0;
 
   void predict(std::span<const double> before);
+  void check_held() const;
   void measure();
   void describe(RouteReport &report) const override;
   void refine_again() override { body_.refine(); }

@@ -10,6 +10,7 @@
 #include "solve/contact_by_solutions.h"
 #include "solve/first_places.h"
 #include "solve/iterative_body.h"
+#include "solve/leaning.h"
 #include "solve/slip_descent.h"
 #include "tourmaline/error.h"
 
@@ -34,6 +35,7 @@ class ActiveSetRoute : public IterativeRoute<dim>, private SlipResponse {
   using IterativeRoute<dim>::state_;
   using IterativeRoute<dim>::iterations_;
   using IterativeRoute<dim>::so_far_;
+  using IterativeRoute<dim>::left_to_contact_;
   using IterativeRoute<dim>::contact_tolerance;
 
   void begin_contact(std::span<const double> before) override;
@@ -210,6 +212,8 @@ StepOutcome ActiveSetRoute<dim>::outcome() {
 
 template <int dim>
 void ActiveSetRoute<dim>::give_up_contact(const InterfaceSolution &solution) const {
+  if (!left_to_contact_.empty())
+    give_up_leaning(time_, solution, left_to_contact_);
   const std::vector<std::size_t> &unsettled = solution.unsettled;
   throw SolveError(fmt::format(
       "the contact iteration did not converge at t = {:g} s: residual {:.3g} of the largest force "
