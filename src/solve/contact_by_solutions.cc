@@ -452,6 +452,10 @@ bool ContactBySolutions<dim>::find_fast() {
     for (const ContactTangent::Point &at : tangent.points) {
       const ContactPoint &p = contact_.points()[at.point];
       next.segment(p.offset, p.size) += moved.segment(p.offset, p.size);
+      // a slip that turns is caught
+      if (p.law.normal() == nullptr && p.law.held().isZero(0) &&
+          next.segment(p.offset, p.size).dot(d_.segment(p.offset, p.size)) < 0)
+        next.segment(p.offset, p.size).setZero();
     }
     put(next);
   }
