@@ -14,11 +14,11 @@ template <int dim>
 using Strain = Eigen::Matrix<double, material::n_strains<dim>, 1>;
 
 // Engineering strain of a displacement gradient H_ij = du_i/dx_j.
-Strain<2> strain_of(const Tensor<2> &h) {
+Strain<2> voigt_of(const Tensor<2> &h) {
   return {h(0, 0), h(1, 1), h(0, 1) + h(1, 0)};
 }
 
-Strain<3> strain_of(const Tensor<3> &h) {
+Strain<3> voigt_of(const Tensor<3> &h) {
   Strain<3> e;
   e << h(0, 0), h(1, 1), h(2, 2), h(1, 2) + h(2, 1), h(0, 2) + h(2, 0), h(0, 1) + h(1, 0);
   return e;
@@ -67,7 +67,7 @@ Point<dim> fields_at(const Quadrature<dim> &cell, std::size_t q, std::span<const
     p.temperature_gradient += (at[dim + 1] - first[dim + 1]) * g;
     p.temperature += cell.value(q, a) * at[dim + 1];
   }
-  p.strain = strain_of(h);
+  p.strain = voigt_of(h);
   return p;
 }
 
@@ -89,7 +89,7 @@ Point<dim> part_of(const Point<dim> &p, int field, const Quadrature<dim> &cell, 
     h += modes.template segment<dim>(dim * m) * g.transpose();
     part.potential_gradient += modes[CellModes<dim>::n_displacement + m] * g;
   }
-  part.strain += strain_of(h);
+  part.strain += voigt_of(h);
   return part;
 }
 

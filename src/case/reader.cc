@@ -236,7 +236,7 @@ class Reader : public Visitor {
   const Context &context_;
 };
 
-toml::table parsed(const std::string &text, const std::string &name) {
+toml::table case_table(const std::string &text, const std::string &name) {
   if (text.find('\0') != std::string::npos)
     throw CaseError(name + ": is not a text file");
   require_utf8(text, name);
@@ -280,7 +280,7 @@ std::string text_of_file(const std::filesystem::path &file) {
 
 Case read_text(const std::string &text, const std::string &name,
                const std::vector<std::string> &overrides, const MeshFileReader &read_mesh) {
-  toml::table root = parsed(text, name);
+  toml::table root = case_table(text, name);
   for (const std::string &assignment : overrides)
     apply_override(root, assignment);
   Case asked;
@@ -324,7 +324,7 @@ void read_entry(const toml::node &node, const std::string &file, MaterialEntry &
 }  // namespace
 
 std::vector<MaterialEntry> read_materials(const std::string &text, const std::string &name) {
-  const toml::table root = parsed(text, name);
+  const toml::table root = case_table(text, name);
   std::vector<MaterialEntry> entries;
   for (const auto &[key, node] : root) {
     entries.push_back({std::string(key.str()), {}, {}});

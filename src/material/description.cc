@@ -153,10 +153,10 @@ std::string constants(const MaterialCase &given) {
   return text;
 }
 
-bool lacks(const MaterialCase &given, const std::set<std::string> &kinds) {
+bool lacks(const MaterialCase &given, const std::set<std::string> &asked) {
   const std::vector<Gap> all = gaps(given);
   return std::any_of(all.begin(), all.end(),
-                     [&](const Gap &gap) { return kinds.contains(gap.kind); });
+                     [&](const Gap &gap) { return asked.contains(gap.kind); });
 }
 
 std::string electromechanical_tensors(const MaterialCase &given) {

@@ -95,9 +95,9 @@ Compressed compress_in_parallel(Bytes array) {
                                 array.subspan(begin, std::min(share, array.size() - begin))));
   Compressed result = compress(array.first(std::min(share, array.size())));
   for (auto &other : others) {
-    const Compressed part = other.get();
-    result.bytes.insert(result.bytes.end(), part.bytes.begin(), part.bytes.end());
-    result.sizes.insert(result.sizes.end(), part.sizes.begin(), part.sizes.end());
+    const Compressed given = other.get();
+    result.bytes.insert(result.bytes.end(), given.bytes.begin(), given.bytes.end());
+    result.sizes.insert(result.sizes.end(), given.sizes.begin(), given.sizes.end());
   }
   return result;
 }

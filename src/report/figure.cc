@@ -386,7 +386,7 @@ constexpr double legend_size = 7, legend_left = left_margin - 20, legend_names =
                  between = 8, legend_width = left_margin + body_size + right_margin - legend_names;
 
 /// An entry in lines that fit: its name, and beside it what is said of it.
-struct Piece {
+struct FittedEntry {
   Entry entry;
   std::vector<std::string> names, said;
   double column = 0;  ///< how wide the names are
@@ -394,28 +394,28 @@ struct Piece {
   std::size_t n_lines() const { return std::max(names.size(), said.size()); }
 };
 
-std::vector<Piece> legend_of(const Result &result, Canvas &canvas) {
+std::vector<FittedEntry> legend_of(const Result &result, Canvas &canvas) {
   const auto width = [&](bool bold) {
     return [&canvas, bold](const std::string &text) {
       return canvas.text_width(text, legend_size, bold);
     };
   };
-  std::vector<Piece> pieces;
+  std::vector<FittedEntry> fitted;
   double conditions = 0, others = 0;  // the widest name of each kind
   for (const Entry &entry : entries_of(result)) {
-    pieces.push_back({entry, wrapped(entry.name, 0.4 * legend_width, width(true)), {}});
+    fitted.push_back({entry, wrapped(entry.name, 0.4 * legend_width, width(true)), {}});
     double &widest = entry.mark == Entry::Mark::colour ? conditions : others;
-    for (const std::string &name : pieces.back().names)
+    for (const std::string &name : fitted.back().names)
       widest = std::max(widest, canvas.text_width(name, legend_size, true));
   }
-  for (Piece &piece : pieces) {
+  for (FittedEntry &piece : fitted) {
     piece.column = piece.entry.mark == Entry::Mark::colour ? conditions : others;
     const double room = legend_width - between - piece.column - 2;
     for (const std::string &text : piece.entry.texts)
       for (const std::string &line : wrapped(text, room, width(false)))
         piece.said.push_back(line);
   }
-  return pieces;
+  return fitted;
 }
 
 }  // namespace
@@ -435,7 +435,7 @@ void Figure::mark(const Entry &entry, double y) {
 
 void Figure::legend() {
   double y = top_ + height_ + axis_room + 6;
-  for (const Piece &piece : legend_of(result_, canvas_)) {
+  for (const FittedEntry &piece : legend_of(result_, canvas_)) {
     mark(piece.entry, y);
     for (std::size_t i = 0; i < piece.n_lines(); ++i, y += line_height) {
       if (i < piece.names.size())
@@ -450,7 +450,7 @@ void Figure::legend() {
 double legend_height(const Result &result, FigureFormat format) {
   Canvas scratch(format, 1, 1);
   std::size_t lines = 0;
-  for (const Piece &piece : legend_of(result, scratch))
+  for (const FittedEntry &piece : legend_of(result, scratch))
     lines += piece.n_lines();
   return static_cast<double>(lines) * line_height + 8;
 }

@@ -28,7 +28,7 @@ struct Pixel {
 };
 using Area = std::vector<Pixel>;  // of one part, from top to bottom, each line from left to right
 
-struct Part {
+struct PoledPart {
   int region;
   Area area;
 };
@@ -87,8 +87,8 @@ class Picture {
   /// Pixels of one region that hang together and whose poling turns nowhere by a right angle or
   /// more from one pixel to the next: where a formula turns it over, each side is a part. Of many
   /// only the largest, and one for each region; what is smaller than an arrow's head is no part.
-  std::vector<Part> parts() {
-    std::vector<Part> all;
+  std::vector<PoledPart> parts() {
+    std::vector<PoledPart> all;
     of_pixel_.assign(raster_.pixels().size(), nothing);
     for (int y = 0; y < raster_.height(); ++y)
       for (int x = 0; x < raster_.width(); ++x)
@@ -155,8 +155,8 @@ class Picture {
            dot(poling_at(from), poling_at(to)) > 0;
   }
 
-  Part grown_from(const Pixel &first, int number) {
-    Part part{region_at(first), {first}};
+  PoledPart grown_from(const Pixel &first, int number) {
+    PoledPart part{region_at(first), {first}};
     of_pixel_[place_of(first)] = number;
     for (std::size_t i = 0; i < part.area.size(); ++i) {
       const Pixel at = part.area[i];
@@ -172,17 +172,18 @@ class Picture {
     return part;
   }
 
-  static std::vector<Part> worth_showing(std::vector<Part> all) {
-    std::stable_sort(all.begin(), all.end(),
-                     [](const Part &a, const Part &b) { return a.area.size() > b.area.size(); });
-    std::vector<Part> kept;
+  static std::vector<PoledPart> worth_showing(std::vector<PoledPart> all) {
+    std::stable_sort(all.begin(), all.end(), [](const PoledPart &a, const PoledPart &b) {
+      return a.area.size() > b.area.size();
+    });
+    std::vector<PoledPart> kept;
     std::set<int> regions;
-    for (Part &part : all)
+    for (PoledPart &part : all)
       if (regions.insert(part.region).second ||
           (static_cast<double>(part.area.size()) >= smallest && kept.size() < most_parts))
         kept.push_back(std::move(part));
     std::stable_sort(kept.begin(), kept.end(),
-                     [](const Part &a, const Part &b) { return a.region < b.region; });
+                     [](const PoledPart &a, const PoledPart &b) { return a.region < b.region; });
     return kept;
   }
 
@@ -309,9 +310,9 @@ std::vector<PolingArrow> poling_arrows(const Result &result) {
   if (!result.field("poling") || result.skin.triangles.size() > 0xffffffU)
     return arrows;
   Picture picture(result);
-  const std::vector<Part> parts = picture.parts();
+  const std::vector<PoledPart> parts = picture.parts();
   double all = 0;
-  for (const Part &part : parts)
+  for (const PoledPart &part : parts)
     all += static_cast<double>(part.area.size());
   const double least =
       std::clamp<double>(2 * wanted / static_cast<double>(parts.size()), 1, fewest);

@@ -76,7 +76,7 @@ class CondensedRoute : public Route {
   void advance_contact(double time, const VectorXd &s, std::span<const double> before,
                        std::span<const double> state, VectorXd &c, StepOutcome &outcome);
   CoupledSolution solve_contact(double time, const VectorXd &s);
-  CoupledSolution solve_programme(const InterfaceProgramme &programme) const;
+  CoupledSolution solve_programme(const InterfaceProgramme &programme);
   CoupledSolution solve_leaning(const InterfaceProgramme &programme,
                                 const InterfaceSettings &settings) const;
   bool is_carried_off(const InterfaceProgramme &programme, const InterfaceSolution &solution) const;
@@ -93,6 +93,7 @@ class CondensedRoute : public Route {
   ConnectedBody<dim> condensed_;
   std::optional<ContactNodes<dim>> contact_;
   MatrixXd slip_stiffness_;  // T^T S T, T the directions of the contact's unknowns
+  KeptFactors factors_;
   VectorXd last_increment_;
   double error_of_slips_ = 0;  // the contact's own share of the forward error
 };
@@ -149,9 +150,10 @@ void CondensedRoute<dim>::condense_onto_slips() {
 }
 
 template <int dim>
-CoupledSolution CondensedRoute<dim>::solve_programme(const InterfaceProgramme &programme) const {
+CoupledSolution CondensedRoute<dim>::solve_programme(const InterfaceProgramme &programme) {
   const InterfaceSettings settings{model_.asked.solver.tolerance,
-                                   model_.asked.solver.max_iterations, left_to_contact_.empty()};
+                                   model_.asked.solver.max_iterations, left_to_contact_.empty(),
+                                   &factors_};
   if (contact_->is_coupled() && left_to_contact_.empty())
     return solve_coupled({programme, contact_->couplings()}, last_increment_, settings);
   if (contact_->is_coupled())
@@ -339,6 +341,8 @@ template <int dim>
 void CondensedRoute<dim>::save_memory(output::SavedNumbers &numbers) const {
   condensed_.save(numbers);
   numbers.put("last increment", last_increment_);
+  factors_.convex.save("convex programme's factor", numbers);
+  factors_.coupled.save("coupled programme's factor", numbers);
   if (contact_)
     contact_->save(numbers);
 }
@@ -346,8 +350,11 @@ void CondensedRoute<dim>::save_memory(output::SavedNumbers &numbers) const {
 template <int dim>
 void CondensedRoute<dim>::restore_memory(const output::SavedNumbers &numbers) {
   condensed_.restore(numbers);
-  if (parallel::is_first())
+  if (parallel::is_first()) {
     numbers.fill("last increment", last_increment_);
+    factors_.convex.restore("convex programme's factor", numbers, last_increment_.size());
+    factors_.coupled.restore("coupled programme's factor", numbers, last_increment_.size());
+  }
   if (parallel::is_first() && contact_)
     contact_->restore(numbers);
 }

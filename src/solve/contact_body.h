@@ -14,7 +14,7 @@ namespace tourmaline::solve {
 struct ContactTangent {
   /// Of a point that is not held, n the point of its normal:
   ///
-  ///     (D - I) (A x)_i + C x_i + b (A x)_n + c x_n + a s = g
+  ///     (D - I) (A x)_i + C x_i + b (A x)_n + c x_n + a s_j = g
   struct Point {
     std::size_t point = 0;
     contact::TangentMatrix derivative;      ///< D, symmetric, from 0 to I
@@ -24,13 +24,14 @@ struct ContactTangent {
     std::optional<std::size_t> share;       ///< of `shares`; nothing: a = 0
     contact::Tangent of_share, right_side;  ///< a, g [N]
   };
-  /// -(A x)_n + c x_n + a s = g
+  /// Of a share that is not known: -(A x)_n + c x_n + a s_j = g
   struct Share {
-    std::size_t normal = 0;
+    std::size_t share = 0, normal = 0;  ///< j, n
     double of_normal = 0, of_share = 0, right_side = 0;
   };
 
-  Eigen::VectorXd known;  ///< x of held points, elsewhere 0 [m]
+  Eigen::VectorXd known;        ///< x of held points, elsewhere 0 [m]
+  Eigen::VectorXd known_share;  ///< s, 0 where it is asked for; may be empty
   std::vector<Point> points;
   std::vector<Share> shares;
 };
@@ -45,13 +46,15 @@ class ContactBody {
   /// What a residual at the d that was asked for last is compared to: the largest of the terms of
   /// its forces [N]; not 0.
   virtual double size_of_forces(const Eigen::VectorXd &d) const = 0;
+  /// Whether a residual [N] there is within `tolerance` of that.
+  virtual bool is_within(const Eigen::VectorXd &d, double residual, double tolerance) const = 0;
   /// Size of f [N].
   virtual double largest_force() const = 0;
   /// About the largest eigenvalue of the point's own block of A [N/m].
   virtual double curvature(std::size_t point) const = 0;
 
   struct Moved {
-    Eigen::VectorXd x, resisted, share;  ///< resisted = A x
+    Eigen::VectorXd x, resisted, share;  ///< resisted = A x; what is known is in it
   };
   /// Nothing where the linear system cannot be solved.
   virtual std::optional<Moved> solve(const ContactTangent &tangent) = 0;
@@ -65,11 +68,14 @@ class ContactBody {
 /// With the matrix A at hand.
 class DenseBody : public ContactBody {
  public:
-  /// What it refers to outlives this.
-  explicit DenseBody(const InterfaceProgramme &programme);
+  /// What these refer to outlives this. `factors`: of programmes before it; nothing: none.
+  explicit DenseBody(const InterfaceProgramme &programme, KeptFactors *factors = nullptr);
+  DenseBody(const DenseBody &) = delete;
+  DenseBody &operator=(const DenseBody &) = delete;
 
   Eigen::VectorXd force(const Eigen::VectorXd &d) override;
   double size_of_forces(const Eigen::VectorXd &d) const override;
+  bool is_within(const Eigen::VectorXd &d, double residual, double tolerance) const override;
   double largest_force() const override;
   double curvature(std::size_t point) const override { return curvature_[point]; }
   std::optional<Moved> solve(const ContactTangent &tangent) override;
@@ -80,14 +86,18 @@ class DenseBody : public ContactBody {
  private:
   /// Columns of all d, then of the shares.
   struct Rows {
-    Eigen::MatrixXd by_d, by_share;
+    SystemRows of_unknowns;
     Eigen::VectorXd right_side;
+    std::vector<Eigen::Index> unknowns;
   };
   void fill(const ContactTangent::Point &at, Eigen::Index row, Rows &rows) const;
+  void fill(const ContactTangent::Share &at, Eigen::Index row, Rows &rows) const;
   Rows rows(const ContactTangent &tangent) const;
 
   const InterfaceProgramme programme_;  // refers to what is not its own
   std::vector<double> curvature_;       // by point [N/m]
+  KeptFactors own_;
+  KeptFactors &factors_;
 };
 
 }  // namespace tourmaline::solve

@@ -84,6 +84,9 @@ class ContactBySolutions : public IterativeRoute<dim>, private ContactBody, priv
   // ContactBody and SlipResponse
   VectorXd force(const VectorXd &d) override;
   double size_of_forces(const VectorXd &) const override { return size_; }
+  bool is_within(const VectorXd &, double residual, double tolerance) const override {
+    return relative_to(residual, size_) <= tolerance;
+  }
   double largest_force() const override { return size_; }
   double curvature(std::size_t point) const override { return curvatures_[point]; }
   std::optional<Moved> solve(const ContactTangent &tangent) override;
@@ -313,7 +316,7 @@ bool ContactBySolutions<dim>::add_shares(const NodeSystem<dim> &system,
                                          const ContactTangent &tangent, double reduction,
                                          Moved &moved) {
   const auto n = static_cast<Index>(tangent.shares.size());
-  moved.share = VectorXd::Zero(n);
+  moved.share = tangent.known_share;
   if (n == 0)
     return true;
   std::vector<Moved> units;
@@ -336,12 +339,14 @@ bool ContactBySolutions<dim>::add_shares(const NodeSystem<dim> &system,
       matrix(row, k) = left(units[static_cast<std::size_t>(k)]) + (k == row ? share.of_share : 0);
     right_side[row] = share.right_side - left(moved);
   }
-  moved.share = matrix.partialPivLu().solve(right_side);
+  const VectorXd found = matrix.partialPivLu().solve(right_side);
   for (Index k = 0; k < n; ++k) {
-    moved.x += moved.share[k] * units[static_cast<std::size_t>(k)].x;
-    moved.resisted += moved.share[k] * units[static_cast<std::size_t>(k)].resisted;
+    const auto at = static_cast<std::size_t>(k);
+    moved.share[static_cast<Index>(tangent.shares[at].share)] = found[k];
+    moved.x += found[k] * units[at].x;
+    moved.resisted += found[k] * units[at].resisted;
   }
-  return moved.share.allFinite();
+  return found.allFinite();
 }
 
 // The body starts where it would be if it moved with the contact as it did in the last linear

@@ -67,7 +67,7 @@ double Cascade::damped(const NaturalMap &map, const Place &x, const Direction &d
 }
 
 bool Cascade::newton(const NaturalMap &map, Place &x, int most) {
-  for (int k = 0; map.residual(x) > settings_.tolerance; ++k) {
+  for (int k = 0; !map.is_zero(x, settings_.tolerance); ++k) {
     if (k == most || !is_left())
       return false;
     const std::optional<Direction> direction = map.newton_direction(x);
@@ -81,7 +81,7 @@ bool Cascade::newton(const NaturalMap &map, Place &x, int most) {
     x = map.at(x.d, x.share);
   }
   x = map.settled(x);
-  return map.residual(x) <= settings_.tolerance;
+  return map.is_zero(x, settings_.tolerance);
 }
 
 bool Cascade::find_by_newton(const VectorXd &start, Place &x) {
@@ -101,9 +101,9 @@ InterfaceSolution Cascade::convex(const std::vector<PointLaw> &friction, const V
   std::vector<ContactPoint> points = programme_.points;
   for (std::size_t j = 0; j < friction.size(); ++j)
     points[programme_.couplings[j].slip].law = friction[j];
-  InterfaceSolution found = programme_.body.minimise(
-      points, start,
-      {settings_.tolerance, std::max(1, last_ - iterations_), settings_.is_definite});
+  InterfaceSettings left = settings_;
+  left.max_iterations = std::max(1, last_ - iterations_);
+  InterfaceSolution found = programme_.body.minimise(points, start, left);
   iterations_ += found.iterations;
   return found;
 }
@@ -247,7 +247,7 @@ CoupledSolution Cascade::solve(const VectorXd &start) {
 
 CoupledSolution solve_coupled(const CoupledProgramme &programme, const VectorXd &start,
                               const InterfaceSettings &settings) {
-  DenseBody body(programme.convex);
+  DenseBody body(programme.convex, settings.factors);
   return solve_coupled({body, programme.convex.points, programme.couplings}, start, settings);
 }
 

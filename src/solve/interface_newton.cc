@@ -25,8 +25,12 @@ double largest_of(const VectorXd &v) {
 
 class Iteration {
  public:
-  Iteration(const InterfaceProgramme &programme, VectorXd start, bool is_definite)
-      : programme_(programme), d_(std::move(start)), may_be_singular_(!is_definite) {
+  Iteration(const InterfaceProgramme &programme, VectorXd start, bool is_definite,
+            KeptFactor &factor)
+      : programme_(programme),
+        d_(std::move(start)),
+        may_be_singular_(!is_definite),
+        factor_(factor) {
     for (const ContactPoint &p : programme.points)
       curvature_.push_back(largest_curvature(programme.stiffness, p));
     may_yield_ = std::any_of(
@@ -39,12 +43,20 @@ class Iteration {
   /// Solves one linear system; true when points came to stick on the way, so that the step after it
   /// is another one.
   bool newton_step(bool ahead = false);
-  void update_residual_force() { force_.noalias() = programme_.force - programme_.stiffness * d_; }
+  void update_residual_force() {
+    force_ = programme_.force;
+    subtract_product(programme_.stiffness, d_, force_);
+  }
+  /// What goes before a Newton step.
+  void sweeps();
 
   /// Natural residual |lambda - P(lambda + r d)| of a point, as a nodal force.
   double residual(std::size_t i) const;
   double largest_residual() const;
   double force_size() const;
+  bool is_solved(double tolerance) const {
+    return is_within(programme_, d_, largest_residual(), tolerance);
+  }
   InterfaceSolution solution() const;
   /// Whether the last linear system could be factorised.
   bool is_definite() const { return is_definite_; }
@@ -61,8 +73,10 @@ class Iteration {
   };
   Dissipated dissipated(const VectorXd &next) const;
   Tangent model_place(std::size_t i, bool ahead) const;
-  std::optional<VectorXd> newton_direction(const std::vector<std::size_t> &smooth,
-                                           bool ahead) const;
+  void add_point(std::size_t i, bool ahead, SystemRows &rows, VectorXd &right_side,
+                 Index row) const;
+  std::optional<VectorXd> newton_direction(const std::vector<std::size_t> &smooth, bool ahead);
+  VectorXd resisted_to(const VectorXd &next) const;
   VectorXd truncated(const VectorXd &direction, double length, Turns turns) const {
     return truncated_step(programme_.points, d_, direction, length, turns);
   }
@@ -86,6 +100,10 @@ class Iteration {
   bool may_be_singular_;
   bool may_yield_;  // a normal law has no kink, but a bend where the body begins to touch
   bool is_definite_ = true;
+  bool is_settling_ = false;  // the last Newton step was a whole one that no point turned in
+  bool has_rested_ = false;   // no sweep went before it
+  KeptFactor &factor_;
+  std::optional<KeptFactor::Solved> last_solved_;  // the last direction, of a large system
 };
 
 Tangent Iteration::trial(std::size_t i) const {
@@ -117,6 +135,15 @@ void Iteration::sweep(bool backwards) {
     d_.segment(p.offset, p.size) = after;
     force_.noalias() -= programme_.stiffness.middleCols(p.offset, p.size) * change;
   }
+}
+
+// Where the contact is large a sweep costs as much as a product with A, and Newton's method hardly
+// more: one is enough, and none of every second time that Newton's method needs no help.
+void Iteration::sweeps() {
+  const bool large = is_large(d_.size());
+  has_rested_ = large && is_settling_ && !has_rested_;
+  for (int k = 0; k < (large ? 1 : sweeps_per_iteration) && !has_rested_; ++k)
+    sweep(k % 2 == 1);
 }
 
 // A point that was stopped at its bend, where the law is smooth but turns within o, sticks for
@@ -168,41 +195,57 @@ Tangent Iteration::model_place(std::size_t i, bool ahead) const {
   return d_.segment(p.offset, p.size);
 }
 
+// Of the Newton step in the smooth points: the Hessian of their laws beside A. With small slips it
+// is large, and changes much from step to step. A kept factor serves only where that is taken from
+// the rows, (1 + H/c)^-1 (A + H) with c the curvature of the point's own block.
+void Iteration::add_point(std::size_t i, bool ahead, SystemRows &rows, VectorXd &right_side,
+                          Index row) const {
+  constexpr double slightly = 1e-10;
+  const ContactPoint &p = programme_.points[i];
+  const Tangent d = d_.segment(p.offset, p.size);
+  TangentMatrix hessian = p.weight * p.law.hessian(model_place(i, ahead));
+  if (may_be_singular_)
+    hessian.diagonal() += slightly * programme_.stiffness.diagonal().segment(p.offset, p.size);
+  const Tangent descent = force_.segment(p.offset, p.size) - p.weight * p.law.gradient(d);
+  const TangentMatrix one = TangentMatrix::Identity(p.size, p.size);
+  const TangentMatrix scale =
+      is_large(d_.size()) ? TangentMatrix((one + hessian / curvature_[i]).inverse()) : one;
+  rows.add_of_force(row, p.offset, scale);
+  rows.add_local(row, p.offset, scale * hessian);
+  right_side.segment(row, p.size) = scale * descent;
+}
+
 // Nothing where the Hessian, positive definite by theory, is not so in its digits.
 std::optional<VectorXd> Iteration::newton_direction(const std::vector<std::size_t> &smooth,
-                                                    bool ahead) const {
-  std::vector<Index> entries;
+                                                    bool ahead) {
+  std::vector<Index> unknowns;
   for (const std::size_t i : smooth)
     for (Index c = 0; c < programme_.points[i].size; ++c)
-      entries.push_back(programme_.points[i].offset + c);
-  Eigen::MatrixXd hessian = programme_.stiffness(entries, entries);
-  VectorXd descent = force_(entries);
+      unknowns.push_back(programme_.points[i].offset + c);
+  SystemRows rows;
+  VectorXd right_side(static_cast<Index>(unknowns.size()));
   Index row = 0;
   for (const std::size_t i : smooth) {
-    const ContactPoint &p = programme_.points[i];
-    const Tangent d = d_.segment(p.offset, p.size);
-    hessian.block(row, row, p.size, p.size) += p.weight * p.law.hessian(model_place(i, ahead));
-    descent.segment(row, p.size) -= p.weight * p.law.gradient(d);
-    row += p.size;
+    add_point(i, ahead, rows, right_side, row);
+    row += programme_.points[i].size;
   }
-  if (may_be_singular_) {
-    constexpr double slightly = 1e-10;
-    hessian.diagonal() *= 1 + slightly;
-  }
-  const Eigen::LLT<Eigen::MatrixXd> factor(hessian);
-  if (factor.info() != Eigen::Success)
-    return std::nullopt;
-  VectorXd direction = VectorXd::Zero(d_.size());
-  const VectorXd solved = factor.solve(descent);
-  direction(entries) = solved;
-  return direction;
+  last_solved_ = factor_.solve_definite(rows.system(std::move(unknowns), d_.size(), d_.size()),
+                                        programme_.stiffness, right_side);
+  return last_solved_ ? std::optional(last_solved_->x) : std::nullopt;
+}
+
+VectorXd Iteration::resisted_to(const VectorXd &next) const {
+  const VectorXd change = next - d_;
+  if (last_solved_ && is_large(change.size()) && next == d_ + last_solved_->x)
+    return last_solved_->resisted;
+  return symmetric_product(programme_.stiffness, change);
 }
 
 // Of the programme's value, and the round-off of its own sum: near the minimum the whole step must
 // not be refused for that.
 Iteration::Change Iteration::change_to(const VectorXd &next) const {
   const VectorXd change = next - d_;
-  const VectorXd resisted = programme_.stiffness * change;
+  const VectorXd resisted = resisted_to(next);
   const double work = force_.dot(change);
   const auto [more, round_off] = dissipated(next);
   return {change.dot(resisted) / 2 - work + more, 1e-14 * (std::abs(work) + round_off)};
@@ -225,7 +268,7 @@ double Iteration::length_to_least(const VectorXd &direction) const {
   double low = 0, high = 1;
   for (const ContactPoint &p : programme_.points)
     high = std::min(high, length_to_turn(p, d_, direction, Turns::kinks_and_bends));
-  const VectorXd resisted = programme_.stiffness * direction;
+  const VectorXd resisted = symmetric_product(programme_.stiffness, direction);
   if (slope(direction, resisted, high * (1 - 1e-14)) <= 0)
     return high;
   for (int k = 0; k < bisections; ++k) {
@@ -251,6 +294,7 @@ void Iteration::search(const VectorXd &direction, VectorXd &next) const {
 bool Iteration::newton_step(bool ahead) {
   const std::vector<std::size_t> smooth = smooth_points();
   const std::optional<VectorXd> found = newton_direction(smooth, ahead);
+  is_settling_ = false;
   is_definite_ = found.has_value();
   if (!is_definite_)
     return false;
@@ -259,9 +303,12 @@ bool Iteration::newton_step(bool ahead) {
     search(*found, next);
   if (!descends(next) && !shorten(*found, next))
     return false;  // round-off is all that is left of the step
+  const bool is_whole = next == d_ + *found;
   d_ = next;
   update_residual_force();
-  return smooth_points().size() < smooth.size();
+  const std::size_t left = smooth_points().size();
+  is_settling_ = is_whole && left == smooth.size();
+  return left < smooth.size();
 }
 
 // Halves the step until the value does not grow, but not below the length at which the first point
@@ -337,21 +384,34 @@ double size_of_forces(const InterfaceProgramme &programme, const VectorXd &d) {
   return size == 0 ? 1 : size;
 }
 
+// No entry of A is larger than the largest of its diagonal: where the residual is far too large
+// even for that, A is not read.
+bool is_within(const InterfaceProgramme &programme, const VectorXd &d, double residual,
+               double tolerance) {
+  double at_most = programme.force_scale;
+  if (d.size() > 0)
+    at_most = larger(at_most, largest_of(programme.force)) +
+              largest_of(programme.stiffness.diagonal()) * d.lpNorm<1>();
+  if (at_most > 0 && residual > tolerance * at_most)
+    return false;
+  return relative_to(residual, size_of_forces(programme, d)) <= tolerance;
+}
+
 InterfaceSolution minimise(const InterfaceProgramme &programme, VectorXd start,
                            const InterfaceSettings &settings) {
   if (programme.force.size() == 0)
     return nothing_to_slip(programme);
-  Iteration iteration(programme, std::move(start), settings.is_definite);
+  KeptFactor own;
+  Iteration iteration(programme, std::move(start), settings.is_definite,
+                      settings.factors ? settings.factors->convex : own);
   int solved = 0;
   bool converged = false;
   while (true) {
     // The residual force is fresh here: no drift from the sweeps' updates enters the verdict.
-    converged =
-        relative_to(iteration.largest_residual(), iteration.force_size()) <= settings.tolerance;
+    converged = iteration.is_solved(settings.tolerance);
     if (converged || solved == settings.max_iterations || !iteration.is_definite())
       break;
-    for (int k = 0; k < sweeps_per_iteration; ++k)
-      iteration.sweep(k % 2 == 1);
+    iteration.sweeps();
     bool more = true;
     while (more && solved < settings.max_iterations) {
       more = iteration.newton_step();

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "contact/local_law.h"
+#include "solve/kept_factor.h"
 
 namespace tourmaline::solve {
 
@@ -29,12 +30,18 @@ struct InterfaceProgramme {
   double force_scale = 0;  ///< size of the terms that f was summed from [N]: bounds its round-off
 };
 
+/// Of convex programmes and of coupled ones.
+struct KeptFactors {
+  KeptFactor convex, coupled;
+};
+
 struct InterfaceSettings {
   double tolerance = 1e-12;  ///< of the natural residual over the size of the forces
   int max_iterations = 100;
   /// Whether A is definite. If not, the contact itself may hold what A leaves free, and directions
   /// are found for slightly more than A.
   bool is_definite = true;
+  KeptFactors *factors = nullptr;  ///< from other programmes with the same A; nothing: none
 };
 
 struct InterfaceSolution {
@@ -54,6 +61,9 @@ double largest_curvature(const Eigen::MatrixXd &stiffness, const ContactPoint &p
 /// What a residual of the programme at d is compared to: the largest of the terms of its forces
 /// [N].
 double size_of_forces(const InterfaceProgramme &programme, const Eigen::VectorXd &d);
+/// Whether a residual [N] of the programme at d is within `tolerance` of that size.
+bool is_within(const InterfaceProgramme &programme, const Eigen::VectorXd &d, double residual,
+               double tolerance);
 
 /// Truncated nonsmooth Newton iteration: block Gauss-Seidel sweeps, which alone converge from any
 /// start because the programme is strictly convex and its nonsmooth part separates by points, then

@@ -183,13 +183,21 @@ double NaturalMap::merit(const Place &x) const {
   return sum;
 }
 
-double NaturalMap::residual(const Place &x) const {
+double NaturalMap::largest_value(const Place &x) const {
   double largest = 0;
   for (std::size_t i = 0; i < points_.size(); ++i)
     largest = larger(largest, point_value(i, x).norm());
   for (const double lack : share_value(x))
     largest = larger(largest, std::abs(lack));
-  return relative_to(largest, body_->size_of_forces(x.d));
+  return largest;
+}
+
+double NaturalMap::residual(const Place &x) const {
+  return relative_to(largest_value(x), body_->size_of_forces(x.d));
+}
+
+bool NaturalMap::is_zero(const Place &x, double tolerance) const {
+  return body_->is_within(x.d, largest_value(x), tolerance);
 }
 
 std::vector<std::size_t> NaturalMap::unsettled(const Place &x, double tolerance) const {
@@ -276,11 +284,8 @@ ContactTangent::Point NaturalMap::tangent_at(std::size_t i, const Place &x,
     row.of_force = p.weight / point(n).weight * u.branches[n].derivative(0, 0) * at.by_pressure;
     row.of_normal = -curvature_[n] * row.of_force;
   }
-  const auto j = static_cast<std::size_t>(coupling_of_[i]);
-  if (ramp_)
-    row.right_side += p.weight * u.share[static_cast<Index>(j)] * at.by_share;
-  if (const auto k = std::find(u.shares.begin(), u.shares.end(), j); k != u.shares.end()) {
-    row.share = static_cast<std::size_t>(k - u.shares.begin());
+  if (ramp_) {
+    row.share = static_cast<std::size_t>(coupling_of_[i]);
     row.of_share = -p.weight * at.by_share;
   }
   return row;
@@ -290,12 +295,13 @@ ContactTangent::Point NaturalMap::tangent_at(std::size_t i, const Place &x,
 ContactTangent NaturalMap::tangent(const Place &x, const Unknowns &u) const {
   ContactTangent all;
   all.known = u.d;
+  all.known_share = u.share;
   for (std::size_t i = 0; i < points_.size(); ++i)
     if (!u.branches[i].is_held && point(i).size > 0)
       all.points.push_back(tangent_at(i, x, u));
   for (const std::size_t j : u.shares) {
     const std::size_t n = *couplings_[j].normal;
-    all.shares.push_back({n, curvature_[n], -*ramp_, *ramp_ * share(j, x) - normal_force(j, x)});
+    all.shares.push_back({j, n, curvature_[n], -*ramp_, *ramp_ * share(j, x) - normal_force(j, x)});
   }
   return all;
 }
@@ -305,14 +311,10 @@ ContactTangent NaturalMap::tangent(const Place &x) const {
 }
 
 std::optional<NaturalMap::Direction> NaturalMap::newton_direction(const Place &x) const {
-  const Unknowns u = unknowns(x);
-  const std::optional<ContactBody::Moved> moved = body_->solve(tangent(x, u));
+  const std::optional<ContactBody::Moved> moved = body_->solve(tangent(x));
   if (!moved)
     return std::nullopt;
-  Direction direction{moved->x, moved->resisted, u.share};
-  for (std::size_t k = 0; k < u.shares.size(); ++k)
-    direction.share[static_cast<Index>(u.shares[k])] = moved->share[static_cast<Index>(k)];
-  return direction;
+  return Direction{moved->x, moved->resisted, moved->share};
 }
 
 // A whole step ends at a share that is one.

@@ -47,15 +47,16 @@ class NaturalMap {
   double merit(const Place &x) const;
   /// The largest |F_i| over the size of the forces.
   double residual(const Place &x) const;
+  bool is_zero(const Place &x, double tolerance) const;  ///< whether the residual is within it
   std::vector<std::size_t> unsettled(const Place &x, double tolerance) const;
 
   struct Direction {
     Eigen::VectorXd d, resisted, share;  // resisted = A d
   };
-  /// Newton's; nothing where the linear system cannot be solved. Points that are held go there at
-  /// once and take no part in it.
+  /// Newton's, or of large systems nearly Newton's; nothing where the linear system cannot be
+  /// solved. Points that are held go there at once and take no part in it.
   std::optional<Direction> newton_direction(const Place &x) const;
-  /// The linear system of that direction, its shares those between 0 and 1.
+  /// The linear system of that direction.
   ContactTangent tangent(const Place &x) const;
   Place along(const Place &x, const Direction &direction, double length) const;
 
@@ -98,6 +99,7 @@ class NaturalMap {
              std::optional<double> ramp);
   const ContactPoint &point(std::size_t i) const { return points_[i]; }
   const FrictionCoupling *coupling(std::size_t i) const;
+  double largest_value(const Place &x) const;
   double size_of_jump(const FrictionCoupling &coupling) const;
   contact::Tangent trial(std::size_t i, const Place &x) const;
   double normal_force(std::size_t j, const Place &x) const;

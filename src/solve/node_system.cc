@@ -19,7 +19,7 @@ NodeSystem<dim>::NodeSystem(const ContactNodes<dim> &contact, const Model<dim> &
     tangents.push_back({at.node, Matrix::Zero(), Matrix::Zero()});
   of_share.setZero();
   for (const ContactTangent::Point &at : tangent.points)
-    add(at);
+    add(at, tangent);
 }
 
 template <int dim>
@@ -33,9 +33,12 @@ typename NodeSystem<dim>::Directions NodeSystem<dim>::directions(std::size_t poi
 }
 
 template <int dim>
-void NodeSystem<dim>::add(const ContactTangent::Point &at) {
+void NodeSystem<dim>::add(const ContactTangent::Point &at, const ContactTangent &tangent) {
   const ContactPoint &p = contact_.points()[at.point];
   const std::size_t node = contact_.node_of(at.point);
+  Tangent right_side = at.right_side;
+  if (at.share)
+    right_side -= tangent.known_share[static_cast<Index>(*at.share)] * at.of_share;
   const double vertical = p.law.normal() == nullptr ? 1e-3 : 1e-9;
   const Eigen::SelfAdjointEigenSolver<TangentMatrix> modes(TangentMatrix::Identity(p.size, p.size) -
                                                            at.derivative);
@@ -47,7 +50,7 @@ void NodeSystem<dim>::add(const ContactTangent::Point &at) {
       inverse += v * v.transpose() / left;
       free += v * v.transpose();
     } else {
-      known.segment(p.offset, p.size) += v.dot(at.right_side) / v.dot(at.of_own * v) * v;
+      known.segment(p.offset, p.size) += v.dot(right_side) / v.dot(at.of_own * v) * v;
     }
   }
   const Directions d = directions(at.point);
@@ -58,9 +61,10 @@ void NodeSystem<dim>::add(const ContactTangent::Point &at) {
                                 stiffness.eigenvectors().transpose();
   tangents[node].projector += d * free * d.transpose();
   tangents[node].stiffness += d * resists * d.transpose();
-  force.segment(p.offset, p.size) = -inverse * at.right_side;
-  if (at.share)
-    of_share.block(p.offset, static_cast<Index>(*at.share), p.size, 1) = inverse * at.of_share;
+  force.segment(p.offset, p.size) = -inverse * right_side;
+  for (std::size_t k = 0; at.share && k < tangent.shares.size(); ++k)
+    if (tangent.shares[k].share == *at.share)
+      of_share.block(p.offset, static_cast<Index>(k), p.size, 1) = inverse * at.of_share;
   if (const TangentMatrix rest = own - resists; rest.norm() > 1e-12 * own.norm()) {
     couplings[node].of_displacement += d * rest * d.transpose();
     is_coupled_ = true;

@@ -28,13 +28,13 @@ struct NodeSystem {
   std::vector<krylov::NodeCoupling<dim>> couplings;
   Eigen::VectorXd known;     ///< x of what is held [m]
   Eigen::VectorXd force;     ///< [N]
-  Eigen::MatrixXd of_share;  ///< what one unit of each share adds to it, by column
+  Eigen::MatrixXd of_share;  ///< what one unit of each share of the tangent adds to it
 
  private:
   using Directions = Eigen::Matrix<double, dim, Eigen::Dynamic, 0, dim, dim>;
   using Matrix = Eigen::Matrix<double, dim, dim>;
 
-  void add(const ContactTangent::Point &at);
+  void add(const ContactTangent::Point &at, const ContactTangent &tangent);
   Directions directions(std::size_t point) const;
 
   const ContactNodes<dim> &contact_;

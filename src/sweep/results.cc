@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -26,13 +25,6 @@ std::string cell(const std::string &text) {
 
 std::string cell(double number) {
   return std::isnan(number) ? "nan" : fmt::format("{:.17g}", number == 0 ? 0 : number);
-}
-
-std::optional<double> number_in(const std::string &text) {
-  double number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  const bool whole = error == std::errc() && end == text.data() + text.size();
-  return whole && std::isfinite(number) ? std::optional(number) : std::nullopt;
 }
 
 // Numbers where all values are, otherwise 0, 1, ... with the values as words.

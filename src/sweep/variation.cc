@@ -63,14 +63,6 @@ std::vector<std::string> listed(const std::string &text) {
   return values;
 }
 
-std::optional<double> number_in(const std::string &text) {
-  const std::string bare = trimmed(text);
-  double number = 0;
-  const auto [end, error] = std::from_chars(bare.data(), bare.data() + bare.size(), number);
-  const bool whole = error == std::errc() && end == bare.data() + bare.size();
-  return whole && std::isfinite(number) ? std::optional(number) : std::nullopt;
-}
-
 // Fifteen digits, so that 0.3 is not 0.30000000000000004.
 std::string text_of(double number) {
   return fmt::format("{:.15g}", number == 0 ? 0 : number);
@@ -149,6 +141,14 @@ void check_values(const std::string &assignment, const std::vector<std::string> 
 }
 
 }  // namespace
+
+std::optional<double> number_in(const std::string &text) {
+  const std::string bare = trimmed(text);
+  double number = 0;
+  const auto [end, error] = std::from_chars(bare.data(), bare.data() + bare.size(), number);
+  const bool whole = error == std::errc() && end == bare.data() + bare.size();
+  return whole && std::isfinite(number) ? std::optional(number) : std::nullopt;
+}
 
 Variation read_variation(const std::string &assignment) {
   const std::size_t equals = assignment.find('=');

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ Variation read_variation(const std::string &assignment);
 
 /// The same for all; a key may be varied once. Throws CaseError.
 std::vector<Variation> read_variations(const std::vector<std::string> &assignments);
+
+/// The finite number that a text is, apart from blanks around it.
+std::optional<double> number_in(const std::string &text);
 
 /// Throws CaseError where `--set` gives a key that is varied: one of both would mean nothing.
 void require_not_set(const std::vector<Variation> &variations,

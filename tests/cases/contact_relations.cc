@@ -417,5 +417,31 @@ TEST(EveryRoute, HoldsASolidAtTheGapOfAFoundationThatMoves) {
   expect_balances(iterative, 1e-9);
 }
 
+// So many unknowns of the contact that the condensed route keeps a factor of them.
+TEST(EveryRoute, AgreesOnAContactOfAThousandNodes) {
+  const auto run = [](const std::string &laws, std::vector<std::string> overrides = {}) {
+    return run_text(R"toml(
+mesh.box = { min = [0, 0], max = [0.2, 0.002], cells = [1100, 2], cell = "quadrilateral" }
+mesh.modes = "incompatible"
+material = { library = "BaTiO3-Liu2014", pyroelectric = [0, 1e-4] }
+time = { end = 1, steps = 3 }
+boundary = [ { on = "top", potential = 0, temperature = 0, displacement = [
+  "1e-6*t*(1 + sin(200*x))", "-2e-7*t*(0.2 + cos(300*x))"] } ]
+[contact]
+on = "bottom"
+heat = { law = "exchange", coefficient = 2e4, foundation_temperature = "20*t" }
+)toml" + laws,
+                    overrides);
+  };
+  for (const std::string laws : {coulomb, "friction = { law = \"tresca\", bound = 1e6 }"}) {
+    SCOPED_TRACE(laws);
+    const RunCase condensed = run(laws);
+    EXPECT_GT(condensed.history().numbers("slip").back(), laws == coulomb ? 500 : 1000);
+    expect_balances(condensed);
+    const RunCase monolithic = run(laws, {"solver.method=monolithic", "solver.tolerance=1e-12"});
+    expect_same_answer(condensed, monolithic, 2);
+  }
+}
+
 }  // namespace
 }  // namespace tourmaline::testing

@@ -145,6 +145,22 @@ TEST_F(Interrupted, ADampedFoundationGoesOn) {
   expect_to_go_on("damped.toml");
 }
 
+// What the contact's linear systems are preconditioned with is part of what the next bytes depend
+// on.
+TEST_F(Interrupted, AContactOfAThousandNodesGoesOn) {
+  std::string text = weakening;
+  const auto put = [&](const std::string &key, const std::string &value) {
+    const std::size_t at = text.find(key + " = ");
+    text.replace(at, text.find('\n', at) - at, key + " = " + value);
+  };
+  put("mesh.box",
+      R"({ min = [0, 0], max = [0.2, 0.002], cells = [1100, 2], cell = "quadrilateral" })");
+  put("gap", "\"1e-7*sin(300*x)\"");
+  put("friction", "{ law = \"coulomb\", coefficient = 0.3 }");
+  std::ofstream(here() / "large.toml") << text;
+  expect_to_go_on("large.toml --set time.steps=12");
+}
+
 TEST_F(Interrupted, ARunWithCheckpointsLeavesTheBytesOfOneWithout) {
   for (const std::string often : {"never", "1steps"})
     ASSERT_EQ(run("run " + paper + " -q --set output.checkpoint=" + often + " -o " + often), 0);

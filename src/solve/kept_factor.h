@@ -1,0 +1,95 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <Eigen/Sparse>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "output/checkpoint.h"
+#include "tourmaline/contact/tangent.h"
+
+namespace tourmaline::solve {
+
+/// A linear system of the interface. With A the contact's stiffness [N/m] of n rows, its matrix is
+///
+///     M = (L A 0 + B)(all, unknowns),
+///
+/// whose sparse parts L, of n columns, and B, of n and as many as there are unknowns beside those
+/// of A, act point by point.
+struct InterfaceSystem {
+  using Sparse = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+  std::vector<Eigen::Index> unknowns;  ///< columns of B that are asked for, in ascending order
+  Sparse of_force, local;              ///< L and B
+
+  Eigen::Index size() const { return static_cast<Eigen::Index>(unknowns.size()); }
+};
+
+/// The rows of such a system, one block after the other.
+class SystemRows {
+ public:
+  /// The entries of `block` are added to those that stand from that row and column on.
+  void add_of_force(Eigen::Index row, Eigen::Index column, const contact::TangentMatrix &block) {
+    add(of_force_, row, column, block);
+  }
+  void add_local(Eigen::Index row, Eigen::Index column, const contact::TangentMatrix &block) {
+    add(local_, row, column, block);
+  }
+  /// `n`: columns of L, `n_local`: of B.
+  InterfaceSystem system(std::vector<Eigen::Index> unknowns, Eigen::Index n,
+                         Eigen::Index n_local) const;
+
+ private:
+  using Entries = std::vector<Eigen::Triplet<double>>;
+  static void add(Entries &to, Eigen::Index row, Eigen::Index column,
+                  const contact::TangentMatrix &block);
+
+  Entries of_force_, local_;
+};
+
+/// A v, and `from` - A v; of large A only one half is read.
+Eigen::VectorXd symmetric_product(const Eigen::MatrixXd &a, const Eigen::VectorXd &v);
+void subtract_product(const Eigen::MatrixXd &a, const Eigen::VectorXd &v, Eigen::VectorXd &from);
+
+/// Whether a system of so many unknowns is large: then it costs far more to factorise it than to
+/// multiply with A, and its factor is worth keeping.
+bool is_large(Eigen::Index unknowns);
+
+/// Solves systems of one A that come one after the other and differ in few points. Small ones are
+/// factorised. Of the large ones a factor is kept, in single precision, that preconditions the
+/// next ones until it serves no more: what a system then costs is a few products with A.
+class KeptFactor {
+ public:
+  struct Solved {
+    Eigen::VectorXd x;         ///< spread among zeros to the entries of B's columns
+    Eigen::VectorXd resisted;  ///< A x
+  };
+  /// Exactly, or of large ones until a small part of the right side is left, which the next Newton
+  /// iteration takes. Nothing where the system cannot be solved.
+  std::optional<Solved> solve(const InterfaceSystem &system, const Eigen::MatrixXd &a,
+                              const Eigen::VectorXd &right_side);
+  /// Likewise where a small M is symmetric; nothing where it is not positive definite then.
+  std::optional<Solved> solve_definite(const InterfaceSystem &system, const Eigen::MatrixXd &a,
+                                       const Eigen::VectorXd &right_side);
+
+  /// For a checkpoint: of which system the factor is; it is made again when it is needed.
+  void save(const std::string &name, output::SavedNumbers &numbers) const;
+  void restore(const std::string &name, const output::SavedNumbers &numbers,
+               Eigen::Index n_entries);
+
+ private:
+  void keep(const InterfaceSystem &system, const Eigen::MatrixXd &a);
+  Eigen::VectorXd nearly_solved(const InterfaceSystem &system, const Eigen::VectorXd &diagonal,
+                                const Eigen::VectorXd &b) const;
+  std::optional<Solved> solve_large(const InterfaceSystem &system, const Eigen::MatrixXd &a,
+                                    const Eigen::VectorXd &b);
+  std::optional<Solved> iterate(const InterfaceSystem &system, const Eigen::MatrixXd &a,
+                                const Eigen::VectorXd &b);
+
+  std::optional<InterfaceSystem> of_;
+  double excess_ = 0;  // products that were needed beyond the usual ones since the factor was made
+  std::optional<Eigen::PartialPivLU<Eigen::MatrixXf>> factor_;
+};
+
+}  // namespace tourmaline::solve

@@ -1,0 +1,117 @@
+#include "solve/kept_factor.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace tourmaline::solve {
+namespace {
+
+using contact::TangentMatrix;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// A stiffness of points in a line and systems (1 + D) A + c D of those that are free, D random.
+class Systems {
+ public:
+  explicit Systems(Index n) : a(n, n) {
+    for (Index i = 0; i < n; ++i)
+      for (Index j = 0; j < n; ++j)
+        a(i, j) = 1 / (1. + static_cast<double>((i - j) * (i - j))) + (i == j ? 1 : 0);
+  }
+
+  InterfaceSystem next(Index held, double strength) {
+    std::vector<Index> unknowns;
+    SystemRows rows;
+    for (Index i = 0; i < a.cols(); ++i)
+      if (i % 10 != held) {
+        const auto row = static_cast<Index>(unknowns.size());
+        const double d = strength * uniform_(random_);
+        rows.add_of_force(row, i, TangentMatrix::Constant(1, 1, 1 + d));
+        rows.add_local(row, i, TangentMatrix::Constant(1, 1, 2 * d));
+        unknowns.push_back(i);
+      }
+    return rows.system(std::move(unknowns), a.cols(), a.cols());
+  }
+
+  VectorXd right_side(const InterfaceSystem &system) {
+    return VectorXd::NullaryExpr(system.size(), [&] { return uniform_(random_) - 0.5; });
+  }
+
+  MatrixXd a;
+
+ private:
+  std::mt19937 random_{7};
+  std::uniform_real_distribution<double> uniform_;
+};
+
+double left(const InterfaceSystem &system, const KeptFactor::Solved &x, const VectorXd &b) {
+  return (system.of_force * x.resisted + system.local * x.x - b).norm() / b.norm();
+}
+
+TEST(KeptFactor, SolvesSmallSystemsExactly) {
+  Systems systems(200);
+  const InterfaceSystem system = systems.next(3, 1);
+  const VectorXd b = systems.right_side(system);
+  const auto x = KeptFactor().solve(system, systems.a, b);
+  ASSERT_TRUE(x);
+  EXPECT_LT(left(system, *x, b), 1e-13);
+  EXPECT_LT((systems.a * x->x - x->resisted).norm(), 1e-13 * x->resisted.norm());
+  EXPECT_EQ(x->x[3], 0);
+}
+
+TEST(KeptFactor, LeavesALittleOfLargeSystemsThatComeOneAfterTheOther) {
+  Systems systems(1300);
+  KeptFactor factor;
+  for (const Index held : {3, 4, 5}) {
+    const InterfaceSystem system = systems.next(held, 0.3);
+    ASSERT_TRUE(is_large(system.size()));
+    const VectorXd b = systems.right_side(system);
+    const auto x = factor.solve(system, systems.a, b);
+    ASSERT_TRUE(x);
+    EXPECT_LT(left(system, *x, b), 0.1);
+    EXPECT_LT((systems.a * x->x - x->resisted).norm(), 1e-13 * x->resisted.norm());
+  }
+}
+
+// A factor that serves no more is replaced, whatever came before.
+TEST(KeptFactor, SolvesALargeSystemThatHasNothingInCommonWithTheLast) {
+  Systems systems(1300);
+  KeptFactor factor;
+  const InterfaceSystem first = systems.next(3, 1e6);
+  ASSERT_TRUE(factor.solve(first, systems.a, systems.right_side(first)));
+  const InterfaceSystem second = systems.next(3, 0);
+  const VectorXd b = systems.right_side(second);
+  const auto x = factor.solve(second, systems.a, b);
+  ASSERT_TRUE(x);
+  EXPECT_LT(left(second, *x, b), 0.1);
+}
+
+TEST(KeptFactor, SaysThatASmallSystemIsNotDefinite) {
+  Systems systems(20);
+  const InterfaceSystem system = systems.next(3, 0);
+  const VectorXd b = systems.right_side(system);
+  EXPECT_TRUE(KeptFactor().solve_definite(system, systems.a, b));
+  EXPECT_FALSE(KeptFactor().solve_definite(system, -systems.a, b));
+}
+
+TEST(KeptFactor, GivesTheSameBytesAfterACheckpoint) {
+  Systems systems(1300);
+  KeptFactor factor;
+  const InterfaceSystem first = systems.next(3, 0.3), second = systems.next(4, 0.3);
+  const VectorXd b = systems.right_side(second);
+  ASSERT_TRUE(factor.solve(first, systems.a, systems.right_side(first)));
+  output::SavedNumbers numbers;
+  factor.save("factor", numbers);
+  KeptFactor restored;
+  restored.restore("factor", numbers, systems.a.cols());
+  const auto here = factor.solve(second, systems.a, b),
+             there = restored.solve(second, systems.a, b);
+  ASSERT_TRUE(here && there);
+  EXPECT_EQ(here->x, there->x);
+  EXPECT_NE(here->x, KeptFactor().solve(second, systems.a, b)->x);  // the first one's factor counts
+}
+
+}  // namespace
+}  // namespace tourmaline::solve
