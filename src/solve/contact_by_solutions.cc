@@ -530,6 +530,8 @@ StepOutcome ContactBySolutions<dim>::outcome() {
 
 template <int dim>
 void ContactBySolutions<dim>::give_up_contact() const {
+  if (const std::string motions = left_to_contact_.empty() ? "" : unheld(); !motions.empty())
+    let_go(time_, motions);
   if (!left_to_contact_.empty())
     give_up_leaning(time_, solution_.interface, left_to_contact_);
   const std::vector<std::size_t> &unsettled = solution_.interface.unsettled;
