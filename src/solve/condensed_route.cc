@@ -64,6 +64,9 @@ class CondensedRoute : public Route {
   Accuracy accuracy(std::span<const double> right_side, std::span<const double> state,
                     const StepOutcome &outcome) override;
   bool is_refined() const override { return condensed_.body().is_refined(); }
+  void go_on_from(const VectorXd &accumulated_slip) override {
+    contact_->set_accumulated_slip(accumulated_slip);
+  }
 
  private:
   void condense_onto_slips();

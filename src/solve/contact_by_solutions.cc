@@ -35,6 +35,8 @@ class ContactBySolutions : public IterativeRoute<dim>, private ContactBody, priv
  public:
   explicit ContactBySolutions(const Model<dim> &model);
 
+  VectorXd accumulated_slip() const override { return contact_.accumulated_slip(); }
+
  private:
   using IterativeRoute<dim>::model_;
   using IterativeRoute<dim>::body_;

@@ -50,10 +50,6 @@ struct ContactCase {
   NormalCase normal;
   FrictionCase friction;
   HeatExchangeCase heat;
-
-  /// Whether what a law answers depends on pressure or penetration: the iterative solution of the
-  /// body's equations does not know such laws.
-  bool depends_on_state() const { return normal.law != "bilateral" || friction.law == "coulomb"; }
 };
 
 }  // namespace tourmaline::casefile
