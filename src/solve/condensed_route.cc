@@ -157,14 +157,9 @@ CoupledSolution CondensedRoute<dim>::solve_programme(const InterfaceProgramme &p
   const InterfaceSettings settings{model_.asked.solver.tolerance,
                                    model_.asked.solver.max_iterations, left_to_contact_.empty(),
                                    &factors_};
-  if (contact_->is_coupled() && left_to_contact_.empty())
-    return solve_coupled({programme, contact_->couplings()}, last_increment_, settings);
-  if (contact_->is_coupled())
+  if (contact_->is_coupled() && !left_to_contact_.empty())
     return solve_leaning(programme, settings);
-  CoupledSolution solution;
-  solution.interface = minimise(programme, last_increment_, settings);
-  solution.stage = ContactStage::convex;
-  return solution;
+  return solve_coupled({programme, contact_->couplings()}, last_increment_, settings);
 }
 
 // Where only the contact holds the body, Newton's method may meet a singular matrix on its way.

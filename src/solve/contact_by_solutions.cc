@@ -475,11 +475,7 @@ CoupledSolution ContactBySolutions<dim>::solve_from(const VectorXd &start) {
   is_solved_ = false;
   const InterfaceSettings settings{contact_tolerance(), model_.asked.solver.max_iterations,
                                    left_to_contact_.empty()};
-  if (contact_.is_coupled())
-    return solve_coupled(coupled(), start, settings);
-  CoupledSolution solution;
-  solution.interface = minimise(contact_.points(), start, settings);
-  return solution;
+  return solve_coupled(coupled(), start, settings);
 }
 
 // Where only the contact holds the body, a linear system on the way may have no solution. Weak

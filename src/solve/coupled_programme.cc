@@ -35,6 +35,7 @@ class Cascade {
   bool filled(Place &x);
   bool filled_from_any(const VectorXd &start, Place &x);
   bool continuation(Index n_entries, Place &x);
+  CoupledSolution solve_convex(const VectorXd &start);
   InterfaceSolution convex(const std::vector<PointLaw> &friction, const VectorXd &start);
   bool is_left() const { return iterations_ < last_; }
   // Every attempt may take as many iterations as are asked for.
@@ -211,7 +212,31 @@ bool Cascade::continuation(Index n_entries, Place &x) {
   return strength == 1;
 }
 
+// Where the body begins to touch a foundation that yields, the programme's value may tell too
+// little of the way to its minimum; the natural map's zero is the same place.
+CoupledSolution Cascade::solve_convex(const VectorXd &start) {
+  constexpr int most = 3;
+  CoupledSolution found;
+  found.interface.increment = start;
+  for (int k = 0; k < most; ++k) {
+    begin_attempt();
+    found.stage = ContactStage::convex;
+    found.interface = convex({}, found.interface.increment);
+    if (found.interface.converged || !found.interface.is_definite)
+      break;
+    if (Place x; find_by_newton(found.interface.increment, x)) {
+      found = NaturalMap(programme_, 1).solution(x);
+      found.interface.converged = true;
+      break;
+    }
+  }
+  found.interface.iterations = iterations_;
+  return found;
+}
+
 CoupledSolution Cascade::solve(const VectorXd &start) {
+  if (programme_.couplings.empty())
+    return solve_convex(start);
   const NaturalMap strict(programme_, 1), with_shares(programme_, 1, 0);
   const NaturalMap *map = &strict;
   Place x;

@@ -101,7 +101,7 @@ class Iteration {
   bool may_yield_;  // a normal law has no kink, but a bend where the body begins to touch
   bool is_definite_ = true;
   bool is_settling_ = false;  // the last Newton step was a whole one that no point turned in
-  bool has_rested_ = false;   // no sweep went before it
+  int rests_ = 7;  // times that no sweep went before the Newton step; the first time one does
   KeptFactor &factor_;
   std::optional<KeptFactor::Solved> last_solved_;  // the last direction, of a large system
 };
@@ -138,11 +138,18 @@ void Iteration::sweep(bool backwards) {
 }
 
 // Where the contact is large a sweep costs as much as a product with A, and Newton's method hardly
-// more: one is enough, and none of every second time that Newton's method needs no help.
+// more: one is enough, and none of every second time that Newton's method needs no help. On a
+// foundation that yields Newton's method with an exact search gets on by itself, and sweeps may
+// take it back to where it has been: they come every eighth time.
 void Iteration::sweeps() {
   const bool large = is_large(d_.size());
-  has_rested_ = large && is_settling_ && !has_rested_;
-  for (int k = 0; k < (large ? 1 : sweeps_per_iteration) && !has_rested_; ++k)
+  const int rests = may_yield_ ? 7 : large && is_settling_ ? 1 : 0;
+  if (rests_ < rests) {
+    ++rests_;
+    return;
+  }
+  rests_ = 0;
+  for (int k = 0; k < (large ? 1 : sweeps_per_iteration); ++k)
     sweep(k % 2 == 1);
 }
 

@@ -14,7 +14,7 @@ using contact::FrictionBound;
 using contact::FrictionCoefficient;
 
 #ifdef NDEBUG
-constexpr int n_programmes = 300;
+constexpr int n_programmes = 2000;
 #else
 constexpr int n_programmes = 60;
 #endif
@@ -25,13 +25,13 @@ struct Count {
 };
 
 // Half of the starts are random, half are at rest; in the plane and in space by turns.
-Count solve_random(RandomContacts problems, int dim, int max_iterations = 100) {
+Count solve_random(RandomContacts problems, int dim, int n = n_programmes) {
   Count count;
-  for (int k = 0; k < n_programmes; ++k) {
+  for (int k = 0; k < n; ++k) {
     const ContactProblem p = problems.next(dim);
     const VectorXd start =
         k % 2 ? problems.vector(p.force.size()) : VectorXd(VectorXd::Zero(p.force.size()));
-    const CoupledSolution found = p.solve(start, {1e-12, max_iterations});
+    const CoupledSolution found = p.solve(start, {1e-12, 100});
     if (!found.interface.converged) {
       ++count.failed;
       continue;
@@ -49,10 +49,9 @@ Count solve_random(RandomContacts problems, int dim, int max_iterations = 100) {
   return count;
 }
 
-void expect_all_solved(NormalKind normal, FrictionKind friction, int max_iterations = 100) {
+void expect_all_solved(NormalKind normal, FrictionKind friction) {
   for (const int dim : {2, 3}) {
-    const Count count =
-        solve_random(RandomContacts(20260201, normal, friction), dim, max_iterations);
+    const Count count = solve_random(RandomContacts(20260201, normal, friction), dim);
     EXPECT_EQ(count.failed, 0) << dim;
     EXPECT_EQ(count.wrong, 0) << dim;
   }
@@ -67,13 +66,10 @@ TEST(RandomContact, ThatOpensIsSolvedFromAnyStart) {
   expect_all_solved(NormalKind::unilateral, FrictionKind::none);
 }
 
-// Of the hardest of them (stiffnesses of body and foundation from 1e-6 to 1e4 side by side) two in
-// three hundred take more than the hundred iterations that are the default, one of 2,400 took
-// 1,512.
+// Stiffnesses of body and foundation are from 1e-6 to 1e4 side by side.
 TEST(RandomContact, ThatYieldsIsSolvedFromAnyStart) {
-  constexpr int enough = 4000;
-  expect_all_solved(NormalKind::compliance, FrictionKind::none, enough);
-  expect_all_solved(NormalKind::damped, FrictionKind::none, enough);
+  expect_all_solved(NormalKind::compliance, FrictionKind::none);
+  expect_all_solved(NormalKind::damped, FrictionKind::none);
 }
 
 // Many of these have solutions only with nodes that just touch and carry a share of the bound. No
@@ -82,8 +78,10 @@ TEST(RandomContact,
      ThatOpensWithFrictionThatAnOpenNodeDoesNotCarryIsNearlyAlwaysSolvedAndNeverWrongly) {
   for (const auto normal : {NormalKind::unilateral, NormalKind::compliance, NormalKind::damped})
     for (const int dim : {2, 3}) {
-      const Count count = solve_random(RandomContacts(20260201, normal, FrictionKind::tresca), dim);
-      EXPECT_LE(count.failed, n_programmes / 20 + 1) << dim;
+      const int n = std::min(n_programmes, 300);
+      const Count count =
+          solve_random(RandomContacts(20260201, normal, FrictionKind::tresca), dim, n);
+      EXPECT_LE(count.failed, n / 20 + 1) << dim;
       EXPECT_EQ(count.wrong, 0) << dim;
     }
 }

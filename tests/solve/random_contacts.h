@@ -76,11 +76,7 @@ struct ContactProblem {
 
   CoupledSolution solve(const VectorXd &start, const InterfaceSettings &settings = {}) const {
     const InterfaceProgramme convex{stiffness, force, points};
-    if (!couplings.empty())
-      return solve_coupled({convex, couplings}, start, settings);
-    CoupledSolution found;
-    found.interface = minimise(convex, start, settings);
-    return found;
+    return solve_coupled({convex, couplings}, start, settings);
   }
 };
 
