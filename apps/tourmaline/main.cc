@@ -65,7 +65,7 @@ void check(const Asked &asked) {
   const auto read = case_of(asked);
   tourmaline::run::check(read);
   std::cout << tourmaline::casefile::resolved(read) << tourmaline::run::survey(read);
-  if (const std::string warning = tourmaline::casefile::snapping_warning(read); !warning.empty())
+  for (const std::string &warning : tourmaline::casefile::snapping_warnings(read))
     std::cout << "\n# warning: " << warning << "\n";
 }
 

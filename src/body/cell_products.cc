@@ -151,8 +151,7 @@ CellProducts<dim>::CellProducts(const Discretisation<dim> &body,
 template <int dim>
 void CellProducts<dim>::add_exchange(const std::vector<std::string> &boundaries,
                                      const casefile::Formula &coefficient) {
-  exchanging_ = boundaries;
-  coefficient_ = &coefficient;
+  exchanges_.push_back({boundaries, &coefficient});
 }
 
 template <int dim>
@@ -202,18 +201,17 @@ void CellProducts<dim>::conduction(std::span<const double> x, std::vector<double
       }
     }
   });
-  if (!coefficient_)
-    return;
-  body_.for_each_facet(exchanging_, [&](const Quadrature<dim> &facet) {
-    for (std::size_t q = 0; q < facet.jxw.size(); ++q) {
-      double theta = 0;
-      for (std::size_t a = 0; a < facet.nodes.size(); ++a)
-        theta += facet.value(q, a) * x[unknown<dim>(facet.nodes[a], Fields<dim>::temperature)];
-      const double flow = coefficient_->value(facet.points[q], 0) * facet.jxw[q] * theta;
-      for (std::size_t a = 0; a < facet.nodes.size(); ++a)
-        taken[facet.nodes[a]] += facet.value(q, a) * flow;
-    }
-  });
+  for (const Exchange &exchange : exchanges_)
+    body_.for_each_facet(exchange.boundaries, [&](const Quadrature<dim> &facet) {
+      for (std::size_t q = 0; q < facet.jxw.size(); ++q) {
+        double theta = 0;
+        for (std::size_t a = 0; a < facet.nodes.size(); ++a)
+          theta += facet.value(q, a) * x[unknown<dim>(facet.nodes[a], Fields<dim>::temperature)];
+        const double flow = exchange.coefficient->value(facet.points[q], 0) * facet.jxw[q] * theta;
+        for (std::size_t a = 0; a < facet.nodes.size(); ++a)
+          taken[facet.nodes[a]] += facet.value(q, a) * flow;
+      }
+    });
 }
 
 template <int dim>

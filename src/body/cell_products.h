@@ -43,8 +43,11 @@ class CellProducts {
   const Discretisation<dim> &body_;
   const material::Composition<dim> &composition_;
   const std::vector<CellModes<dim>> &modes_;
-  std::vector<std::string> exchanging_;
-  const casefile::Formula *coefficient_ = nullptr;
+  struct Exchange {
+    std::vector<std::string> boundaries;
+    const casefile::Formula *coefficient;
+  };
+  std::vector<Exchange> exchanges_;
 };
 
 }  // namespace tourmaline::body

@@ -91,8 +91,9 @@ Loads<dim>::Loads(const Discretisation<dim> &body, const casefile::Case &asked, 
   add_volume_loads(body, asked.load);
   for (const casefile::BoundaryCase &boundary : asked.boundaries)
     add_surface_loads(body, boundary);
-  if (asked.contact && asked.contact->heat.law == "exchange")
-    add_foundation_heat(body, *asked.contact);
+  for (const casefile::ContactCase &contact : asked.contacts)
+    if (contact.heat.law == "exchange")
+      add_foundation_heat(body, contact);
 }
 
 template <int dim>

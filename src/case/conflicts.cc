@@ -112,15 +112,29 @@ void check_contact(const ContactCase &contact, const std::string &boundary, int 
          "heat.law = \"exchange\" says what heat flows there, but it is prescribed as well");
 }
 
-// A facet in contact under two names would count twice.
-void check_contact_once(const ContactCase &contact, const Prescribed &prescribed) {
-  std::map<std::string, std::string> name_of_part;
+/// Part of the boundary -> the contact there, and its name for it.
+using Touched = std::map<std::string, std::pair<const ContactCase *, std::string>>;
+
+[[noreturn]] void fail_twice(const ContactCase &contact, const std::string &name,
+                             const ContactCase &other, const std::string &other_name) {
+  const std::string place = place_of_key(contact.places, contact.where, "on");
+  if (&contact == &other)
+    throw CaseError(
+        fmt::format("{}: \"{}\" and \"{}\" are in part the same boundary; name one of them", place,
+                    other_name, name));
+  throw CaseError(fmt::format(
+      "{} = \"{}\": {} in contact already, by {} = \"{}\"; a boundary can have one contact", place,
+      name, name == other_name ? "this boundary is" : "part of this boundary is",
+      place_of_key(other.places, other.where, "on"), other_name));
+}
+
+// A facet in contact under two names, or in two contacts, would count twice.
+void check_contact_once(const ContactCase &contact, const Prescribed &prescribed,
+                        Touched &touched) {
   for (const std::string &name : contact.on)
     for (const std::string &part : prescribed.parts(name))
-      if (const auto [entry, is_new] = name_of_part.try_emplace(part, name); !is_new)
-        throw CaseError(
-            fmt::format("{}: \"{}\" and \"{}\" are in part the same boundary; name one of them",
-                        place_of_key(contact.places, contact.where, "on"), entry->second, name));
+      if (const auto [entry, is_new] = touched.try_emplace(part, &contact, name); !is_new)
+        fail_twice(contact, name, *entry->second.first, entry->second.second);
 }
 
 }  // namespace
@@ -138,11 +152,12 @@ void check_conflicts(const Case &asked) {
                         "one is possible",
                         place_of_key(electrode.places, electrode.where, "on"), name, electric,
                         Prescribed::stated(*formula)));
-  if (!asked.contact)
-    return;
-  check_contact_once(*asked.contact, prescribed);
-  for (const std::string &name : asked.contact->on)
-    check_contact(*asked.contact, name, asked.dimension, prescribed);
+  Touched touched;
+  for (const ContactCase &contact : asked.contacts) {
+    check_contact_once(contact, prescribed, touched);
+    for (const std::string &name : contact.on)
+      check_contact(contact, name, asked.dimension, prescribed);
+  }
 }
 
 }  // namespace tourmaline::casefile

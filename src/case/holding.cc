@@ -101,6 +101,21 @@ void add_rotations(const Constraints &constraints, std::vector<std::string> &fre
 // What the contact may hold of a body.
 enum class Held { nothing, never_lost, all_it_can };
 
+void add_supports(const Case &asked, const ContactCase &contact, bool all_it_can,
+                  std::vector<Support> &supports) {
+  const bool is_bilateral = contact.normal.law == "bilateral";
+  const bool has_friction = contact.friction.law != "none";
+  for (const std::string &name : contact.on)
+    for (const SidePoint &at : points_on(asked.mesh, name)) {
+      if (is_bilateral || all_it_can)
+        supports.push_back({at.point, at.normal});
+      for (int i = 0; has_friction && all_it_can && i < asked.dimension; ++i) {
+        supports.push_back({at.point, {}});
+        supports.back().direction[i] = 1;
+      }
+    }
+}
+
 // A rigid motion is affine: what it is on a side is decided at so many points.
 std::vector<Support> supports_of(const Case &asked, Held by_contact) {
   std::vector<Support> supports;
@@ -112,28 +127,20 @@ std::vector<Support> supports_of(const Case &asked, Held by_contact) {
             supports.push_back({at.point, {}});
             supports.back().direction[i] = 1;
           }
-  if (!asked.contact || by_contact == Held::nothing)
-    return supports;
-  const bool is_bilateral = asked.contact->normal.law == "bilateral";
-  const bool has_friction = asked.contact->friction.law != "none";
-  for (const std::string &name : asked.contact->on)
-    for (const SidePoint &at : points_on(asked.mesh, name)) {
-      if (is_bilateral || by_contact == Held::all_it_can)
-        supports.push_back({at.point, at.normal});
-      for (int i = 0; has_friction && by_contact == Held::all_it_can && i < asked.dimension; ++i) {
-        supports.push_back({at.point, {}});
-        supports.back().direction[i] = 1;
-      }
-    }
+  for (const ContactCase &contact : asked.contacts)
+    if (by_contact != Held::nothing)
+      add_supports(asked, contact, by_contact == Held::all_it_can, supports);
   return supports;
 }
 
 // What the contact does for the holding, in brackets.
 std::string words_of_contact(const Case &asked) {
-  if (!asked.contact)
+  if (asked.contacts.empty())
     return "";
-  return asked.contact->friction.law == "none" ? " (contact without friction holds only the normal)"
-                                               : "";
+  const bool is_slippery =
+      std::all_of(asked.contacts.begin(), asked.contacts.end(),
+                  [](const ContactCase &contact) { return contact.friction.law == "none"; });
+  return is_slippery ? " (contact without friction holds only the normal)" : "";
 }
 
 std::string listed(const std::vector<std::string> &texts) {
@@ -183,7 +190,7 @@ void check_holding(const Case &asked) {
 }
 
 std::string left_to_contact(const Case &asked) {
-  return asked.contact
+  return !asked.contacts.empty()
              ? free_motions_in_words(asked.dimension, supports_of(asked, Held::never_lost))
              : "";
 }

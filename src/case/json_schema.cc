@@ -102,6 +102,10 @@ class Table : public Visitor {
 
   void entry(const Key &key, int, const Body &body) override {
     arrays_.insert(key.name);
+    if (key.may_be_table) {
+      add(key, described(key, of_one_or_several(key, body)));
+      return;
+    }
     add(key, described(key, {{"type", "array"}, {"items", inner(key.name, "/items", body)}}));
   }
 
@@ -155,6 +159,15 @@ class Table : public Visitor {
     Table table(path_ + "/properties/" + name + suffix, visit_);
     body(table);
     return table.schema();
+  }
+
+  // What is said of a table's keys holds of no array, and what is said of entries of no table.
+  Json of_one_or_several(const Key &key, const Body &body) {
+    Json all = inner(key.name, "", body);
+    all["type"] = {"object", "array"};
+    all["items"] = inner(key.name, "/items", body);
+    all["minItems"] = 1;
+    return all;
   }
 
   Json of_both(const Key &key, const Body &body) {

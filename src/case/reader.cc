@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "case/conflicts.h"
+#include "case/contacts.h"
 #include "case/electrodes.h"
 #include "case/given_table.h"
 #include "case/holding.h"
@@ -86,7 +87,7 @@ class Reader : public Visitor {
       return;
     const std::optional<GivenTable> inner = given_table(*node, key);
     if (!inner)
-      fail(item(*node, key), "must be a table: [" + path_to(key.name) + "]" + why_one(*node, key));
+      fail(item(*node, key), "must be a table: [" + path_to(key.name) + "]");
     Reader(*inner, path_to(key.name), context_).read_all(body);
   }
 
@@ -94,17 +95,28 @@ class Reader : public Visitor {
     const toml::node *node = table_.get(key.name);
     if (!node)
       return 0;
+    if (key.may_be_table && node->is_table())
+      return 1;
     const toml::array *array = node->as_array();
     const bool tables = array && std::all_of(array->begin(), array->end(),
                                              [](const auto &entry) { return entry.is_table(); });
     if (!tables)
       fail(item(*node, key),
-           fmt::format("must be an array of tables; write [[{}]] above each entry",
-                       path_to(key.name)));
+           key.may_be_table
+               ? fmt::format("must be a table, [{0}], or several, each under [[{0}]]",
+                             path_to(key.name))
+               : fmt::format("must be an array of tables; write [[{}]] above each entry",
+                             path_to(key.name)));
+    if (key.may_be_table && array->empty())
+      fail(item(*node, key), "is an empty list; leave it out where there is none");
     return static_cast<int>(array->size());
   }
 
   void entry(const Key &key, int index, const Body &body) override {
+    if (const toml::table *alone = table_.get(key.name)->as_table()) {
+      Reader(GivenTable(*alone), path_to(key.name), context_).read_all(body);
+      return;
+    }
     const toml::node *node = table_.get(key.name)->as_array()->get(static_cast<std::size_t>(index));
     Reader(GivenTable(*node->as_table()), fmt::format("{}[{}]", path_to(key.name), index), context_)
         .read_all(body);
@@ -185,10 +197,6 @@ class Reader : public Visitor {
     if (!key.used.holds && node)
       fail(item(*node, key), "is only used with " + key.used.words);
     return key.used.holds;
-  }
-
-  static std::string why_one(const toml::node &node, const Key &key) {
-    return node.is_array() && !key.no_array.empty() ? "; " + key.no_array : "";
   }
 
   std::string where(const toml::source_region &source, const std::string &name) const {
@@ -297,6 +305,7 @@ Case read_text(const std::string &text, const std::string &name,
     asked.output.every = steps_between_files(asked.time.steps);
   check_plane(asked);
   check_conflicts(asked);
+  check_contacts(asked);
   check_electrodes(asked);
   check_holding(asked);
   return asked;

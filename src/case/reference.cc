@@ -114,7 +114,9 @@ class Page : public Visitor {
 
   int count(const Key &, int) override { return 1; }
 
-  void entry(const Key &key, int, const Body &body) override { add(key, body, "[[", "]]"); }
+  void entry(const Key &key, int, const Body &body) override {
+    add(key, body, key.may_be_table ? "[" : "[[", key.may_be_table ? "]" : "]]");
+  }
 
  private:
   static std::string default_of(const Key &key, Value value) {

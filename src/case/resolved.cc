@@ -31,9 +31,14 @@ class Writer : public Visitor {
       add(key, body, "[", "]");
   }
 
-  int count(const Key &, int present) override { return present; }
+  int count(const Key &key, int present) override {
+    stands_alone_ = key.may_be_table && present == 1;
+    return present;
+  }
 
-  void entry(const Key &key, int, const Body &body) override { add(key, body, "[[", "]]"); }
+  void entry(const Key &key, int, const Body &body) override {
+    add(key, body, stands_alone_ ? "[" : "[[", stands_alone_ ? "]" : "]]");
+  }
 
  private:
   void add(const Key &key, const Body &body, const char *open, const char *close) {
@@ -56,6 +61,7 @@ class Writer : public Visitor {
   }
 
   std::string path_, keys_, tables_;
+  bool stands_alone_ = false;  // the entries at hand are one
 };
 
 FormulaVector zero(int dimension) {

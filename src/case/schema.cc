@@ -96,7 +96,7 @@ void declare_augmented_lagrangian(Visitor &v, SolverCase &solver) {
              solver.r_tangential);
 }
 
-void declare(Visitor &v, SolverCase &solver, const std::optional<ContactCase> &contact) {
+void declare(Visitor &v, SolverCase &solver, const std::vector<ContactCase> &contacts) {
   v.key(
       {.name = "method",
        .description = "condensed: one factorisation for all steps, Newton iteration on the contact "
@@ -135,7 +135,7 @@ void declare(Visitor &v, SolverCase &solver, const std::optional<ContactCase> &c
   v.key({.name = "threads", .description = "of OpenBLAS and OpenMP", .range = from_to(1, 1024)},
         &solver.threads);
   declare_augmented_lagrangian(v, solver);
-  v.check("multiplier", [&] { return multiplier_complaint(contact, solver.multiplier); });
+  v.check("multiplier", [&] { return multiplier_complaint(contacts, solver.multiplier); });
 }
 
 void declare(Visitor &v, OutputCase &output) {
@@ -171,13 +171,13 @@ void declare(Visitor &v, Case &c) {
           [&](Visitor &inner) { declare(inner, c.time); });
   declare_boundaries(v, c.boundaries, c.mesh, c.dimension);
   declare_electrodes(v, c.electrodes, c.mesh);
-  declare_contact(v, c.contact, c.mesh, c.dimension);
+  declare_contacts(v, c.contacts, c.mesh, c.dimension);
   v.table({.name = "load", .description = "Loads on the volume"},
           [&](Visitor &inner) { declare(inner, c.load, c.dimension); });
   v.table({.name = "initial", .description = "The state at the time 0"},
           [&](Visitor &inner) { declare(inner, c.initial, c.dimension); });
   v.table({.name = "solver", .description = "How the equations are solved"},
-          [&](Visitor &inner) { declare(inner, c.solver, c.contact); });
+          [&](Visitor &inner) { declare(inner, c.solver, c.contacts); });
   v.table({.name = "output", .description = "What a run leaves in its folder"},
           [&](Visitor &inner) { declare(inner, c.output); });
 }

@@ -199,6 +199,12 @@ std::string weight_complaint(const MeshCase &mesh) {
 void declare(Visitor &v, ContactCase &contact, const MeshCase &mesh, int dimension) {
   v.place(contact.where);
   v.places(contact.places);
+  v.optional(
+      {.name = "name",
+       .description = "what the contact is called in files where there are several; letters, "
+                      "digits, _ and -",
+       .default_words = "the names of its boundaries, joined by +"},
+      contact.name);
   v.key(on_sides("boundary, or list of boundaries, in contact with the foundation", mesh),
         &contact.on);
   v.check("on", [&] { return inside_complaint(contact.on, mesh); });
@@ -238,20 +244,29 @@ namespace {
 
 // `normal = "unilateral"` or `friction.law = "coulomb"`: the first law that changes with the
 // contact's state; empty: there is none.
-std::string law_of_the_state(const std::optional<ContactCase> &contact) {
-  if (!contact)
-    return "";
-  if (contact->normal.law != "bilateral")
-    return "normal = \"" + contact->normal.law + "\"";
-  return contact->friction.law == "coulomb" ? "friction.law = \"coulomb\"" : "";
+std::string law_of_the_state(const std::vector<ContactCase> &contacts) {
+  for (const ContactCase &contact : contacts) {
+    if (contact.normal.law != "bilateral")
+      return "normal = \"" + contact.normal.law + "\"";
+    if (contact.friction.law == "coulomb")
+      return "friction.law = \"coulomb\"";
+  }
+  return "";
 }
 
 }  // namespace
 
-std::string multiplier_complaint(const std::optional<ContactCase> &contact,
+std::string multiplier_complaint(const std::vector<ContactCase> &contacts,
                                  const std::string &multiplier) {
-  const std::string law = law_of_the_state(contact);
-  if (law.empty() || multiplier == "nodal")
+  if (multiplier == "nodal")
+    return "";
+  if (contacts.size() > 1)
+    return fmt::format(
+        "several contacts are not available with solver.multiplier = \"{}\" in this version; take "
+        "\"nodal\"",
+        multiplier);
+  const std::string law = law_of_the_state(contacts);
+  if (law.empty())
     return "";
   return fmt::format(
       "contact with {} is not available with solver.multiplier = \"{}\" in this version; take "
@@ -259,16 +274,16 @@ std::string multiplier_complaint(const std::optional<ContactCase> &contact,
       law, multiplier);
 }
 
-void declare_contact(Visitor &v, std::optional<ContactCase> &contact, const MeshCase &mesh,
-                     int dimension) {
+void declare_contacts(Visitor &v, std::vector<ContactCase> &contacts, const MeshCase &mesh,
+                      int dimension) {
   const Key key = {.name = "contact",
                    .description =
                        "Contact with a foundation that does not deform. Without this table "
-                       "there is no contact",
-                   .no_array = "several contacts are not available in this version"};
-  v.optional_table(key, contact, [&](Visitor &inner, ContactCase &value) {
-    declare(inner, value, mesh, dimension);
-  });
+                       "there is no contact; several contacts, each under [[contact]], have "
+                       "boundaries and laws of their own",
+                   .may_be_table = true};
+  v.entries(key, contacts,
+            [&](Visitor &inner, ContactCase &value) { declare(inner, value, mesh, dimension); });
 }
 
 }  // namespace tourmaline::casefile

@@ -28,10 +28,10 @@ std::string inside_complaint(const std::vector<std::string> &on, const MeshCase 
 void declare_boundaries(Visitor &v, std::vector<BoundaryCase> &boundaries, const MeshCase &mesh,
                         int dimension);
 void declare_electrodes(Visitor &v, std::vector<ElectrodeCase> &electrodes, const MeshCase &mesh);
-void declare_contact(Visitor &v, std::optional<ContactCase> &contact, const MeshCase &mesh,
-                     int dimension);
-/// Of a contact whose laws the way of solving cannot take; empty: it can.
-std::string multiplier_complaint(const std::optional<ContactCase> &contact,
+void declare_contacts(Visitor &v, std::vector<ContactCase> &contacts, const MeshCase &mesh,
+                      int dimension);
+/// Of contacts whose laws the way of solving cannot take; empty: it can.
+std::string multiplier_complaint(const std::vector<ContactCase> &contacts,
                                  const std::string &multiplier);
 
 }  // namespace tourmaline::casefile

@@ -9,8 +9,9 @@ namespace tourmaline::casefile {
 
 namespace {
 
-bool falls(const Case &asked, const FrictionCoefficientCase &mu) {
-  for (const std::string &name : asked.contact->on)
+bool falls(const Case &asked, const ContactCase &contact) {
+  const FrictionCoefficientCase &mu = contact.friction.coefficient;
+  for (const std::string &name : contact.on)
     for (const SidePoint &at : points_on(asked.mesh, name))
       for (const double time : {asked.time.end / asked.time.steps, asked.time.end})
         if (mu.at_rest->value(at.point, time) > mu.kinetic->value(at.point, time))
@@ -18,20 +19,24 @@ bool falls(const Case &asked, const FrictionCoefficientCase &mu) {
   return false;
 }
 
-}  // namespace
-
-std::string snapping_warning(const Case &asked) {
-  if (!asked.contact || asked.contact->friction.law != "coulomb")
-    return "";
-  const FrictionCoefficientCase &mu = asked.contact->friction.coefficient;
-  if (!mu.at_rest || !mu.kinetic || !falls(asked, mu))
-    return "";
+std::string warning(const FrictionCoefficientCase &mu) {
   return fmt::format(
       "{} = {} is above kinetic = {}: friction falls as the contact slips, and where it falls "
       "faster "
       "than the body unloads, slip snaps from one state to another, which a quasistatic simulation "
       "shows as a jump in one step",
       mu.at_rest->where(), mu.at_rest->text(), mu.kinetic->text());
+}
+
+}  // namespace
+
+std::vector<std::string> snapping_warnings(const Case &asked) {
+  std::vector<std::string> warnings;
+  for (const ContactCase &contact : asked.contacts)
+    if (const FrictionCoefficientCase &mu = contact.friction.coefficient;
+        contact.friction.law == "coulomb" && mu.at_rest && mu.kinetic && falls(asked, contact))
+      warnings.push_back(warning(mu));
+  return warnings;
 }
 
 }  // namespace tourmaline::casefile

@@ -1,13 +1,14 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace tourmaline::casefile {
 
 struct Case;
 
-/// A warning of a friction coefficient that falls as the contact slips, somewhere on the contact
-/// boundary in the first or the last step; empty: it does not.
-std::string snapping_warning(const Case &asked);
+/// A warning for each contact whose friction coefficient falls as it slips, somewhere on its
+/// boundary in the first or the last step.
+std::vector<std::string> snapping_warnings(const Case &asked);
 
 }  // namespace tourmaline::casefile

@@ -151,9 +151,15 @@ class Census : public Visitor {
   }
   int count(const Key &key, int) override {
     const toml::node *node = table_.get(key.name);
+    if (key.may_be_table && node && node->is_table())
+      return 1;
     return node && node->is_array_of_tables() ? static_cast<int>(node->as_array()->size()) : 0;
   }
   void entry(const Key &key, int index, const Body &body) override {
+    if (const toml::table *alone = table_.get(key.name)->as_table()) {
+      Census(GivenTable(*alone), path_to(key.name), found_).look(body);
+      return;
+    }
     const auto i = static_cast<std::size_t>(index);
     Census(GivenTable(*table_.get(key.name)->as_array()->get_as<toml::table>(i)),
            fmt::format("{}[{}]", path_to(key.name), index), found_)

@@ -59,7 +59,9 @@ struct Key {
   /// Of a table: the key that a value stands for which is given instead of the table. With "law",
   /// `normal = "unilateral"` is `normal = { law = "unilateral" }`.
   std::string sole = {};
-  std::string no_array = {};  ///< of a table: why there cannot be several
+  /// Of an array of tables: a single entry may stand as a table, [contact], with no number in its
+  /// path.
+  bool may_be_table = false;
 };
 
 /// One entry for each component; empty where the component is free.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <set>
@@ -138,11 +139,107 @@ void check_normals(const body::Discretisation<dim> &body,
 
 }  // namespace
 
+namespace {
+
 template <int dim>
-std::vector<InterfaceNode<dim>> interface_nodes(const body::Discretisation<dim> &body,
-                                                const std::vector<std::string> &boundaries) {
-  std::vector<InterfaceNode<dim>> nodes;
-  for (const auto &[node, integrals] : integrate(body, boundaries)) {
+using ByNode = std::map<body::Node, Integrals<dim>>;
+
+// The nodes of two contacts.
+template <int dim>
+std::vector<body::Node> shared(const ByNode<dim> &one, const ByNode<dim> &other) {
+  std::vector<body::Node> nodes;
+  for (const auto &[node, integrals] : other)
+    if (one.contains(node))
+      nodes.push_back(node);
+  return nodes;
+}
+
+template <int dim>
+std::vector<InterfaceNode<dim>> of_contact(const std::vector<InterfaceNode<dim>> &nodes,
+                                           std::size_t contact) {
+  std::vector<InterfaceNode<dim>> some;
+  std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(some),
+               [&](const InterfaceNode<dim> &at) { return at.contact == contact; });
+  return some;
+}
+
+/// Puts contacts together, one after the other.
+template <int dim>
+class Joined {
+ public:
+  explicit Joined(const body::Discretisation<dim> &body) : body_(body) {}
+
+  void add(const std::vector<std::string> &boundaries) {
+    const ByNode<dim> added = integrate(body_, boundaries);
+    const std::size_t contact = all_.size();
+    all_.push_back(boundaries);
+    const std::vector<body::Node> meeting = shared(by_node_, added);
+    const std::vector<double> edges = n_edges(meeting, added);
+    for (const auto &[node, integrals] : added)
+      if (by_node_.try_emplace(node, integrals).second)
+        contacts_at_[node] = {contact};
+    for (std::size_t i = 0; i < meeting.size(); ++i) {
+      if (edges[i] > 0) {
+        edges_.insert(meeting[i]);
+        continue;
+      }
+      by_node_[meeting[i]] = sum(by_node_.at(meeting[i]), added.at(meeting[i]));
+      contacts_at_[meeting[i]].push_back(contact);
+    }
+  }
+
+  const ByNode<dim> &by_node() const { return by_node_; }
+  std::size_t first_at(body::Node node) const { return contacts_at_.at(node).front(); }
+  std::vector<body::Node> edges() const { return {edges_.begin(), edges_.end()}; }
+
+ private:
+  static Integrals<dim> sum(const Integrals<dim> &one, const Integrals<dim> &other) {
+    return {one.weight + other.weight, one.size + other.size, one.normal + other.normal};
+  }
+
+  // How many of the facets at each node stand at an edge to the normal that the node would have
+  // with those of the contact that is added last.
+  std::vector<double> n_edges(const std::vector<body::Node> &nodes,
+                              const ByNode<dim> &added) const {
+    std::vector<double> n(nodes.size(), 0.);
+    for (std::size_t contact = 0; !nodes.empty() && contact < all_.size(); ++contact)
+      body_.for_each_facet(all_[contact], [&](const body::Quadrature<dim> &facet) {
+        for (std::size_t a = 0; a < facet.nodes.size(); ++a) {
+          const auto at = std::lower_bound(nodes.begin(), nodes.end(), facet.nodes[a]);
+          if (at == nodes.end() || *at != facet.nodes[a] || !lies_on(facet, a))
+            continue;
+          const std::vector<std::size_t> &there = contacts_at_.at(*at);
+          if (contact + 1 < all_.size() &&
+              std::find(there.begin(), there.end(), contact) == there.end())
+            continue;
+          const Normal<dim> normal = sum(by_node_.at(*at), added.at(*at)).normal.normalized();
+          n[static_cast<std::size_t>(at - nodes.begin())] +=
+              normal.dot(Eigen::Map<const Normal<dim>>(facet.normals[0].data())) > least_cosine ? 0
+                                                                                                : 1;
+        }
+      });
+    parallel::sum(n);
+    return n;
+  }
+
+  const body::Discretisation<dim> &body_;
+  std::vector<std::vector<std::string>> all_;
+  ByNode<dim> by_node_;
+  std::map<body::Node, std::vector<std::size_t>> contacts_at_;  // that count there
+  std::set<body::Node> edges_;
+};
+
+}  // namespace
+
+template <int dim>
+Interface<dim> interface_of(const body::Discretisation<dim> &body,
+                            const std::vector<std::vector<std::string>> &contacts) {
+  Joined<dim> joined(body);
+  for (const std::vector<std::string> &boundaries : contacts)
+    joined.add(boundaries);
+  Interface<dim> interface { {}, joined.edges() };
+  std::vector<InterfaceNode<dim>> &nodes = interface.nodes;
+  for (const auto &[node, integrals] : joined.by_node()) {
     const Vector3 &point = body.points()[node];
     if (!(integrals.weight > 1e-9 * integrals.size))
       throw CaseError(
@@ -150,15 +247,29 @@ std::vector<InterfaceNode<dim>> interface_nodes(const body::Discretisation<dim> 
                       "nodal quadrature; "
                       "contact on tetrahedra needs mesh.degree = 1",
                       point[0], point[1], point[2]));
-    nodes.push_back({node, point, integrals.weight, integrals.normal.normalized()});
+    nodes.push_back(
+        {node, point, integrals.weight, integrals.normal.normalized(), joined.first_at(node)});
   }
-  parallel::together([&] { check_normals(body, boundaries, nodes); });
-  return nodes;
+  parallel::together([&] {
+    for (std::size_t contact = 0; contact < contacts.size(); ++contact)
+      check_normals(body, contacts[contact], of_contact(nodes, contact));
+  });
+  return interface;
+}
+
+template <int dim>
+std::vector<InterfaceNode<dim>> interface_nodes(const body::Discretisation<dim> &body,
+                                                const std::vector<std::string> &boundaries) {
+  return interface_of<dim>(body, std::vector<std::vector<std::string>>{boundaries}).nodes;
 }
 
 template std::vector<InterfaceNode<2>> interface_nodes<2>(const body::Discretisation<2> &,
                                                           const std::vector<std::string> &);
 template std::vector<InterfaceNode<3>> interface_nodes<3>(const body::Discretisation<3> &,
                                                           const std::vector<std::string> &);
+template Interface<2> interface_of<2>(const body::Discretisation<2> &,
+                                      const std::vector<std::vector<std::string>> &);
+template Interface<3> interface_of<3>(const body::Discretisation<3> &,
+                                      const std::vector<std::vector<std::string>> &);
 
 }  // namespace tourmaline::contact

@@ -78,6 +78,7 @@ MultiplierPoint<dim> at_node(const InterfaceNode<dim> &at, const IsPrescribed &i
   const auto &slips = admissible.directions;
   MultiplierPoint<dim> point;
   point.place = at.point;
+  point.contact = at.contact;
   point.weight = at.weight;
   point.mean = {{at.node, 1}};
   point.has_normal = n_free > slips.cols();

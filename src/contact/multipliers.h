@@ -22,8 +22,9 @@ struct MultiplierPoint {
   using Vector = Eigen::Matrix<double, dim, 1>;
   using Directions = Eigen::Matrix<double, dim, Eigen::Dynamic, 0, dim, dim>;
 
-  Vector3 place{};    ///< where the friction bound is taken
-  double weight = 0;  ///< w, area that the traction acts on [m^(dim-1)]
+  Vector3 place{};          ///< where the friction bound is taken
+  std::size_t contact = 0;  ///< as of `InterfaceNode`
+  double weight = 0;        ///< w, area that the traction acts on [m^(dim-1)]
   std::vector<Share> mean;
   bool has_normal = false;  ///< whether u_nu = 0 is a condition here, the first of the directions
   Directions directions;    ///< columns: normal, then orthonormal tangential ones

@@ -86,6 +86,8 @@ std::string arrays(std::span<const ContactRow> rows) {
   for (std::size_t i = 0; !rows.empty() && i < rows.front().quantities.size(); ++i)
     text += array(rows.front().quantities[i].first, rows,
                   [i](const ContactRow &row) { return row.quantities[i].second; });
+  if (!rows.empty() && !rows.front().contact.empty())
+    text += array("contact", rows, &ContactRow::contact_number);
   return text;
 }
 

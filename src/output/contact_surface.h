@@ -30,8 +30,9 @@ class ContactSurface {
   ContactSurface(int dimension, std::span<const ContactRow> rows, const ContactFacets &facets);
 
   /// Writes the columns of contact.csv to `path`, whole or not at all: components of a vector as
-  /// one array, the status as 0 (open), 1 (stick) or 2 (slip). Throws std::invalid_argument when
-  /// there is another number of rows than at first, MachineError when the file cannot be written.
+  /// one array, the status as 0 (open), 1 (stick) or 2 (slip), of several contacts the number.
+  /// Throws std::invalid_argument when there is another number of rows than at first, MachineError
+  /// when the file cannot be written.
   void write(const std::filesystem::path &path, double time,
              std::span<const ContactRow> rows) const;
 

@@ -106,6 +106,8 @@ std::string contact_header(int dimension, const ContactRow &row) {
                                      << "charge_flux";
   for (const auto &[name, value] : row.quantities)
     line << name;
+  if (!row.contact.empty())
+    line << "contact";
   line.end();
   return text;
 }
@@ -121,6 +123,8 @@ std::string contact_lines(int dimension, int step, double time, std::span<const 
                                   << row.potential << row.heat_flux << row.gap << row.charge_flux;
     for (const auto &[name, value] : row.quantities)
       line << value;
+    if (!row.contact.empty())
+      line << row.contact;
     line.end();
   }
   return text;

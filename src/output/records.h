@@ -88,6 +88,9 @@ struct ContactRow {
   double charge_flux;  // D.nu [C/m^2]
   // Named columns behind these; every row of a run has the same names in the same order.
   std::vector<std::pair<std::string, double>> quantities;
+  // Of several contacts the one that the node belongs to: its name and its number in the case.
+  std::string contact = {};
+  std::int32_t contact_number = 0;
 };
 
 /// One line of history.csv. `quantities` are the named columns behind the fixed ones; every step of

@@ -49,6 +49,13 @@ Json materials(const std::vector<MaterialRecord> &list) {
   return json;
 }
 
+Json contacts(const std::vector<ContactRecord> &list) {
+  Json json = Json::array();
+  for (const ContactRecord &record : list)
+    json.push_back({{"name", record.name}, {"nodes", record.nodes}});
+  return json;
+}
+
 Json seconds_json(const Seconds &seconds) {
   return {{"mesh", number(seconds.mesh)},
           {"start", number(seconds.start)},
@@ -85,6 +92,8 @@ std::string summary_text(int dimension, const Summary &summary) {
   json["refined"] = summary.is_refined;
   json["extremes"] = extremes(dimension, summary.extremes);
   json["materials"] = materials(summary.materials);
+  if (!summary.contacts.empty())
+    json["contacts"] = contacts(summary.contacts);
   json["seconds"] = seconds_json(summary.seconds);
   json["memory"] = summary.peak_memory_bytes;
   json["warnings"] = summary.warnings;

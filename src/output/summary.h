@@ -37,6 +37,12 @@ struct MaterialRecord {
   std::string couplings;  // which there are and which not
 };
 
+/// One of several contacts.
+struct ContactRecord {
+  std::string name;
+  std::int64_t nodes = 0;  // that its laws hold at
+};
+
 /// What a run says about itself when it is over.
 struct Summary {
   std::string title;                              // the case's
@@ -55,14 +61,16 @@ struct Summary {
   std::vector<Extreme> extremes;
   Seconds seconds;
   std::vector<MaterialRecord> materials;
+  std::vector<ContactRecord> contacts;  // empty where there is but one
   std::uint64_t peak_memory_bytes = 0;  // largest resident set, all ranks together
   std::vector<std::string> warnings;
 };
 
 /// summary.json: the keys case, friction_law (where a program brought it along), versions, inputs,
 /// files, sizes, iterations, factorisations, negative_pivots, backward_error, forward_error,
-/// refined, extremes, materials, seconds, memory (bytes), warnings, in this order. Numbers read
-/// back as they were; what is not finite or not known is null. Places have `dimension` coordinates.
+/// refined, extremes, materials, contacts (of several), seconds, memory (bytes), warnings, in this
+/// order. Numbers read back as they were; what is not finite or not known is null. Places have
+/// `dimension` coordinates.
 std::string summary_text(int dimension, const Summary &summary);
 
 }  // namespace tourmaline::output

@@ -55,6 +55,12 @@ std::string field(const std::string &name, const std::vector<std::uint8_t> &valu
   return data_array<std::uint8_t>(name, "", values);
 }
 
+std::string field(const std::string &name, const std::vector<std::int32_t> &values,
+                  std::size_t expected) {
+  check_size(name, values.size(), expected);
+  return data_array<std::int32_t>(name, "", values);
+}
+
 std::string field(const std::string &name, const std::vector<Vector3> &values,
                   std::size_t expected) {
   check_size(name, values.size(), expected);

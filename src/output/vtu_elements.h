@@ -24,6 +24,8 @@ constexpr std::string_view tensor_components =
 std::string field(const std::string &name, const std::vector<double> &values, std::size_t expected);
 std::string field(const std::string &name, const std::vector<std::uint8_t> &values,
                   std::size_t expected);
+std::string field(const std::string &name, const std::vector<std::int32_t> &values,
+                  std::size_t expected);
 std::string field(const std::string &name, const std::vector<Vector3> &values,
                   std::size_t expected);
 std::string field(const std::string &name, const std::vector<SymmetricTensor> &values,

@@ -56,7 +56,8 @@ std::pair<std::string, std::string> title_and_unit(const std::string &column) {
 
 /// The numbers at every row of contact.csv; empty where there is no such curve.
 std::vector<double> values_of(const Result &result, const std::string &column) {
-  static const std::vector<std::string> no_curves{"step", "time", "x", "y", "z", "status"};
+  static const std::vector<std::string> no_curves{"step", "time",   "x",      "y",
+                                                  "z",    "status", "contact"};
   if (!result.contact || std::find(no_curves.begin(), no_curves.end(), column) != no_curves.end())
     return {};
   if (column == "friction_bound")

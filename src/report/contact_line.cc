@@ -145,10 +145,37 @@ std::map<std::uint32_t, Row> rows_of(const std::vector<NamedFacets> &boundaries)
   return row_of;
 }
 
+/// The rows at which contacts meet.
+std::vector<Row> meetings(const std::vector<NamedFacets> &boundaries,
+                          const std::map<std::uint32_t, Row> &row_of) {
+  std::map<Row, std::size_t> contact_at;
+  std::set<Row> rows;
+  for (const NamedFacets &boundary : boundaries)
+    for (const auto &facet : boundary.facets)
+      for (const std::uint32_t node : facet) {
+        const Row row = row_of.at(node);
+        if (contact_at.try_emplace(row, boundary.contact).first->second != boundary.contact)
+          rows.insert(row);
+      }
+  return {rows.begin(), rows.end()};
+}
+
+/// Takes away the ends that belong to another contact than what lies between.
+void cut(ContactPiece &piece, const std::vector<std::size_t> &contacts) {
+  if (contacts.empty() || piece.rows.size() < 4)
+    return;
+  const std::size_t own = contacts[piece.rows[piece.rows.size() / 2]];
+  if (contacts[piece.rows.front()] != own)
+    piece.rows.erase(piece.rows.begin());
+  if (contacts[piece.rows.back()] != own)
+    piece.rows.pop_back();
+}
+
 }  // namespace
 
 std::vector<ContactPiece> contact_pieces(const std::vector<NamedFacets> &boundaries,
-                                         const Places &places) {
+                                         const Places &places,
+                                         const std::vector<std::size_t> &contacts) {
   const std::map<std::uint32_t, Row> row_of = rows_of(boundaries);
   if (row_of.empty() || row_of.size() != places.size())
     return {};
@@ -161,6 +188,10 @@ std::vector<ContactPiece> contact_pieces(const std::vector<NamedFacets> &boundar
     if (lines.degree(row) > 2)
       forks.insert(row);
   }
+  for (const Row row : meetings(boundaries, row_of)) {
+    ends.insert(row);
+    forks.insert(row);
+  }
   std::vector<ContactPiece> pieces;
   const auto take = [&](Row start) {
     while (lines.degree(start) > 0)
@@ -168,8 +199,10 @@ std::vector<ContactPiece> contact_pieces(const std::vector<NamedFacets> &boundar
   };
   std::for_each(ends.begin(), ends.end(), take);
   std::for_each(all.begin(), all.end(), take);  // what is left is closed
-  for (ContactPiece &piece : pieces)
+  for (ContactPiece &piece : pieces) {
+    cut(piece, contacts);
     measure(piece, places);
+  }
   std::sort(pieces.begin(), pieces.end(), [](const ContactPiece &a, const ContactPiece &b) {
     return *std::min_element(a.rows.begin(), a.rows.end()) <
            *std::min_element(b.rows.begin(), b.rows.end());

@@ -12,6 +12,7 @@ namespace tourmaline::report {
 struct NamedFacets {
   std::string name;
   std::vector<std::vector<std::uint32_t>> facets;
+  std::size_t contact = 0;  ///< which contact it is of, where there are several
 };
 
 /// A connected piece of the contact of a plane body, along its facets.
@@ -28,8 +29,10 @@ struct ContactPiece {
 /// piece along an axis is measured by that coordinate, any other by its length: an open one from
 /// the end that comes first in the table, a closed one counter-clockwise from the node that does.
 /// Where more than two facets meet, pieces end. Empty when the facets have another number of nodes
-/// than there are places.
+/// than there are places. Pieces of several contacts end where these meet, each with the last node
+/// of its own: `contacts` says of each place which contact the node belongs to.
 std::vector<ContactPiece> contact_pieces(const std::vector<NamedFacets> &boundaries,
-                                         const std::vector<std::pair<double, double>> &places);
+                                         const std::vector<std::pair<double, double>> &places,
+                                         const std::vector<std::size_t> &contacts = {});
 
 }  // namespace tourmaline::report

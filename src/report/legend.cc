@@ -148,8 +148,12 @@ std::string electrode_text(const casefile::ElectrodeCase &electrode, int dimensi
 Conditions conditions_on(const casefile::Case &asked, const std::string &boundary,
                          const std::string &friction_name) {
   Conditions conditions;
-  if (asked.contact && names(asked.contact->on, boundary))
-    add_contact(conditions, *asked.contact, friction_name);
+  for (const casefile::ContactCase &contact : asked.contacts)
+    if (names(contact.on, boundary)) {
+      if (asked.contacts.size() > 1)
+        conditions.texts.push_back("contact " + contact.called());
+      add_contact(conditions, contact, friction_name);
+    }
   const auto add_entries = [&](auto add) {
     for (const casefile::BoundaryCase &entry : asked.boundaries)
       if (names(entry.on, boundary))

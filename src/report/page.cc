@@ -153,6 +153,9 @@ Json result_json(Packing &packing, const Result &result) {
     json["boundaries"].push_back(boundary_json(packing, boundary));
   for (const ContactPiece &piece : result.contact_pieces)
     json["contactPieces"].push_back(piece_json(packing, piece));
+  if (result.asked && result.asked->contacts.size() > 1)
+    for (const casefile::ContactCase &contact : result.asked->contacts)
+      json["contacts"].push_back(contact.called());
   if (result.history)
     json["history"] = table_json(packing, *result.history);
   if (result.contact)

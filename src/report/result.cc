@@ -72,16 +72,38 @@ void remark_on_lost_tables(Result &result, const fs::path &folder) {
   }
 }
 
+std::vector<std::string> names_of_contacts(const Result &result) {
+  std::vector<std::string> names;
+  if (result.asked)
+    for (const casefile::ContactCase &contact : result.asked->contacts)
+      names.push_back(contact.called());
+  return names;
+}
+
 void read_tables(Result &result, const fs::path &folder) {
   if (fs::exists(folder / "history.csv"))
     result.history = read_table(folder / "history.csv");
   if (fs::exists(folder / "contact.csv"))
-    result.contact = read_table(folder / "contact.csv");
+    result.contact = read_table(folder / "contact.csv", "contact", names_of_contacts(result));
   if (fs::exists(folder / "summary.json"))
     result.summary = read_text_file(folder / "summary.json");
   else
     result.remarks.push_back("The run did not finish, or has not yet: there is no summary.json.");
   remark_on_lost_tables(result, folder);
+}
+
+bool has_tresca(const casefile::Case &asked) {
+  return std::any_of(asked.contacts.begin(), asked.contacts.end(),
+                     [](const auto &contact) { return contact.friction.law == "tresca"; });
+}
+
+// Of a row of contact.csv, which names its contact where there are several.
+const casefile::ContactCase &contact_at(const Result &result, std::size_t row) {
+  const std::vector<double> *number = result.contact->find("contact");
+  const std::vector<casefile::ContactCase> &all = result.asked->contacts;
+  const double found = number ? (*number)[row] : 0;
+  return all[found >= 0 && found < static_cast<double>(all.size()) ? static_cast<std::size_t>(found)
+                                                                   : 0];
 }
 
 // Where it depends on the pressure, the table has it; Tresca's is known without the run.
@@ -92,16 +114,20 @@ void evaluate_friction_bound(Result &result) {
     result.friction_bound = *recorded;
     return;
   }
-  if (!result.asked || !result.asked->contact || !result.contact || !result.friction_name.empty() ||
-      result.asked->contact->friction.law != "tresca")
+  if (!result.asked || !result.contact || !result.friction_name.empty() ||
+      !has_tresca(*result.asked))
     return;
   const std::vector<double> *time = result.contact->find("time"), *x = result.contact->find("x"),
                             *y = result.contact->find("y"), *z = result.contact->find("z");
   if (!time || !x || !y)
     return;
   for (std::size_t i = 0; i < result.contact->n_rows(); ++i)
-    result.friction_bound.push_back(result.asked->contact->friction.bound.value(
-        {(*x)[i], (*y)[i], z ? (*z)[i] : 0}, (*time)[i]));
+    if (const casefile::FrictionCase &friction = contact_at(result, i).friction;
+        friction.law == "tresca")
+      result.friction_bound.push_back(
+          friction.bound.value({(*x)[i], (*y)[i], z ? (*z)[i] : 0}, (*time)[i]));
+    else
+      result.friction_bound.push_back(0);
 }
 
 struct State {
@@ -318,20 +344,28 @@ Boundary seen_boundary(const NamedFacets &named, const Result &result,
 }
 
 void add_contact_pieces(Result &result, std::vector<NamedFacets> boundaries) {
-  if (result.dimension != 2 || !result.contact || !result.asked || !result.asked->contact)
+  if (result.dimension != 2 || !result.contact || !result.asked || result.asked->contacts.empty())
     return;
   const std::vector<double> *step = result.contact->find("step"), *x = result.contact->find("x"),
                             *y = result.contact->find("y");
   if (!step || !x || !y || step->empty())
     return;
-  const std::vector<std::string> &on = result.asked->contact->on;
-  std::erase_if(boundaries, [&](const NamedFacets &boundary) {
-    return std::find(on.begin(), on.end(), boundary.name) == on.end();
-  });
+  std::map<std::string, std::size_t> contact_on;
+  for (std::size_t i = 0; i < result.asked->contacts.size(); ++i)
+    for (const std::string &name : result.asked->contacts[i].on)
+      contact_on.emplace(name, i);
+  std::erase_if(boundaries,
+                [&](const NamedFacets &boundary) { return !contact_on.contains(boundary.name); });
+  for (NamedFacets &boundary : boundaries)
+    boundary.contact = contact_on.at(boundary.name);
+  const std::vector<double> *contact = result.contact->find("contact");
   std::vector<std::pair<double, double>> places;
+  std::vector<std::size_t> contacts;
   for (std::size_t i = 0; i < step->size() && (*step)[i] == step->front(); ++i)
     places.emplace_back((*x)[i], (*y)[i]);
-  result.contact_pieces = contact_pieces(boundaries, places);
+  for (std::size_t i = 0; contact && i < places.size(); ++i)
+    contacts.push_back(static_cast<std::size_t>((*contact)[i]));
+  result.contact_pieces = contact_pieces(boundaries, places, contacts);
 }
 
 void read_boundaries(Result &result, const fs::path &folder) {

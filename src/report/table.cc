@@ -42,7 +42,18 @@ const std::vector<double> *Table::find(const std::string &name) const {
   return found == names.end() ? nullptr : &columns[found - names.begin()];
 }
 
-Table read_table(const std::filesystem::path &path) {
+namespace {
+
+double place_in(const std::vector<std::string> &words, std::string_view cell) {
+  const auto found = std::find(words.begin(), words.end(), cell);
+  return found == words.end() ? std::numeric_limits<double>::quiet_NaN()
+                              : static_cast<double>(found - words.begin());
+}
+
+}  // namespace
+
+Table read_table(const std::filesystem::path &path, const std::string &column_of_words,
+                 const std::vector<std::string> &words) {
   const std::string text = read_text_file(path);
   Table table;
   std::size_t number = 0;
@@ -59,7 +70,9 @@ Table read_table(const std::filesystem::path &path) {
       throw CaseError(fmt::format("{}:{}: {} columns where the header has {}", path.string(),
                                   number, cells.size(), table.names.size()));
     for (std::size_t i = 0; i < cells.size(); ++i)
-      table.columns[i].push_back(value_of(cells[i]));
+      table.columns[i].push_back(!words.empty() && table.names[i] == column_of_words
+                                     ? place_in(words, cells[i])
+                                     : value_of(cells[i]));
   }
   return table;
 }

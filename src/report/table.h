@@ -18,6 +18,8 @@ struct Table {
 };
 
 /// Throws CaseError when the file cannot be read or a line does not have the header's columns.
-Table read_table(const std::filesystem::path &path);
+/// In the column of that name the words stand for their places in the list.
+Table read_table(const std::filesystem::path &path, const std::string &column_of_words = "",
+                 const std::vector<std::string> &words = {});
 
 }  // namespace tourmaline::report

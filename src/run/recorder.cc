@@ -6,6 +6,7 @@
 
 #include "body/derived.h"
 #include "parallel/ranks.h"
+#include "run/contact_sums.h"
 #include "run/step_check.h"
 #include "stopwatch.h"
 
@@ -55,12 +56,15 @@ void Recorder<dim>::put_boundaries() {
   const std::vector<output::NamedBoundary> boundaries = model_.body.boundaries();
   parallel::on_first([&] {
     folder_.put_boundaries(boundaries);
-    if (!model_.asked.contact)
+    if (model_.asked.contacts.empty())
       return;
+    std::vector<std::string> names;
+    for (const casefile::ContactCase &contact : model_.asked.contacts)
+      names.insert(names.end(), contact.on.begin(), contact.on.end());
     std::vector<std::uint32_t> nodes;
     for (const contact::InterfaceNode<dim> &at : model_.interface)
       nodes.push_back(at.node);
-    contact_facets_ = output::contact_facets(boundaries, model_.asked.contact->on, nodes);
+    contact_facets_ = output::contact_facets(boundaries, names, nodes);
   });
 }
 
@@ -99,7 +103,7 @@ output::HistoryRow Recorder<dim>::step(int n, const solve::StepOutcome &outcome,
   row.slip = std::count(outcome.status.begin(), outcome.status.end(), ContactStatus::slip);
   row.open = std::count(outcome.status.begin(), outcome.status.end(), ContactStatus::open);
   std::vector<output::ContactRow> rows;
-  if (model_.asked.contact)
+  if (has_contact())
     rows = contact_rows(n, outcome, before, state);
   check.contact(rows);
   row.quantities = balance_->step(time, loads, outcome, state, route.is_refined());
@@ -109,6 +113,7 @@ output::HistoryRow Recorder<dim>::step(int n, const solve::StepOutcome &outcome,
     row.quantities.emplace_back("min_" + e.field, e.minimum);
     row.quantities.emplace_back("max_" + e.field, e.maximum);
   }
+  add_contact_sums(model_, outcome, row.quantities);
   check.quantities(row.quantities);
   check.quantities({{"residual", row.residual}});
   judgement_.step(n, time, balance_->judged(), measure);
@@ -117,9 +122,9 @@ output::HistoryRow Recorder<dim>::step(int n, const solve::StepOutcome &outcome,
   if (has_fields(n))
     cells = checked_fields(n, state);
   parallel::on_first([&] {
-    if (model_.asked.contact)
+    if (has_contact())
       folder_.put_contact(n, time, rows);
-    if (model_.asked.contact && has_fields(n))
+    if (has_contact() && has_fields(n))
       folder_.put_contact_fields(n, time, contact_facets_, rows);
     folder_.put_history(row);
   });
@@ -200,9 +205,11 @@ output::PointFields Recorder<dim>::point_fields(std::span<const double> state,
 }
 
 template <int dim>
-double Recorder<dim>::heat_coefficient(const Vector3 &point) const {
-  const casefile::HeatExchangeCase &heat = model_.asked.contact->heat;
-  return heat.law == "exchange" ? heat.coefficient.value(point, 0) : 0;
+double Recorder<dim>::heat_flux(const contact::InterfaceNode<dim> &at, double theta,
+                                double time) const {
+  const casefile::HeatExchangeCase &heat = model_.asked.contacts[at.contact].heat;
+  const double k_c = heat.law == "exchange" ? heat.coefficient.value(at.point, 0) : 0;
+  return k_c == 0 ? 0 : k_c * (theta - heat.foundation_temperature.value(at.point, time));
 }
 
 template <int dim>
@@ -211,7 +218,6 @@ std::vector<output::ContactRow> Recorder<dim>::contact_rows(int n,
                                                             std::span<const double> before,
                                                             std::span<const double> state) const {
   std::vector<output::ContactRow> rows;
-  const casefile::HeatExchangeCase &heat = model_.asked.contact->heat;
   std::vector<double> storage;
   const std::span<const double> carried = model_.carried(before, model_.time(n), storage);
   for (std::size_t i = 0; i < model_.interface.size(); ++i) {
@@ -223,21 +229,21 @@ std::vector<output::ContactRow> Recorder<dim>::contact_rows(int n,
     const Vector<dim> to_foundation = u - model_.foundation(at, model_.time(n));
     const Vector<dim> change = u - displacement<dim>(carried, at.node);
     const double theta = state[body::unknown<dim>(at.node, body::Fields<dim>::temperature)];
-    const double k_c = heat_coefficient(at.point);
-    rows.push_back(
-        {at.point,
-         traction.dot(at.normal),
-         in_space<dim>(tangential<dim>(traction, at.normal)),
-         u.dot(at.normal),
-         in_space<dim>(tangential<dim>(to_foundation, at.normal)),
-         tangential<dim>(change, at.normal).norm() / model_.step,
-         outcome.status[i],
-         theta,
-         state[body::unknown<dim>(at.node, body::Fields<dim>::potential)],
-         k_c == 0 ? 0 : k_c * (theta - heat.foundation_temperature.value(at.point, model_.time(n))),
-         model_.laws->gap(at.point) - to_foundation.dot(at.normal),
-         0.,
-         {}});
+    rows.push_back({at.point,
+                    traction.dot(at.normal),
+                    in_space<dim>(tangential<dim>(traction, at.normal)),
+                    u.dot(at.normal),
+                    in_space<dim>(tangential<dim>(to_foundation, at.normal)),
+                    tangential<dim>(change, at.normal).norm() / model_.step,
+                    outcome.status[i],
+                    theta,
+                    state[body::unknown<dim>(at.node, body::Fields<dim>::potential)],
+                    heat_flux(at, theta, model_.time(n)),
+                    model_.laws.of(at).gap(at.point) - to_foundation.dot(at.normal),
+                    0.,
+                    {},
+                    name_of_several(model_.asked.contacts, at.contact),
+                    static_cast<std::int32_t>(at.contact)});
     const auto put = [&](const char *name, const Eigen::VectorXd &by_node) {
       if (by_node.size() > 0)
         rows.back().quantities.emplace_back(name, by_node[static_cast<Eigen::Index>(i)]);

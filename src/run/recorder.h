@@ -52,7 +52,8 @@ class Recorder {
   bool has_fields(int n) const { return writes_fields(model_.asked, n); }
   output::CellFields checked_fields(int n, std::span<const double> state);
   void put_fields(int n, std::span<const double> state, const output::CellFields &cells);
-  double heat_coefficient(const Vector3 &point) const;
+  bool has_contact() const { return !model_.asked.contacts.empty(); }
+  double heat_flux(const contact::InterfaceNode<dim> &at, double theta, double time) const;
 
   const solve::Model<dim> &model_;
   output::ResultFolder &folder_;

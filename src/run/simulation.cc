@@ -93,7 +93,7 @@ void require_sense(const casefile::Case &asked, const RunOptions &options) {
                     name));
   if (!options.friction)
     return;
-  if (!asked.contact)
+  if (asked.contacts.empty())
     throw CaseError(asked.source +
                     ": has no [contact], where the program's friction laws could stand");
   if (name.find_first_not_of(' ') == std::string::npos ||

@@ -10,6 +10,7 @@
 #include "material/composition.h"
 #include "material/constants.h"
 #include "mesh/mesh.h"
+#include "run/contact_edges.h"
 #include "run/locking.h"
 #include "run/plausibility.h"
 #include "run/temperatures.h"
@@ -178,8 +179,9 @@ std::string survey(const casefile::Case &asked) {
   std::vector<std::string> warnings = material_warnings(asked);
   for (const std::string &warning : temperature_warnings(asked))
     warnings.push_back(warning);
-  if (const std::string warning = slender_warning(asked); !warning.empty())
-    warnings.push_back(warning);
+  for (const std::string &warning : {slender_warning(asked), contact_edge_warning(asked)})
+    if (!warning.empty())
+      warnings.push_back(warning);
   for (const std::string &warning : warnings)
     text += "\n# warning: " + warning + "\n";
   return text;

@@ -25,8 +25,9 @@ void for_each_temperature(Asked &asked, const See &see) {
   for (auto &boundary : asked.boundaries)
     if (boundary.temperature)
       see(*boundary.temperature);
-  if (asked.contact && asked.contact->heat.law == "exchange")
-    see(asked.contact->heat.foundation_temperature);
+  for (auto &contact : asked.contacts)
+    if (contact.heat.law == "exchange")
+      see(contact.heat.foundation_temperature);
   see(asked.initial.temperature);
 }
 

@@ -11,6 +11,8 @@
 #include "contact/checked_law.h"
 #include "parallel/ranks.h"
 #include "report/page.h"
+#include "run/contact_edges.h"
+#include "run/contact_sums.h"
 #include "run/locking.h"
 #include "run/lone_error.h"
 #include "run/memory.h"
@@ -65,11 +67,11 @@ TimeLoop<dim>::TimeLoop(const casefile::Case &asked, const std::filesystem::path
   prescribe(model_.time(1), trial);
   sum_loads(model_.time(1));
   for (const auto &node : model_.interface)
-    model_.friction(
-        contact::contact_place(node.point, model_.time(1), Eigen::Matrix<double, dim, 0>{}));
+    model_.friction(contact::contact_place(node.point, model_.time(1),
+                                           Eigen::Matrix<double, dim, 0>{}, node.contact));
   if (options.friction) {
     model_.friction = contact::checked(options.friction, options.friction_name);
-    model_.laws->replace_friction();
+    model_.laws.replace_friction();
   }
   open_folder(directory, std::move(lock));
   recorder_.emplace(model_, *folder_);
@@ -347,6 +349,7 @@ output::Summary TimeLoop<dim>::summary() const {
   summary.warnings = warnings();
   summary.extremes = recorder_->extremes(state_);
   summary.materials = materials_of(model_.asked);
+  summary.contacts = contact_records(model_);
   return summary;
 }
 
@@ -363,7 +366,9 @@ std::vector<std::string> TimeLoop<dim>::warnings() const {
     add(locking_warning(model_, most_strained_.state()));
   for (const std::string &text : material_warnings(model_.asked))
     add(text);
-  add(casefile::snapping_warning(model_.asked));
+  for (const std::string &text : casefile::snapping_warnings(model_.asked))
+    add(text);
+  add(contact_edge_warning(model_.asked, model_.body.points(), model_.contact_edges));
   const std::vector<std::string> given = temperature_warnings(model_.asked);
   all.insert(all.end(), given.begin(), given.end());
   if (given.empty())

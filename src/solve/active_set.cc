@@ -40,9 +40,10 @@ void ActiveSet<dim>::begin_step(double time, std::span<const double> before,
                                       model_.reach(model_.interface[i], time));
     p.offset = offset;
     offset += p.size();
-    p.friction = {model_.friction(contact::contact_place(model_.interface[i].point, time,
-                                                         p.admissible.tangent())),
-                  p.admissible.held_slip(at_node(before, i))};
+    p.friction = {
+        model_.friction(contact::contact_place(
+            model_.interface[i].point, time, p.admissible.tangent(), model_.interface[i].contact)),
+        p.admissible.held_slip(at_node(before, i))};
     p.slip_before = p.admissible.directions.transpose() * at_node(before, i);
     p.slip = p.admissible.directions.transpose() * (at_node(state, i) - at_node(before, i));
     p.slips =

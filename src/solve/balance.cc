@@ -63,12 +63,17 @@ Balance<dim>::Balance(const Model<dim> &model, std::span<const double> initial)
       add_once(heat_boundaries_, load.kind().boundary);
     else if (load.kind().kind == LoadKind::surface_charge)
       add_once(charge_boundaries_, load.kind().boundary);
-  if (!model.asked.contact || model.asked.contact->heat.law != "exchange")
+  for (const casefile::ContactCase &contact : model.asked.contacts)
+    for (const std::string &name : contact.on)
+      if (contact.heat.law == "exchange") {
+        add_once(heat_boundaries_, name);
+        exchange_[name] = exchange_weights(name, contact.heat.coefficient);
+      }
+  if (!model.laws.can_open())
     return;
-  for (const std::string &name : model.asked.contact->on) {
-    add_once(heat_boundaries_, name);
-    exchange_[name] = exchange_weights(name);
-  }
+  can_open_.resize(model.body.n_nodes());
+  for (const contact::InterfaceNode<dim> &at : model.interface)
+    can_open_[at.node] = model.laws.of(at).can_open();
 }
 
 // Where nothing warms a body, its heats are round-off and do not balance. They are measured by what
@@ -88,14 +93,13 @@ double Balance<dim>::smallest_heat() const {
 // The integral of k_c times each node's shape function over a boundary.
 template <int dim>
 std::vector<std::pair<body::Node, double>> Balance<dim>::exchange_weights(
-    const std::string &boundary) const {
+    const std::string &boundary, const casefile::Formula &coefficient) const {
   std::vector<double> by_node(model_.body.n_nodes(), 0.);
   model_.body.for_each_facet({boundary}, [&](const body::Quadrature<dim> &facet) {
     for (std::size_t q = 0; q < facet.jxw.size(); ++q)
       for (std::size_t a = 0; a < facet.nodes.size(); ++a)
         by_node[facet.nodes[a]] +=
-            model_.asked.contact->heat.coefficient.value(facet.points[q], 0) * facet.jxw[q] *
-            facet.value(q, a);
+            coefficient.value(facet.points[q], 0) * facet.jxw[q] * facet.value(q, a);
   });
   parallel::sum(by_node);
   std::vector<std::pair<body::Node, double>> weights;
@@ -154,7 +158,6 @@ void Balance<dim>::add_energy(const Step &step, Columns &columns) {
   const double per_watt = -model_.step / model_.op.reference_temperature();
   double load = 0, friction = 0, electric = 0, thermal = 0, conduction = 0;
   double foundation = step.normal.pressed_in;
-  const bool can_open = model_.laws && model_.laws->can_open();
   for (std::size_t i = 0; i < step.now.unknowns.size(); ++i) {
     const int field = field_of<dim>(i);
     if (field == 0) {
@@ -162,6 +165,7 @@ void Balance<dim>::add_energy(const Step &step, Columns &columns) {
       // along the normal: together it is zero where u_nu = 0. Friction is worked against.
       const double moving =
           is_prescribed_[i] ? step.now.products.sum(i) - step.contact[i] : step.loads[i];
+      const bool can_open = !can_open_.empty() && can_open_[i / Fields<dim>::count];
       const double pressing = can_open ? 0 : step.contact[i] - step.friction[i];
       const double carried = step.carried_by(i), along = step.change(i) - carried;
       load += moving * carried + (moving + pressing) * along;
@@ -199,7 +203,7 @@ void Balance<dim>::add_energy(const Step &step, Columns &columns) {
                                  {"time_step_loss", lost / k}});
   if (has_foundation_columns())
     columns.emplace_back("foundation_power", foundation / k);
-  if (can_open)
+  if (model_.laws.can_open())
     columns.insert(columns.end(), {{"contact_energy", normal.stored},
                                    {"contact_dissipation", normal.dissipated / k}});
   double round_off = 0;

@@ -64,17 +64,18 @@ class Balance {
   double lack_of_energy(const Step &step, double whole, const std::array<double, 3> &gained,
                         const std::array<double, 3> &lost,
                         const std::array<std::vector<double>, 3> &works) const;
-  std::vector<std::pair<body::Node, double>> exchange_weights(const std::string &boundary) const;
+  std::vector<std::pair<body::Node, double>> exchange_weights(
+      const std::string &boundary, const casefile::Formula &coefficient) const;
   /// Whether the foundation is more than the paper's.
   bool has_foundation_columns() const {
-    return model_.laws &&
-           (model_.laws->has_moving_foundation() || model_.laws->has_normal_unknowns());
+    return model_.laws.has_moving_foundation() || model_.laws.has_normal_unknowns();
   }
   double smallest_heat() const;
   double exchanged(const std::string &boundary, const Step &step) const;
 
   const Model<dim> &model_;
   std::vector<bool> is_prescribed_;    // by unknown
+  std::vector<bool> can_open_;         // by node: of a contact that can; empty: none can
   BalancedState<dim> before_;          // of the step before
   Eigen::VectorXd electrode_charges_;  // of that state [C]
   double smallest_heat_;               // [W]

@@ -102,10 +102,12 @@ std::vector<double> carried(const Model<dim> &model, double time,
 template <int dim>
 NormalEnergy normal_energy(const Model<dim> &model, const BalanceStep<dim> &step) {
   NormalEnergy energy;
-  if (!model.laws || !model.laws->can_open())
+  if (!model.laws.can_open())
     return energy;
   const double earlier = model.time_before(step.time);
   for (const contact::InterfaceNode<dim> &at : model.interface) {
+    if (!model.laws.of(at).can_open())
+      continue;
     double received = 0, force = 0;
     typename Model<dim>::Vector then, now;
     for (int c = 0; c < dim; ++c) {
@@ -118,7 +120,7 @@ NormalEnergy normal_energy(const Model<dim> &model, const BalanceStep<dim> &step
     }
     const double before = then.dot(at.normal) - model.reach(at, earlier),
                  after = now.dot(at.normal) - model.reach(at, step.time);
-    const auto law = model.laws->normal(at.point, before);
+    const auto law = model.laws.of(at).normal(at.point, before);
     const double pressed_in = std::isinf(law->potential(before)) ? force * before : 0;
     energy.pressed_in += pressed_in;
     energy.received += received + pressed_in;

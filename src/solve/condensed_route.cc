@@ -274,7 +274,7 @@ StepOutcome CondensedRoute<dim>::solve(double time, std::span<const double> righ
     const auto n_nodes = static_cast<Index>(model_.interface.size());
     if (contact_->is_coupled())
       outcome.friction_bound = VectorXd::Zero(n_nodes);
-    if (model_.laws->remembers_slip())
+    if (model_.laws.remembers_slip())
       outcome.accumulated_slip = VectorXd::Zero(n_nodes);
     parallel::on_first([&] { advance_contact(time, s, before, state, c, outcome); });
     share(outcome);

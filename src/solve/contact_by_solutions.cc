@@ -519,7 +519,7 @@ StepOutcome ContactBySolutions<dim>::outcome() {
   outcome.status.resize(model_.interface.size());
   if (contact_.is_coupled())
     outcome.friction_bound = VectorXd::Zero(n);
-  if (model_.laws->remembers_slip())
+  if (model_.laws.remembers_slip())
     outcome.accumulated_slip = VectorXd::Zero(n);
   solution_.interface.iterations = iterations_;
   contact_.end_step(solution_, outcome);

@@ -15,7 +15,7 @@ ContactNodes<dim>::ContactNodes(const Model<dim> &model, const std::vector<bool>
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     nodes_[i].admissible = contact::bilateral<dim>(model.interface[i], is_prescribed, zero);
-    if (model.laws->has_normal_unknowns())
+    if (model.laws.of(model.interface[i]).has_normal_unknowns())
       add_normal(i, entries);
     add_slip(i, entries);
   }
@@ -31,7 +31,7 @@ void ContactNodes<dim>::add_normal(std::size_t i, std::vector<Eigen::Triplet<dou
   const contact::InterfaceNode<dim> &at = model_.interface[i];
   const bool is_known = nodes_[i].admissible.free_normal.isZero(0);
   contact::require_plain_normal(at, nodes_[i].admissible);
-  if (is_known && model_.laws->can_open())
+  if (is_known && model_.laws.of(at).can_open())
     return;
   nodes_[i].normal = points_.size();
   node_of_.push_back(i);
@@ -51,7 +51,7 @@ void ContactNodes<dim>::add_slip(std::size_t i, std::vector<Eigen::Triplet<doubl
     for (int c = 0; c < dim; ++c)
       entries.emplace_back(dim * static_cast<Index>(i) + c, n_ + k, directions(c, k));
   n_ += directions.cols();
-  if (!model_.laws->friction_depends_on_pressure())
+  if (!model_.laws.of(model_.interface[i]).friction_depends_on_pressure())
     return;
   nodes_[i].coupling = couplings_.size();
   FrictionCoupling &coupling = couplings_.emplace_back();
@@ -63,8 +63,9 @@ void ContactNodes<dim>::add_slip(std::size_t i, std::vector<Eigen::Triplet<doubl
 template <int dim>
 std::vector<Index> ContactNodes<dim>::movable() const {
   std::vector<Index> entries;
-  for (const Node &node : nodes_) {
-    if (node.normal != none && model_.laws->can_open())
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Node &node = nodes_[i];
+    if (node.normal != none && model_.laws.of(model_.interface[i]).can_open())
       entries.push_back(points_[node.normal].offset);
     for (Index k = 0; k < points_[node.slip].size; ++k)
       entries.push_back(points_[node.slip].offset + k);
@@ -92,9 +93,9 @@ void ContactNodes<dim>::begin_step(double time, std::span<const double> before,
     c.segment<dim>(dim * static_cast<Index>(i)) = displacement(carried, i);
     if (node.normal != none)
       points_[node.normal].law =
-          contact::NormalPoint(model_.laws->normal(at.point, penetration(i, time, before)));
+          contact::NormalPoint(model_.laws.of(at).normal(at.point, penetration(i, time, before)));
     set_friction(i, time, displacement(carried, i));
-    if (is_moved_along_normal(node))
+    if (is_moved_along_normal(i))
       know_pressure(i, time, before);
   }
   stuck_ = directions_.transpose() * c;
@@ -115,19 +116,20 @@ template <int dim>
 void ContactNodes<dim>::set_friction(std::size_t i, double time, const Vector &carried) {
   const contact::InterfaceNode<dim> &at = model_.interface[i];
   const Node &node = nodes_[i];
-  points_[node.slip].law = contact::PointLaw{
-      model_.friction(contact::contact_place(at.point, time, node.admissible.tangent())),
-      node.admissible.held_slip(carried)};
+  points_[node.slip].law =
+      contact::PointLaw{model_.friction(contact::contact_place(
+                            at.point, time, node.admissible.tangent(), at.contact)),
+                        node.admissible.held_slip(carried)};
   if (node.coupling != none)
     couplings_[node.coupling].bound =
-        model_.laws->bound(at.point, time, slipped_[static_cast<Index>(i)]);
+        model_.laws.of(at).bound(at.point, time, slipped_[static_cast<Index>(i)]);
 }
 
 template <int dim>
 void ContactNodes<dim>::know_pressure(std::size_t i, double time, std::span<const double> before) {
   const contact::InterfaceNode<dim> &at = model_.interface[i];
   Node &node = nodes_[i];
-  node.pressure = model_.laws->pressure_under_supports(
+  node.pressure = model_.laws.of(at).pressure_under_supports(
       at.point, penetration(i, time, before),
       node.admissible.base.dot(at.normal) - model_.reach(at, time));
   if (node.coupling == none)
@@ -137,12 +139,20 @@ void ContactNodes<dim>::know_pressure(std::size_t i, double time, std::span<cons
 }
 
 template <int dim>
-ContactStatus ContactNodes<dim>::status(const Node &node, const CoupledSolution &solution) const {
+ContactStatus ContactNodes<dim>::status(std::size_t i, const CoupledSolution &solution) const {
+  const Node &node = nodes_[i];
   const std::vector<ContactStatus> &status = solution.interface.status;
-  const bool is_open = is_moved_along_normal(node)
+  const bool is_open = is_moved_along_normal(i)
                            ? !(node.pressure > 0)
                            : node.normal != none && status[node.normal] == ContactStatus::open;
   return is_open ? ContactStatus::open : status[node.slip];
+}
+
+template <int dim>
+const contact::PointLaw &ContactNodes<dim>::friction(const Node &node,
+                                                     const CoupledSolution &solution) const {
+  return node.coupling == none ? points_[node.slip].law.friction()
+                               : solution.friction[node.coupling];
 }
 
 // Of the force q that holds a node friction is the law's; of the rest the foundation has what is
@@ -152,8 +162,7 @@ void ContactNodes<dim>::share_force(std::size_t i, const CoupledSolution &soluti
                                     StepOutcome &outcome) const {
   const Node &node = nodes_[i];
   const ContactPoint &p = points_[node.slip];
-  const contact::PointLaw &law =
-      node.coupling == none ? p.law.friction() : solution.friction[node.coupling];
+  const contact::PointLaw &law = friction(node, solution);
   auto q = outcome.contact_forces.segment<dim>(dim * static_cast<Index>(i));
   const Tangent borne = -node.admissible.held.transpose() * q / p.weight;
   const Tangent lambda =
@@ -161,7 +170,7 @@ void ContactNodes<dim>::share_force(std::size_t i, const CoupledSolution &soluti
                          solution.interface.force.segment(p.offset, p.size) / p.weight, borne);
   const Vector friction = -p.weight * node.admissible.tangent() * lambda;
   outcome.friction_forces.segment<dim>(dim * static_cast<Index>(i)) = friction;
-  if (is_moved_along_normal(node))
+  if (is_moved_along_normal(i))
     q = friction - p.weight * node.pressure * node.admissible.normal;
   else
     q -= node.admissible.support(q, friction);
@@ -177,30 +186,28 @@ void ContactNodes<dim>::end_step(const CoupledSolution &solution, StepOutcome &o
       directions_ * (directions_.transpose() * outcome.contact_forces + solution.interface.force);
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     share_force(i, solution, outcome);
-    outcome.status[i] = status(nodes_[i], solution);
+    outcome.status[i] = status(i, solution);
     const ContactPoint &p = points_[nodes_[i].slip];
     if (outcome.status[i] != ContactStatus::open)
       slipped_[static_cast<Index>(i)] += std::hypot(
           solution.interface.increment.segment(p.offset, p.size).norm(), p.law.held().norm());
   }
-  for (std::size_t i = 0; i < nodes_.size(); ++i)
-    if (nodes_[i].coupling != none)
-      if (const auto *ball =
-              std::get_if<contact::Tresca>(&solution.friction[nodes_[i].coupling].law()))
-        outcome.friction_bound[static_cast<Index>(i)] = ball->bound;
-  if (model_.laws->remembers_slip())
+  for (std::size_t i = 0; is_coupled() && i < nodes_.size(); ++i)
+    if (const auto *ball = std::get_if<contact::Tresca>(&friction(nodes_[i], solution).law()))
+      outcome.friction_bound[static_cast<Index>(i)] = ball->bound;
+  if (model_.laws.remembers_slip())
     outcome.accumulated_slip = slipped_;
 }
 
 template <int dim>
 void ContactNodes<dim>::save(output::SavedNumbers &numbers) const {
-  if (model_.laws->remembers_slip())
+  if (model_.laws.remembers_slip())
     numbers.put("accumulated slip", slipped_);
 }
 
 template <int dim>
 void ContactNodes<dim>::restore(const output::SavedNumbers &numbers) {
-  if (model_.laws->remembers_slip())
+  if (model_.laws.remembers_slip())
     numbers.fill("accumulated slip", slipped_);
 }
 

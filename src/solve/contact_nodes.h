@@ -55,7 +55,7 @@ class ContactNodes {
 
   /// At the end of the last step [m], by node; empty where no law depends on it.
   Eigen::VectorXd accumulated_slip() const {
-    return model_.laws->remembers_slip() ? slipped_ : Eigen::VectorXd();
+    return model_.laws.remembers_slip() ? slipped_ : Eigen::VectorXd();
   }
   void set_accumulated_slip(const Eigen::VectorXd &slip) { slipped_ = slipped_before_ = slip; }
 
@@ -73,8 +73,8 @@ class ContactNodes {
     std::size_t coupling = none;
     double pressure = 0;
   };
-  bool is_moved_along_normal(const Node &node) const {
-    return node.normal == none && model_.laws->can_open();
+  bool is_moved_along_normal(std::size_t i) const {
+    return nodes_[i].normal == none && model_.laws.of(model_.interface[i]).can_open();
   }
 
   void add_normal(std::size_t i, std::vector<Eigen::Triplet<double>> &entries);
@@ -82,7 +82,8 @@ class ContactNodes {
   void set_friction(std::size_t i, double time, const Vector &carried);
   void know_pressure(std::size_t i, double time, std::span<const double> before);
   void share_force(std::size_t i, const CoupledSolution &solution, StepOutcome &outcome) const;
-  ContactStatus status(const Node &node, const CoupledSolution &solution) const;
+  const contact::PointLaw &friction(const Node &node, const CoupledSolution &solution) const;
+  ContactStatus status(std::size_t i, const CoupledSolution &solution) const;
   double penetration(std::size_t i, double time, std::span<const double> before) const;
   Vector displacement(std::span<const double> state, std::size_t i) const;
 

@@ -228,7 +228,7 @@ void ActiveSetRoute<dim>::give_up_contact(const InterfaceSolution &solution) con
 
 template <int dim>
 std::unique_ptr<Route> iterative_route(const Model<dim> &model) {
-  if (model.laws && model.laws->has_normal_unknowns())
+  if (model.laws.has_normal_unknowns())
     return contact_by_solutions(model);
   return std::make_unique<ActiveSetRoute<dim>>(model);
 }

@@ -25,7 +25,7 @@ std::string unheld_motions(const Model<dim> &model, const ContactNodes<dim> &con
   const std::vector<ContactPoint> &points = contact.points();
   for (std::size_t i = 0; i < points.size(); ++i) {
     const contact::InterfaceNode<dim> &at = model.interface[contact.node_of(i)];
-    if (!model.laws->can_open())
+    if (!model.laws.of(at).can_open())
       add(at.point, at.normal);
     const bool holds = points[i].law.normal() ? status[i] != ContactStatus::open
                                               : status[i] == ContactStatus::stick;

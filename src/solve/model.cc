@@ -55,15 +55,19 @@ Model<dim>::Model(const casefile::Case &asked_for, Built built)
       loads(body, asked, step, composition.reference_temperature()),
       mesh_seconds(built.mesh_seconds) {
   body::check_conductors(body, composition, asked, prescribed);
-  if (asked.contact) {
-    interface = contact::interface_nodes(body, asked.contact->on);
-    laws.emplace(*asked.contact, step);
-    friction = laws->friction();
-    if (asked.contact->heat.law == "exchange") {
-      op.add_exchange(body, asked.contact->on, asked.contact->heat.coefficient);
-      cells.add_exchange(asked.contact->on, asked.contact->heat.coefficient);
+  std::vector<std::vector<std::string>> boundaries;
+  for (const casefile::ContactCase &contact : asked.contacts)
+    boundaries.push_back(contact.on);
+  contact::Interface<dim> found = contact::interface_of(body, boundaries);
+  interface = std::move(found.nodes);
+  contact_edges = std::move(found.edges);
+  laws = contact::Contacts(asked.contacts, step);
+  friction = laws.friction();
+  for (const casefile::ContactCase &contact : asked.contacts)
+    if (contact.heat.law == "exchange") {
+      op.add_exchange(body, contact.on, contact.heat.coefficient);
+      cells.add_exchange(contact.on, contact.heat.coefficient);
     }
-  }
   assemble_seconds = built.since_mesh.lap();
 }
 
@@ -75,19 +79,19 @@ double Model<dim>::time_before(double time) const {
 template <int dim>
 typename Model<dim>::Vector Model<dim>::foundation(const contact::InterfaceNode<dim> &at,
                                                    double time) const {
-  const Vector3 moved = laws->foundation(at.point, time);
+  const Vector3 moved = laws.of(at).foundation(at.point, time);
   return Vector::Map(moved.data());
 }
 
 template <int dim>
 double Model<dim>::reach(const contact::InterfaceNode<dim> &at, double time) const {
-  return laws->gap(at.point) + foundation(at, time).dot(at.normal);
+  return laws.of(at).gap(at.point) + foundation(at, time).dot(at.normal);
 }
 
 template <int dim>
 std::span<const double> Model<dim>::carried(std::span<const double> before, double time,
                                             std::vector<double> &carried) const {
-  if (!laws || !laws->has_moving_foundation())
+  if (!laws.has_moving_foundation())
     return before;
   carried.assign(before.begin(), before.end());
   for (const contact::InterfaceNode<dim> &at : interface) {

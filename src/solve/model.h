@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -8,8 +7,8 @@
 #include "body/loads.h"
 #include "body/operator.h"
 #include "body/prescribed.h"
+#include "contact/contacts.h"
 #include "contact/interface.h"
-#include "contact/laws.h"
 #include "material/composition.h"
 #include "tourmaline/case/case.h"
 #include "tourmaline/contact/friction.h"
@@ -35,8 +34,9 @@ struct Model {
   std::vector<std::vector<body::Node>> electrodes;  ///< nodes by electrode of the case
   body::Loads<dim> loads;
   std::vector<contact::InterfaceNode<dim>> interface;  ///< empty without contact
-  std::optional<contact::ContactLaws> laws;            ///< the case's; nothing without contact
-  contact::FrictionAt friction;                        ///< the case's, unless replaced
+  std::vector<body::Node> contact_edges;  ///< where contacts meet with normals of their own
+  contact::Contacts laws;                 ///< the case's
+  contact::FrictionAt friction;           ///< the case's, unless replaced
   double mesh_seconds = 0, assemble_seconds = 0;
 
   double time(int n) const { return asked.time.end * n / asked.time.steps; }

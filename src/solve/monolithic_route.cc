@@ -26,7 +26,7 @@ using Eigen::VectorXd;
 
 template <int dim>
 std::vector<contact::MultiplierPoint<dim>> multiplier_points(const Model<dim> &model) {
-  if (!model.asked.contact)
+  if (model.asked.contacts.empty())
     return {};
   const contact::IsPrescribed is_prescribed = body::mask_of(model.prescribed, model.n_unknowns());
   if (model.asked.solver.multiplier == "nodal")
@@ -35,7 +35,7 @@ std::vector<contact::MultiplierPoint<dim>> multiplier_points(const Model<dim> &m
     throw CaseError(model.asked.source +
                     ": [solver] multiplier: \"piecewise-constant\" is not available on several MPI "
                     "ranks; start the program without mpirun, or take \"nodal\"");
-  return contact::facet_multipliers(model.body, model.asked.contact->on, is_prescribed);
+  return contact::facet_multipliers(model.body, model.asked.contacts.front().on, is_prescribed);
 }
 
 template <int dim>
@@ -75,7 +75,7 @@ class MonolithicRoute : public Route {
   void share_forces(double time, const StepData &data, StepOutcome &outcome) const;
   std::size_t interface_index(body::Node node) const;
   // Points are the interface nodes then.
-  bool has_normal_laws() const { return model_.laws && model_.laws->has_normal_unknowns(); }
+  bool has_normal_laws() const { return model_.laws.has_normal_unknowns(); }
   [[noreturn]] void give_up(double time, const SaddleNewton<dim> &newton) const;
 
   void describe(RouteReport &report) const override;
@@ -105,8 +105,9 @@ MonolithicRoute<dim>::MonolithicRoute(const Model<dim> &model)
     return;
   const std::vector<bool> is_prescribed = body::mask_of(model.prescribed, model.n_unknowns());
   for (const contact::InterfaceNode<dim> &at : model.interface)
-    contact::require_plain_normal(
-        at, contact::bilateral<dim>(at, is_prescribed, std::vector<double>(model.n_unknowns())));
+    if (model.laws.of(at).has_normal_unknowns())
+      contact::require_plain_normal(
+          at, contact::bilateral<dim>(at, is_prescribed, std::vector<double>(model.n_unknowns())));
 }
 
 // The contact nodes just touch the foundation.
@@ -137,10 +138,11 @@ std::vector<AugmentedLagrangian> MonolithicRoute<dim>::laws_at(double time,
     law.has_normal = point.has_normal;
     law.r_normal = solver.r_normal.value_or(r);
     law.r_slip = solver.r_tangential ? *solver.r_tangential / model_.step : r;
-    if (point.has_normal && model_.laws->can_open())
-      law.normal = model_.laws->normal(point.place, penetration(time, p));
-    law.friction = {model_.friction(contact::contact_place(point.place, time, point.tangent())),
-                    point.held_slip(state, before, rest)};
+    if (point.has_normal && model_.laws[point.contact].can_open())
+      law.normal = model_.laws[point.contact].normal(point.place, penetration(time, p));
+    law.friction = {
+        model_.friction(contact::contact_place(point.place, time, point.tangent(), point.contact)),
+        point.held_slip(state, before, rest)};
   }
   return laws;
 }
@@ -165,7 +167,7 @@ StepOutcome MonolithicRoute<dim>::advance(double time, std::span<const double> r
   std::vector<AugmentedLagrangian> laws = laws_at(time, carried, state, rest);
   const StepData data{right_side, carried, rest, laws};
   StepOutcome outcome;
-  if (model_.laws && model_.laws->friction_depends_on_pressure())
+  if (model_.laws.friction_depends_on_pressure())
     find_with_bounds(time, data, laws, prediction(before, state), outcome);
   else
     find(time, data, prediction(before, state), outcome);
@@ -206,7 +208,8 @@ void MonolithicRoute<dim>::find_with_bounds(double time, const StepData &data,
   for (std::size_t p = 0; p < laws.size(); ++p) {
     const Point &point = system_.points()[p];
     own.push_back(laws[p].friction);
-    bounds.push_back(model_.laws->bound(point.place, time, slipped_[static_cast<Index>(p)]));
+    bounds.push_back(
+        model_.laws[point.contact].bound(point.place, time, slipped_[static_cast<Index>(p)]));
     least_weight = std::min(least_weight, point.weight);
   }
   HeldBounds held(std::move(bounds), first_states());
@@ -239,7 +242,9 @@ std::vector<HeldBounds::State> MonolithicRoute<dim>::first_states() const {
     HeldBounds::State &state = all.emplace_back();
     if (system_.points()[p].has_normal)
       state.pressure = system_.multiplier(p, x_)[0];
-    state.is_closed = state.pressure >= 0;
+    // Where friction does not depend on the pressure, bilateral contact that is pulled has it too.
+    const contact::ContactLaws &laws = model_.laws[system_.points()[p].contact];
+    state.is_closed = state.pressure >= 0 || !laws.has_normal_unknowns();
   }
   return all;
 }
@@ -260,8 +265,9 @@ std::vector<HeldBounds::State> MonolithicRoute<dim>::states(double time,
             : std::hypot(y.tail(y.size() - point.has_normal).norm(), law.friction.held().norm());
     state.pressure =
         point.has_normal ? law.pressure(y, lambda) : supported_pressure(time, p, holding);
-    state.is_closed = point.has_normal ? law.is_closed(y, lambda)
-                                       : !model_.laws->can_open() || state.pressure > 0;
+    state.is_closed = point.has_normal
+                          ? law.is_closed(y, lambda)
+                          : !model_.laws[point.contact].can_open() || state.pressure > 0;
   }
   return all;
 }
@@ -271,9 +277,9 @@ template <int dim>
 double MonolithicRoute<dim>::supported_pressure(double time, std::size_t p,
                                                 const VectorXd &holding) const {
   const contact::InterfaceNode<dim> &at = model_.interface[p];
-  if (!model_.laws->can_open())
+  if (!model_.laws.of(at).can_open())
     return -holding.template segment<dim>(dim * static_cast<Index>(p)).dot(at.normal) / at.weight;
-  return model_.laws->pressure_under_supports(
+  return model_.laws.of(at).pressure_under_supports(
       at.point, penetration(time, p),
       displacement(x_.body, p).dot(at.normal) - model_.reach(at, time));
 }
@@ -304,7 +310,7 @@ void MonolithicRoute<dim>::end_friction(const StepData &data, StepOutcome &outco
         std::hypot(y.tail(y.size() - system_.points()[p].has_normal).norm(),
                    data.laws[p].friction.held().norm());
   }
-  if (model_.laws->remembers_slip())
+  if (model_.laws.remembers_slip())
     outcome.accumulated_slip = slipped_;
 }
 
@@ -344,8 +350,8 @@ std::vector<ContactStatus> MonolithicRoute<dim>::status(double time, const StepD
         ContactStatus::slip)
       for (const auto &share : system_.points()[p].mean)
         status[interface_index(share.node)] = ContactStatus::slip;
-  for (std::size_t p = 0; model_.laws && model_.laws->can_open() && p < data.laws.size(); ++p)
-    if (!touches(time, data, p))
+  for (std::size_t p = 0; model_.laws.can_open() && p < data.laws.size(); ++p)
+    if (model_.laws[system_.points()[p].contact].can_open() && !touches(time, data, p))
       status[p] = ContactStatus::open;
   return status;
 }
@@ -438,7 +444,7 @@ void MonolithicRoute<dim>::share_forces(double time, const StepData &data,
       if (!system_.is_free(body::unknown<dim>(model_.interface[n].node, c)))
         prescribed[c] = 0.;
     auto q = outcome.contact_forces.template segment<dim>(dim * static_cast<Index>(n));
-    if (has_normal_laws() && model_.laws->can_open() && !system_.points()[n].has_normal) {
+    if (model_.laws.of(model_.interface[n]).can_open() && !system_.points()[n].has_normal) {
       q = outcome.friction_forces.template segment<dim>(dim * static_cast<Index>(n)) -
           model_.interface[n].weight * supported_pressure(time, n, {}) * model_.interface[n].normal;
       continue;
@@ -491,14 +497,14 @@ void MonolithicRoute<dim>::describe(RouteReport &report) const {
 template <int dim>
 void MonolithicRoute<dim>::save_memory(output::SavedNumbers &numbers) const {
   numbers.put("multipliers", x_.multipliers);
-  if (model_.laws && model_.laws->remembers_slip())
+  if (model_.laws.remembers_slip())
     numbers.put("accumulated slip", slipped_);
 }
 
 template <int dim>
 void MonolithicRoute<dim>::restore_memory(const output::SavedNumbers &numbers) {
   numbers.fill("multipliers", x_.multipliers);
-  if (model_.laws && model_.laws->remembers_slip())
+  if (model_.laws.remembers_slip())
     numbers.fill("accumulated slip", slipped_);
 }
 

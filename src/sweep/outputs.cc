@@ -13,7 +13,7 @@
 
 #include "case/nearest.h"
 #include "case/toml_text.h"
-#include "contact/laws.h"
+#include "contact/contacts.h"
 #include "report/table.h"
 #include "report/text_file.h"
 #include "tourmaline/case/case.h"
@@ -67,8 +67,9 @@ void add_flows(const casefile::Case &asked, List &list) {
     if (boundary.temperature || boundary.heat_flux)
       list.add_each("heat_", boundary.on, heat);
   }
-  if (asked.contact && asked.contact->heat.law == "exchange")
-    list.add_each("heat_", asked.contact->on, heat);
+  for (const casefile::ContactCase &contact : asked.contacts)
+    if (contact.heat.law == "exchange")
+      list.add_each("heat_", contact.on, heat);
   for (const casefile::ElectrodeCase &electrode : asked.electrodes) {
     const std::string name = "electrode_" + electrode.name;
     list.add("V", {name + "_voltage"});
@@ -79,9 +80,7 @@ void add_flows(const casefile::Case &asked, List &list) {
 
 // What only some contacts have in history.csv, as solve/balance.h and run/recorder.h write it.
 void add_contact(const casefile::Case &asked, List &list) {
-  if (!asked.contact)
-    return;
-  const contact::ContactLaws laws(*asked.contact, asked.time.end / asked.time.steps);
+  const contact::Contacts laws(asked.contacts, asked.time.end / asked.time.steps);
   if (laws.has_moving_foundation() || laws.has_normal_unknowns()) {
     list.add(whole("W", asked.dimension), {"foundation_power"});
     for (int c = asked.dimension == 2 ? 2 : 0; c < 3; ++c)
@@ -93,6 +92,22 @@ void add_contact(const casefile::Case &asked, List &list) {
   }
   if (laws.friction_depends_on_pressure())
     list.add("", {"contact_stage"});
+}
+
+// Of several contacts what each has, as run/contact_sums.cc writes it.
+void add_each_contact(const casefile::Case &asked, List &list) {
+  const contact::Contacts laws(asked.contacts, asked.time.end / asked.time.steps);
+  for (std::size_t i = 0; asked.contacts.size() > 1 && i < asked.contacts.size(); ++i) {
+    const std::string name = "_" + asked.contacts[i].called();
+    list.add("", {"stick" + name, "slip" + name, "open" + name});
+    for (int c = 0; c < asked.dimension; ++c)
+      list.add(whole("N", asked.dimension), {std::string("contact_force_") + axes[c] + name});
+    if (laws.has_moving_foundation() || laws.has_normal_unknowns())
+      for (int c = asked.dimension == 2 ? 2 : 0; c < 3; ++c)
+        list.add(whole("N m", asked.dimension), {std::string("contact_moment_") + axes[c] + name});
+    if (asked.contacts[i].heat.law == "exchange")
+      list.add(whole("W", asked.dimension), {"contact_heat" + name});
+  }
 }
 
 void add_extremes(int dimension, List &list) {
@@ -124,6 +139,7 @@ std::vector<Output> outputs_of(const casefile::Case &asked) {
   list.add(power, {"stored_heat_rate", "heat_source"});
   list.add("", {"energy_imbalance", "force_imbalance", "charge_imbalance", "heat_imbalance"});
   add_extremes(asked.dimension, list);
+  add_each_contact(asked, list);
   return list.all;
 }
 
@@ -132,7 +148,8 @@ namespace {
 std::vector<std::string> usual_names(const std::vector<casefile::Case> &cases) {
   std::vector<std::string> names{"max_displacement", "min_potential", "max_potential",
                                  "min_temperature", "max_temperature"};
-  if (std::any_of(cases.begin(), cases.end(), [](const auto &one) { return one.contact; }))
+  if (std::any_of(cases.begin(), cases.end(),
+                  [](const auto &one) { return !one.contacts.empty(); }))
     names.insert(names.begin(), "slip");
   return names;
 }

@@ -58,10 +58,20 @@ initial = {}
 solver = {}
 output = {}
 """
+JAWS = PLAIN.replace('contact = { on = "left", friction = {}, heat = {} }',
+                     'contact = [{ on = "left", friction = {} }, { on = "right", heat = {} }]').replace(
+                         "displacement = [0, 0], ", "")
 
 # A table that may also be given as a value comes in all its forms.
 TRESCA = 'law = "tresca", bound = 15'
 COULOMB = 'law = "coulomb", coefficient = '
+CONTACT = 'contact = { on = "left", friction = { law = "tresca", bound = 15 } }'
+
+
+def contacts(*others):
+    """Beside the one of the square."""
+    return "contact = [" + ", ".join([CONTACT.removeprefix("contact = "), *others]) + "]"
+
 
 # A text that stands in the case, and what stands there instead.
 RIGHT = [
@@ -91,8 +101,21 @@ RIGHT = [
     (SQUARE, TRESCA, COULOMB + '{ static = "0.3 + y", kinetic = 0.2, speed = 1e-3 }'),
     (SQUARE, TRESCA, COULOMB + "{ static = 0.3, kinetic = 0.2, distance = 1e-6 }"),
     (SQUARE, "time =", "output = { fields = false, every = 3, report = false }\nregion = []\ntime ="),
+    (SQUARE, CONTACT, contacts()),
+    (SQUARE, CONTACT, contacts('{ name = "jaw_2", on = ["bottom"], normal = "unilateral", foundation_displacement = [0, 1], '
+                               'friction = { law = "coulomb", coefficient = 0.3 } }')),
+    (SQUARE, CONTACT, contacts('{ on = "bottom", normal = { law = "damped", coefficient = 1 } }', '{ on = "top", heat = { '
+                               'law = "exchange", coefficient = 1, foundation_temperature = "t" } }')),
 ]
 WRONG = {
+    "no contact in a list": (SQUARE, CONTACT, "contact = []"),
+    "contact without a boundary": (SQUARE, CONTACT, contacts("{}")),
+    "name that is no text": (SQUARE, CONTACT, contacts('{ on = "bottom", name = 3 }')),
+    "unknown key of the second contact": (SQUARE, CONTACT, contacts('{ on = "bottom", gpa = 3 }')),
+    "law of the second contact without its constant": (SQUARE, CONTACT, contacts('{ on = "bottom", friction.law = "tresca" }')),
+    "constant of another law at the second contact": (SQUARE, CONTACT, contacts('{ on = "bottom", friction = { law = "coulomb", coefficient = 1, bound = 3 } }')),
+    "three entries of the second foundation in two dimensions": (SQUARE, CONTACT, contacts('{ on = "bottom", foundation_displacement = [0, 0, 0] }')),
+    "text among contacts": (SQUARE, CONTACT, contacts('"bottom"')),
     "unknown key": (SQUARE, "bound = 15", "bound = 15, bonud = 15"),
     "unknown table": (SQUARE, "time =", "solvr = {}\ntime ="),
     "missing key": (SQUARE, "end = 1, ", ""),
@@ -124,7 +147,6 @@ WRONG = {
     "neither speed nor distance": (SQUARE, TRESCA, COULOMB + "{ static = 0.4, kinetic = 0.2 }"),
     "both speed and distance": (SQUARE, TRESCA, COULOMB + "{ static = 0.4, kinetic = 0.2, speed = 1, distance = 1 }"),
     "value beside static": (SQUARE, TRESCA, COULOMB + "{ value = 0.3, static = 0.4 }"),
-    "two contacts": (SQUARE, 'contact = { on = "left", friction = { law = "tresca", bound = 15 } }', 'contact = [{ on = "left" }, { on = "bottom" }]'),
     "charge law of a later version": (SQUARE, 'on = "left",', 'on = "left", charge = {},'),
     "too short a list": (SQUARE, "min = [0, 0]", "min = [0]"),
     "three displacements in two dimensions": (SQUARE, "displacement = [0, 0]", "displacement = [0, 0, 0]"),
@@ -215,7 +237,11 @@ def keys_of(schema, table):
     for name, inner in schema.get("properties", {}).items():
         if inner is False or name in ("file", "library"):  # a random name is that of nothing
             continue
-        if inner.get("type") == "object":
+        if inner.get("type") == ["object", "array"]:  # one table, or several
+            several = isinstance(table.get(name), list)
+            for entry in table[name] if several else [table[name]] if name in table else []:
+                yield from keys_of(inner["items"] if several else inner, entry)
+        elif inner.get("type") == "object":
             if name in table:
                 yield from keys_of(inner, table[name])
         elif inner.get("items", {}).get("type") == "object":
@@ -227,7 +253,7 @@ def keys_of(schema, table):
 
 def random_case(rng, schema):
     """A small case with one or two keys given at random, of all that are declared."""
-    case = copy.deepcopy(tomllib.loads(rng.choice([SQUARE, CUBE, TUBE, LAYERS, PLAIN, PLAIN])))
+    case = copy.deepcopy(tomllib.loads(rng.choice([SQUARE, CUBE, TUBE, LAYERS, PLAIN, PLAIN, JAWS])))
     for _ in range(rng.randint(1, 2)):
         table, name, inner = rng.choice(list(keys_of(schema, case)))
         table[name] = random_value(rng, inner)

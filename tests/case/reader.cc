@@ -65,65 +65,70 @@ TEST(Reader, AFreeComponentHasNoFormula) {
 
 TEST(Reader, ReadsTheContact) {
   const Case c = read();
-  ASSERT_TRUE(c.contact);
-  EXPECT_EQ(c.contact->on, std::vector<std::string>{"left"});
-  EXPECT_EQ(c.contact->normal.law, "bilateral");
-  EXPECT_EQ(c.contact->friction.law, "tresca");
-  EXPECT_EQ(c.contact->friction.bound.value({}, 0), 15);
-  EXPECT_EQ(c.contact->heat.law, "exchange");
-  EXPECT_EQ(c.contact->heat.coefficient.value({}, 0), 1);
-  EXPECT_EQ(c.contact->heat.foundation_temperature.value({}, 0), -27);
+  ASSERT_EQ(c.contacts.size(), 1u);
+  EXPECT_EQ(c.contacts.front().on, std::vector<std::string>{"left"});
+  EXPECT_EQ(c.contacts.front().normal.law, "bilateral");
+  EXPECT_EQ(c.contacts.front().friction.law, "tresca");
+  EXPECT_EQ(c.contacts.front().friction.bound.value({}, 0), 15);
+  EXPECT_EQ(c.contacts.front().heat.law, "exchange");
+  EXPECT_EQ(c.contacts.front().heat.coefficient.value({}, 0), 1);
+  EXPECT_EQ(c.contacts.front().heat.foundation_temperature.value({}, 0), -27);
 }
 
 TEST(Reader, ContactWithoutLawsIsSlipperyAndInsulated) {
   const Case c = read({"contact={on='left'}"});
-  EXPECT_EQ(c.contact->friction.law, "none");
-  EXPECT_EQ(c.contact->heat.law, "insulated");
+  EXPECT_EQ(c.contacts.front().friction.law, "none");
+  EXPECT_EQ(c.contacts.front().heat.law, "insulated");
 }
 
 TEST(Reader, ATextForTheNormalStandsForItsLaw) {
-  EXPECT_EQ(read({"contact.normal=unilateral"}).contact->normal.law, "unilateral");
-  EXPECT_EQ(read({"contact.normal={law='unilateral'}"}).contact->normal.law, "unilateral");
-  EXPECT_EQ(read({"contact={on='left'}"}).contact->normal.law, "bilateral");
+  EXPECT_EQ(read({"contact.normal=unilateral"}).contacts.front().normal.law, "unilateral");
+  EXPECT_EQ(read({"contact.normal={law='unilateral'}"}).contacts.front().normal.law, "unilateral");
+  EXPECT_EQ(read({"contact={on='left'}"}).contacts.front().normal.law, "bilateral");
 }
 
 TEST(Reader, ReadsANormalLawWithItsConstants) {
   const NormalCase normal =
       read({"contact.normal={law='compliance', coefficient='1e13*(1+y)', exponent=2}"})
-          .contact->normal;
+          .contacts.front()
+          .normal;
   EXPECT_EQ(normal.law, "compliance");
   EXPECT_EQ(normal.coefficient.value({0, 1}, 0), 2e13);
   EXPECT_EQ(normal.exponent, 2);
-  EXPECT_EQ(read({"contact.normal={law='damped', coefficient=1e9}"}).contact->normal.exponent, 1);
+  EXPECT_EQ(
+      read({"contact.normal={law='damped', coefficient=1e9}"}).contacts.front().normal.exponent, 1);
 }
 
 TEST(Reader, ReadsTheGapAndTheFoundationsMotion) {
   const ContactCase contact =
-      *read({"contact.gap='-1e-6*y'", "contact.foundation_displacement=[1e-9,'1e-6*t']"}).contact;
+      read({"contact.gap='-1e-6*y'", "contact.foundation_displacement=[1e-9,'1e-6*t']"})
+          .contacts.front();
   EXPECT_EQ(contact.gap.value({0, 2}, 0), -2e-6);
   ASSERT_EQ(contact.foundation_displacement.size(), 2u);
   EXPECT_EQ(contact.foundation_displacement[0].value({}, 3), 1e-9);
   EXPECT_EQ(contact.foundation_displacement[1].value({}, 3), 3e-6);
-  EXPECT_TRUE(read().contact->gap.is_zero());
-  EXPECT_TRUE(read().contact->foundation_displacement.empty());
+  EXPECT_TRUE(read().contacts.front().gap.is_zero());
+  EXPECT_TRUE(read().contacts.front().foundation_displacement.empty());
 }
 
 TEST(Reader, ANumberForTheCoefficientOfFrictionIsItsValue) {
   const FrictionCase friction =
       read({"contact.friction={law='coulomb', coefficient=0.3, cohesion=2, limit='3e4*(1+t)'}"})
-          .contact->friction;
+          .contacts.front()
+          .friction;
   EXPECT_EQ(friction.coefficient.value->value({}, 0), 0.3);
   EXPECT_FALSE(friction.coefficient.at_rest);
   EXPECT_EQ(friction.cohesion.value({}, 0), 2);
   EXPECT_EQ(friction.limit->value({}, 1), 6e4);
-  EXPECT_FALSE(read().contact->friction.limit);
+  EXPECT_FALSE(read().contacts.front().friction.limit);
 }
 
 TEST(Reader, ReadsACoefficientOfFrictionThatFallsWithSlip) {
   const FrictionCoefficientCase mu =
       read({"contact.friction={law='coulomb', coefficient={static=0.5, kinetic='0.3*y', "
             "distance=1e-6}}"})
-          .contact->friction.coefficient;
+          .contacts.front()
+          .friction.coefficient;
   EXPECT_FALSE(mu.value);
   EXPECT_EQ(mu.at_rest->value({}, 0), 0.5);
   EXPECT_EQ(mu.kinetic->value({0, 2}, 0), 0.6);
@@ -132,7 +137,7 @@ TEST(Reader, ReadsACoefficientOfFrictionThatFallsWithSlip) {
 }
 
 TEST(Reader, ACaseWithoutContactIsPossible) {
-  EXPECT_FALSE(read_text(cube, "cube.toml").contact);
+  EXPECT_TRUE(read_text(cube, "cube.toml").contacts.empty());
 }
 
 TEST(Reader, ThreeDimensionsFollowFromTheCells) {
@@ -180,7 +185,7 @@ TEST(Override, TheLastOneCounts) {
 
 TEST(Override, ReachesIntoInlineTables) {
   const Case c = read({"contact.friction.bound=30", "mesh.box.cells[0]=8"});
-  EXPECT_EQ(c.contact->friction.bound.value({}, 0), 30);
+  EXPECT_EQ(c.contacts.front().friction.bound.value({}, 0), 30);
   EXPECT_EQ(c.mesh.box->cells, (std::vector<int>{8, 64}));
 }
 
@@ -196,7 +201,7 @@ TEST(Override, MakesTheTablesThatTheFileLacks) {
       read_text(cube, "cube.toml",
                 {"contact.on=left", "contact.friction.bound=30", "contact.friction.law=tresca",
                  "boundary[1].on=top", "boundary[1].potential=5"});
-  EXPECT_EQ(c.contact->friction.bound.value({}, 0), 30);
+  EXPECT_EQ(c.contacts.front().friction.bound.value({}, 0), 30);
   EXPECT_EQ(c.boundaries.at(1).potential->value({}, 0), 5);
 }
 
@@ -221,28 +226,30 @@ TEST(Override, TheEqualsSignOfAFormulaBelongsToTheValue) {
 
 TEST(Override, AValueTakesThePlaceOfItsTable) {
   const std::string table = "contact.normal={law='compliance', coefficient=1e13}";
-  EXPECT_EQ(read({table, "contact.normal=unilateral"}).contact->normal.law, "unilateral");
+  EXPECT_EQ(read({table, "contact.normal=unilateral"}).contacts.front().normal.law, "unilateral");
   const std::string friction =
       "contact.friction={law='coulomb', coefficient={static=0.5, kinetic=0.3, speed=1}}";
   const FrictionCoefficientCase mu =
-      read({friction, "contact.friction.coefficient=0.2"}).contact->friction.coefficient;
+      read({friction, "contact.friction.coefficient=0.2"}).contacts.front().friction.coefficient;
   EXPECT_EQ(mu.value->value({}, 0), 0.2);
   EXPECT_FALSE(mu.speed);
 }
 
 TEST(Override, AKeyBesideAValueMakesItTheTable) {
-  const NormalCase normal =
-      read({"contact.normal=compliance", "contact.normal.coefficient=1e13"}).contact->normal;
+  const NormalCase normal = read({"contact.normal=compliance", "contact.normal.coefficient=1e13"})
+                                .contacts.front()
+                                .normal;
   EXPECT_EQ(normal.law, "compliance");
   EXPECT_EQ(normal.coefficient.value({}, 0), 1e13);
   // The file says normal = "bilateral".
   EXPECT_EQ(read({"contact.normal.coefficient=1e13", "contact.normal.law=compliance"})
-                .contact->normal.law,
+                .contacts.front()
+                .normal.law,
             "compliance");
 }
 
 TEST(Override, ReplacesAWholeTable) {
-  EXPECT_EQ(read({"contact.heat={law='insulated'}"}).contact->heat.law, "insulated");
+  EXPECT_EQ(read({"contact.heat={law='insulated'}"}).contacts.front().heat.law, "insulated");
 }
 
 }  // namespace

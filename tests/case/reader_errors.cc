@@ -62,7 +62,7 @@ const Mistake names[] = {
     {"friction = ",
      "frictoin = ",
      {"case.toml:31:1 [contact] frictoin",
-      "allowed: on, gap, foundation_displacement, normal, friction, heat",
+      "allowed: name, on, gap, foundation_displacement, normal, friction, heat",
       "did you mean \"friction\"?"}},
     {"bound = 15",
      "bonud = 15",
@@ -302,8 +302,9 @@ const Mistake contact_laws[] = {
     {tresca,
      coulomb("0.3, cohesion = 20, limit = 15"),
      {"[contact.friction] limit = 15", "at least the cohesion, which is 20 N/m^2"}},
-    {"[contact]", "[[contact]]", {"several contacts are not available in this version"}},
-    {"[contact]", "[[contact]]\non = \"top\"\n[[contact]]", {"several contacts are not available"}},
+    {"[contact]",
+     "[[contact]]\non = \"top\"\n[[contact]]",
+     {"[contact[0]] on = \"top\": the traction on a contact boundary is the law's"}},
 };
 INSTANTIATE_TEST_SUITE_P(ContactLaws, MistakeInAFile, testing::ValuesIn(contact_laws));
 

@@ -108,8 +108,8 @@ TEST(Resolved, KeepsEveryValueOfTheExample) {
   EXPECT_EQ(again.boundaries.size(), first.boundaries.size());
   EXPECT_EQ(again.boundaries[1].on, first.boundaries[1].on);
   EXPECT_EQ(again.boundaries[2].traction->at(1).text(), "-0.5*t");
-  EXPECT_EQ(again.contact->friction.bound.text(), "15");
-  EXPECT_EQ(again.contact->heat.foundation_temperature.text(), "-27");
+  EXPECT_EQ(again.contacts.front().friction.bound.text(), "15");
+  EXPECT_EQ(again.contacts.front().heat.foundation_temperature.text(), "-27");
 }
 
 }  // namespace

@@ -11,11 +11,16 @@ namespace {
 
 using testing::HasSubstr;
 
+std::string first(const std::vector<std::string> &warnings) {
+  return warnings.empty() ? "" : warnings.front();
+}
+
 // With mu from `at_rest` to `kinetic`.
 std::string warning(const std::string &at_rest, const std::string &kinetic) {
-  return snapping_warning(read_text(example, "case.toml",
-                                    {"contact.friction={law='coulomb', coefficient={static='" +
-                                     at_rest + "', kinetic='" + kinetic + "', speed=1e-3}}"}));
+  return first(
+      snapping_warnings(read_text(example, "case.toml",
+                                  {"contact.friction={law='coulomb', coefficient={static='" +
+                                   at_rest + "', kinetic='" + kinetic + "', speed=1e-3}}"})));
 }
 
 TEST(Snapping, IsFearedWhereFrictionFallsAsTheContactSlips) {
@@ -35,11 +40,21 @@ TEST(Snapping, IsJudgedOnTheContactDuringTheRun) {
 }
 
 TEST(Snapping, IsNotFearedOfAConstantCoefficient) {
-  EXPECT_EQ(snapping_warning(read_text(example, "case.toml",
-                                       {"contact.friction={law='coulomb', coefficient=0.3}"})),
-            "");
-  EXPECT_EQ(snapping_warning(read_text(example, "case.toml")), "");
-  EXPECT_EQ(snapping_warning(read_text(cube, "cube.toml")), "");
+  EXPECT_TRUE(snapping_warnings(read_text(example, "case.toml",
+                                          {"contact.friction={law='coulomb', coefficient=0.3}"}))
+                  .empty());
+  EXPECT_TRUE(snapping_warnings(read_text(example, "case.toml")).empty());
+  EXPECT_TRUE(snapping_warnings(read_text(cube, "cube.toml")).empty());
+}
+
+TEST(Snapping, IsFearedOfEachContact) {
+  const std::string law =
+      ", friction={law='coulomb', coefficient={static=0.4, kinetic=0.2, speed=1e-3}}}";
+  EXPECT_EQ(
+      snapping_warnings(read_text(example, "case.toml",
+                                  {"contact=[{on='left'" + law + ", {on='bottom'" + law + "]"}))
+          .size(),
+      2u);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ TEST(Bimorph, WithoutThePadItBendsByTheClosedForm) {
   casefile::Case asked = casefile::read_file(
       std::filesystem::path(TOURMALINE_SOURCE_DIR) / "cases/devices/bimorph.toml",
       {"output.fields=false"}, mesh::read_mesh_file);
-  asked.contact.reset();
+  asked.contacts.clear();
   const RunCase run(asked);
   const Table nodes = run.nodes();
   // Slender beams bend like this but for the ends: 1/20 of the length is as thick as the strip.

@@ -268,7 +268,7 @@ TEST(Iterative, ABodyWithoutContactIsSolvedToo) {
   casefile::Case asked = casefile::read_file(
       std::filesystem::path(TOURMALINE_SOURCE_DIR) / "cases/block-3d/twisted.toml",
       {"mesh.box.cells=[5,5,5]", "time.steps=2"}, mesh::read_mesh_file);
-  asked.contact.reset();
+  asked.contacts.clear();
   asked.solver.body = "direct";
   const RunCase expected(asked);
   asked.solver.body = "iterative";

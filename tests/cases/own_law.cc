@@ -123,7 +123,7 @@ TEST(OwnLaws, NeedANameOfOneLineAndAContact) {
     EXPECT_THAT(run, ThrowsMessage<CaseError>(HasSubstr("without a name")));
   }
   options.friction_name = "Tresca's";
-  asked.contact.reset();
+  asked.contacts.clear();
   EXPECT_THAT(run, ThrowsMessage<CaseError>(HasSubstr("has no [contact]")));
   options.friction = {};
   EXPECT_THAT(run, ThrowsMessage<CaseError>(HasSubstr("and gives none")));

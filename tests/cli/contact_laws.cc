@@ -10,6 +10,7 @@
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 /// Exit status and what the program says of `leaning`, changed.
 class ContactLaws : public Program {
@@ -59,9 +60,17 @@ TEST_F(ContactLaws, OfTheStateAreRefusedWithMultipliersOfFacets) {
   }
 }
 
-TEST_F(ContactLaws, SeveralContactsAreRefused) {
-  expect_answer(2, "--set 'contact=[{on=\"bottom\"},{on=\"left\"}]'",
-                {"several contacts are not available"});
+TEST_F(ContactLaws, SeveralContactsOnOneBoundaryAreRefused) {
+  expect_answer(2, "--set 'contact=[{on=\"bottom\"},{on=[\"left\",\"bottom\"]}]'",
+                {"in contact already", "a boundary can have one contact"});
+}
+
+TEST_F(ContactLaws, OfSeveralContactsThatMeetAtAnEdgeCheckTells) {
+  std::ofstream(here() / "corner.toml") << leaning;
+  EXPECT_EQ(run("check corner.toml --set 'contact=[{on=\"bottom\"},{on=\"left\"}]' " + rollers), 0);
+  EXPECT_THAT(said_, HasSubstr("# warning: corner.toml: contacts meet at an edge, at (-0.01, 0"));
+  EXPECT_EQ(run("check corner.toml --set 'contact=[{on=\"right\"},{on=\"left\"}]' " + rollers), 0);
+  EXPECT_THAT(said_, Not(HasSubstr("warning")));
 }
 
 // A quarter of a tube whose lower rim is held along one axis.

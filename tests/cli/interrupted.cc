@@ -73,6 +73,18 @@ TEST_F(Interrupted, TheMonolithicRouteGoesOn) {
   expect_to_go_on(paper + " --set solver.method=monolithic --set contact.friction.bound=0.02");
 }
 
+// One of which remembers its slip, the other not.
+TEST_F(Interrupted, SeveralContactsGoOn) {
+  const std::string clamped = std::string(TOURMALINE_SOURCE_DIR) +
+                              "/cases/clamped-block/block.toml --set output.every=70 --set "
+                              "contact[1].friction.coefficient={static=0.2,kinetic=0.15,"
+                              "distance=1e-7} --set time.steps=";
+  expect_to_go_on(clamped + "800");
+  std::filesystem::remove_all(here() / "one");
+  std::filesystem::remove_all(here() / "other");
+  expect_to_go_on(clamped + "150 --set solver.method=monolithic");
+}
+
 TEST_F(Interrupted, PiecewiseConstantMultipliersGoOn) {
   expect_to_go_on(paper +
                   " --set solver.method=monolithic --set solver.multiplier=piecewise-constant");

@@ -66,6 +66,33 @@ TEST(Interface, ContactAroundACornerIsRefusedBecauseTheNormalIsNotUnique) {
       CaseError);
 }
 
+// Two sides of a square, in either order.
+TEST(Interface, AnEdgeOfTwoContactsBelongsToTheFirst) {
+  const auto body = box<2>(casefile::CellShape::triangle, {4, 6}, 1);
+  const auto one = interface_of(body, {{"left"}, {"bottom"}}),
+             other = interface_of(body, {{"bottom"}, {"left"}});
+  ASSERT_EQ(one.nodes.size(), 7u + 4u);
+  const auto &corner = one.nodes.front(), &same = other.nodes.front();
+  EXPECT_EQ(one.edges, std::vector<body::Node>{corner.node});
+  EXPECT_NEAR(corner.weight, 0.25, 1e-15);
+  EXPECT_LT((corner.normal - Eigen::Vector2d(-1, 0)).norm(), 1e-15);
+  EXPECT_NEAR(same.weight, 0.25, 1e-15);
+  EXPECT_LT((same.normal - Eigen::Vector2d(0, -1)).norm(), 1e-15);
+  for (const auto &node : one.nodes)
+    EXPECT_EQ(node.contact, node.point[0] == 0 ? 0u : 1u);
+  for (const auto &node : other.nodes)
+    EXPECT_EQ(node.contact, node.point[1] == 0 ? 0u : 1u);
+}
+
+TEST(Interface, ContactsThatDoNotMeetHaveNoEdges) {
+  const auto found =
+      interface_of(box<3>(casefile::CellShape::hexahedron, {2, 3, 2}, 1), {{"left"}, {"right"}});
+  EXPECT_TRUE(found.edges.empty());
+  EXPECT_EQ(found.nodes.size(), 24u);
+  EXPECT_TRUE(std::is_sorted(found.nodes.begin(), found.nodes.end(),
+                             [](const auto &a, const auto &b) { return a.node < b.node; }));
+}
+
 // Round-off leaves 1e-17 of a cell's shape functions on the facets that their nodes are not on.
 TEST(Interface, BothFacesOfAPlateOneCellThickHaveTheirOwnNormals) {
   using casefile::CellShape;

@@ -59,7 +59,7 @@ void expect_equal_tables(const Table &one, const Table &several) {
     SCOPED_TRACE(name);
     ASSERT_TRUE(several.columns.contains(name));
     ASSERT_EQ(several.n_rows(), one.n_rows());
-    if (name == "status")
+    if (name == "status" || name == "contact")
       EXPECT_EQ(several.columns.at(name), values);
     else
       EXPECT_LE(difference(several, one, name), 1e-9);
@@ -255,6 +255,49 @@ class Ranks : public ::testing::TestWithParam<int> {
 
 TEST_P(Ranks, ThePaperSExampleIsTheSame) {
   expect_same(paper_);
+}
+
+TEST_P(Ranks, SeveralContactsOfDifferentLawsAreTheSame) {
+  const std::string clamped =
+      std::string(TOURMALINE_SOURCE_DIR) + "/cases/clamped-block/block.toml --set time.steps=4 ";
+  for (const std::string method : {"condensed", "monolithic"}) {
+    SCOPED_TRACE(method);
+    ASSERT_NO_FATAL_FAILURE(run_twice(clamped + "--set solver.method=" + method));
+    expect_equal_quantities(table_of_one("nodes.csv"), table_of_several("nodes.csv"),
+                            {{"u_x", "u_y"}, {"potential"}, {"temperature"}}, 1e-9);
+    const Table contact = table_of_one("contact.csv"), same = table_of_several("contact.csv");
+    expect_equal_quantities(
+        contact, same,
+        {{"normal_traction", "tangential_traction_y", "friction_bound"}, {"slip_y"}, {"heat_flux"}},
+        1e-9);
+    for (const char *column : {"status", "contact"})
+      EXPECT_EQ(same.columns.at(column), contact.columns.at(column));
+    expect_equal_quantities(table_of_one("history.csv"), table_of_several("history.csv"),
+                            {{"contact_force_x_wall", "contact_force_x_jaw"},
+                             {"contact_moment_z_wall", "contact_moment_z_jaw"},
+                             {"contact_heat_wall", "contact_heat_jaw"},
+                             {"slip_wall", "slip_jaw"}},
+                            1e-9);
+  }
+}
+
+// On every rank the same contact has a node at the edge.
+TEST_P(Ranks, ContactsThatMeetAtAnEdgeAreTheSame) {
+  const std::string met = file_of(std::string(block) + R"toml(
+[[contact]]
+on = "bottom"
+friction = { law = "tresca", bound = 0.1 }
+[[contact]]
+on = "back"
+)toml");
+  std::string text = output::content_of(met);
+  const std::string alone = "[contact]";
+  text.replace(text.find(alone), alone.size(), "[[contact]]");
+  std::ofstream(met) << text;
+  for (const std::string body : {"direct", "iterative"}) {
+    SCOPED_TRACE(body);
+    expect_same(met + " --set solver.body=" + body);
+  }
 }
 
 TEST_P(Ranks, TheMonolithicRouteIsTheSame) {

@@ -113,5 +113,19 @@ TEST(ContactPieces, AreNoneWhereTheTableHasOtherNodes) {
   EXPECT_TRUE(contact_pieces({{"left", {{0, 1}}}}, {{0, 0}}).empty());
 }
 
+// Around the corner at node 2, which is the second contact's.
+TEST(ContactPieces, OfSeveralContactsEndWithTheirOwnNodes) {
+  const Places places{{0, 3}, {0, 2}, {0, 0}, {0, 1}, {1, 0}, {2, 0}, {3, 0}};
+  const NamedFacets left{"left", {{0, 1}, {1, 3}, {3, 2}}, 1},
+      bottom{"bottom", {{2, 4}, {4, 5}, {5, 6}}, 0};
+  const auto pieces = contact_pieces({left, bottom}, places, {1, 1, 1, 1, 0, 0, 0});
+  ASSERT_EQ(pieces.size(), 2u);
+  EXPECT_EQ(pieces[0].name, "left");
+  EXPECT_EQ(pieces[0].along, (std::vector<double>{0, 1, 2, 3}));
+  EXPECT_EQ(pieces[1].name, "bottom");
+  EXPECT_EQ(pieces[1].along, (std::vector<double>{1, 2, 3}));
+  EXPECT_EQ(contact_pieces({left, {"bottom", bottom.facets, 1}}, places).size(), 1u);
+}
+
 }  // namespace
 }  // namespace tourmaline::report

@@ -37,10 +37,10 @@ TEST(Legend, ContactNamesItsLawsAndStaysContactBesideAPotential) {
   casefile::Case asked;
   asked.boundaries = {entry("left")};
   asked.boundaries[0].potential = Formula(0.);
-  asked.contact.emplace();
-  asked.contact->on = {"left"};
-  asked.contact->friction.law = "tresca";
-  asked.contact->friction.bound = Formula("10 + y");
+  asked.contacts.emplace_back();
+  asked.contacts.front().on = {"left"};
+  asked.contacts.front().friction.law = "tresca";
+  asked.contacts.front().friction.bound = Formula("10 + y");
   const Conditions conditions = conditions_on(asked, "left");
   EXPECT_EQ(conditions.kind, "contact");
   EXPECT_THAT(conditions.texts, ElementsAre("bilateral contact", "Tresca friction, S = 10 + y N/m²",
@@ -49,15 +49,15 @@ TEST(Legend, ContactNamesItsLawsAndStaysContactBesideAPotential) {
 
 TEST(Legend, ContactNamesTheConstantsOfItsLaws) {
   casefile::Case asked;
-  asked.contact.emplace();
-  asked.contact->on = {"left"};
-  asked.contact->gap = Formula("1e-6*y");
-  asked.contact->foundation_displacement = {Formula(0.), Formula("t")};
-  asked.contact->normal = {"compliance", Formula(1e13), 1.5};
-  asked.contact->friction.law = "coulomb";
-  asked.contact->friction.cohesion = Formula(2.);
-  asked.contact->friction.limit = Formula(30.);
-  casefile::FrictionCoefficientCase &mu = asked.contact->friction.coefficient;
+  asked.contacts.emplace_back();
+  asked.contacts.front().on = {"left"};
+  asked.contacts.front().gap = Formula("1e-6*y");
+  asked.contacts.front().foundation_displacement = {Formula(0.), Formula("t")};
+  asked.contacts.front().normal = {"compliance", Formula(1e13), 1.5};
+  asked.contacts.front().friction.law = "coulomb";
+  asked.contacts.front().friction.cohesion = Formula(2.);
+  asked.contacts.front().friction.limit = Formula(30.);
+  casefile::FrictionCoefficientCase &mu = asked.contacts.front().friction.coefficient;
   mu.at_rest = Formula(0.5);
   mu.kinetic = Formula("0.3 + y");
   mu.distance = 1e-6;
@@ -72,25 +72,25 @@ TEST(Legend, ContactNamesTheConstantsOfItsLaws) {
 
 TEST(Legend, ContactNamesItsNormalLaw) {
   casefile::Case asked;
-  asked.contact.emplace();
-  asked.contact->on = {"left"};
-  asked.contact->normal.law = "unilateral";
-  asked.contact->friction.law = "coulomb";
-  asked.contact->friction.coefficient.value = Formula(0.3);
+  asked.contacts.emplace_back();
+  asked.contacts.front().on = {"left"};
+  asked.contacts.front().normal.law = "unilateral";
+  asked.contacts.front().friction.law = "coulomb";
+  asked.contacts.front().friction.coefficient.value = Formula(0.3);
   EXPECT_THAT(conditions_on(asked, "left").texts,
               ElementsAre("unilateral contact", "Coulomb friction, μ = 0.3", "insulated, q·ν = 0"));
-  asked.contact->normal = {"damped", Formula(1e9)};
+  asked.contacts.front().normal = {"damped", Formula(1e9)};
   EXPECT_EQ(conditions_on(asked, "left").texts[0], "damped contact, c = 1·10⁹ N s/m³");
-  asked.contact->normal = {"compliance", Formula(2e13), 1};
+  asked.contacts.front().normal = {"compliance", Formula(2e13), 1};
   EXPECT_EQ(conditions_on(asked, "left").texts[0], "compliance, p = c (u_ν − g)₊, c = 2·10¹³ N/m³");
 }
 
 TEST(Legend, LawsOfAProgramStandInstead) {
   casefile::Case asked;
-  asked.contact.emplace();
-  asked.contact->on = {"left"};
-  asked.contact->friction.law = "tresca";
-  asked.contact->friction.bound = Formula(15.);
+  asked.contacts.emplace_back();
+  asked.contacts.front().on = {"left"};
+  asked.contacts.front().friction.law = "tresca";
+  asked.contacts.front().friction.bound = Formula(15.);
   EXPECT_THAT(conditions_on(asked, "left", "nap").texts,
               ElementsAre("bilateral contact", "friction of a program: nap", "insulated, q·ν = 0"));
 }

@@ -101,6 +101,31 @@ TEST(Page, TheFrictionBoundIsEvaluatedWhereAndWhenItActs) {
   EXPECT_EQ(results[0]["frictionBound"]["columns"], 3 * 4);
 }
 
+TEST(Page, OfSeveralContactsEachNodeHasTheBoundOfItsOwn) {
+  ResultFolder run({"time.steps=2",
+                    "contact=[{name=\"wall\", on=\"left\", friction={law=\"tresca\", bound=7}}, "
+                    "{on=\"bottom\"}]"});
+  const auto result = results_in(run.content("report.html"))[0];
+  EXPECT_EQ(result["contacts"].dump(), "[\"wall\",\"bottom\"]");
+  std::map<std::string, nlohmann::json> conditions;
+  for (const auto &boundary : result["boundaries"])
+    conditions[boundary["name"]] = boundary["conditions"];
+  EXPECT_EQ(conditions["left"][0], "contact wall");
+  EXPECT_EQ(conditions["left"][2], "Tresca friction, S = 7 N/m²");
+  EXPECT_EQ(conditions["bottom"][2], "no friction");
+  const Result read = read_result(run.path(), {});
+  const std::vector<double> &contact = *read.contact->find("contact"),
+                            &x = *read.contact->find("x");
+  for (std::size_t i = 0; i < read.contact->n_rows(); ++i) {
+    EXPECT_EQ(contact[i], x[i] == 0 ? 0 : 1);
+    EXPECT_EQ(read.friction_bound[i], x[i] == 0 ? 7 : 0);
+  }
+  ASSERT_EQ(read.contact_pieces.size(), 2u);
+  for (const ContactPiece &piece : read.contact_pieces)
+    for (const auto row : piece.rows)
+      EXPECT_EQ(contact[row], piece.name == "left" ? 0 : 1);
+}
+
 TEST(Page, ABoundThatTheTableHasStandsThereOnce) {
   const ResultFolder run({"time.steps=1", "contact.normal=\"unilateral\"",
                           "contact.friction={law=\"coulomb\", coefficient=0.3, cohesion=2}"});

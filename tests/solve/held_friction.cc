@@ -327,7 +327,7 @@ class HeldFriction : public ::testing::TestWithParam<std::tuple<Variant, const c
       for (const auto &at : reference.nodes())
         if constexpr (dim == 3)
           own.push_back(std::make_shared<testing::Ellipse>(ellipse_in(at.tangent)));
-      const double bound = c.contact->friction.bound.value({}, time);
+      const double bound = c.contacts.front().friction.bound.value({}, time);
       reference.projection = [&](std::size_t i, const Tangent &x) -> Tangent {
         if (variant.own_law)
           return own[i]->traction(x);

@@ -63,6 +63,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Shipped{"ouafik-2020/insulated.toml", {"mesh.box.cells=[8,8]", "time.steps=2"}},
                     Shipped{"devices/friction-sensor-loaded.toml", {"time.steps=2"}},
                     Shipped{"block-3d/twisted.toml", {"mesh.box.cells=[3,3,3]", "time.steps=1"}},
+                    Shipped{"clamped-block/block.toml", {"time.steps=2"}},
                     Shipped{"ring/ring.toml", {"mesh.annulus.cells=[2,16]", "time.steps=1"}},
                     Shipped{"../" + laws + "coulomb-warmed.toml", {"time.steps=2"}},
                     Shipped{"../" + laws + "hertz.toml", {"time.steps=1"}},

@@ -52,7 +52,7 @@ Problem<dim> sliding_block() {
     problem.prescribe(all[i]);
   problem.charge(all[0]);
   const Vector<dim> normal = normal_of<dim>(all[0]);
-  casefile::ContactCase &contact = problem.asked.contact.emplace();
+  casefile::ContactCase &contact = problem.asked.contacts.emplace_back();
   contact.on = {"left"};
   contact.friction.law = "tresca";
   contact.friction.bound = Formula("-(" + problem.exact.traction(1, normal) + ")");

@@ -56,9 +56,9 @@ casefile::Case turned(casefile::Case asked, const Eigen::MatrixXd &rotation) {
     displacement = turned(displacement, rotation);
     boundary.displacement->assign(displacement.begin(), displacement.end());
   }
-  if (asked.contact && !asked.contact->foundation_displacement.empty())
-    asked.contact->foundation_displacement =
-        turned(asked.contact->foundation_displacement, rotation);
+  if (!asked.contacts.empty() && !asked.contacts.front().foundation_displacement.empty())
+    asked.contacts.front().foundation_displacement =
+        turned(asked.contacts.front().foundation_displacement, rotation);
   return asked;
 }
 

@@ -7,6 +7,7 @@ import pathlib
 import sys
 
 import comparison
+import contact_laws
 import exact_cases
 import monolithic
 import other_codes
@@ -42,6 +43,7 @@ def verification(program, asked, command):
     document = page.Page(program.commit)
     document.add(introduction(program, command))
     exact_cases.add_to(document, program)
+    contact_laws.add_to(document, program)
     other_codes.add_to(document, program)
     paper_example.add_meshes(document, values)
     paper_example.add_corners(document, values)

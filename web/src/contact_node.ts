@@ -141,7 +141,9 @@ export class ContactNode {
 
   private say() {
     const { contact, dimension } = this.result;
-    this.where.textContent = axes.slice(0, dimension).map((axis) => `${axis} = ${shown(contact!.column(axis)![this.row])} m`).join(', ');
+    const name = this.result.contactOf(this.row);
+    this.where.textContent = axes.slice(0, dimension).map((axis) => `${axis} = ${shown(contact!.column(axis)![this.row])} m`)
+      .concat(name ? [`contact ${name}`] : []).join(', ');
     const along = this.along();
     this.direction.textContent = this.places[this.chosen].tangent ? ''
       : `Slip and traction along (${along.map((v) => shown(v, 3)).join(', ')}), the direction of the node's greatest slip.`;

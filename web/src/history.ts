@@ -55,6 +55,8 @@ function groups(history: Table, dimension: 2 | 3): Group[] {
       ['conduction_loss', 'conduction'], ['time_step_loss', 'time step']] },
     { title: 'Newton iterations', unit: '', columns: [['newton_iterations', 'iterations']], bars: true },
     { title: 'Contact nodes', unit: '', columns: [['stick', 'stick'], ['slip', 'slip'], ['open', 'open']] },
+    ...named('stick_').map(([, name]): Group => ({ title: `Contact nodes of ${name}`, unit: '',
+      columns: [[`stick_${name}`, 'stick'], [`slip_${name}`, 'slip'], [`open_${name}`, 'open']] })),
     { title: 'Charge', unit: 'C' + per, columns: named('charge_'), least: least.charge },
     { title: 'Heat out of the body', unit: 'W' + per, columns: named('heat_').filter(([n]) => n !== 'heat_source'),
       least: least.thermal },

@@ -22,6 +22,8 @@ interface PackedResult {
   grid?: Record<'points' | 'nodes' | 'cells' | 'triangles' | 'triangleCells' | 'edges', Packed>;
   history?: PackedTable;
   contact?: PackedTable;
+  /** names of several contacts, by the numbers of the column `contact` */
+  contacts?: string[];
   frictionBound?: Packed;
 }
 
@@ -190,6 +192,9 @@ export class Result {
       if (bound?.some((v) => v !== 0)) this.frictionBound = bound;
     }
   }
+
+  /** Which of several contacts a row belongs to; empty where there is but one. */
+  contactOf(row: number): string { return this.packed.contacts?.[this.contact?.column('contact')?.[row] ?? -1] ?? ''; }
 
   /** Whether the contact can open, as the balance of energy has it. */
   get contactOpens(): boolean { return !!this.history?.names.includes('contact_energy'); }

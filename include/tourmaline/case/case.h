@@ -49,7 +49,7 @@ struct Case {
   TimeCase time;
   std::vector<BoundaryCase> boundaries;
   std::vector<ElectrodeCase> electrodes;
-  std::optional<ContactCase> contact;
+  std::vector<ContactCase> contacts;  ///< no boundary in two of them
   SolverCase solver;
   OutputCase output;
   LoadCase load;

@@ -39,7 +39,9 @@ struct HeatExchangeCase {
   Formula foundation_temperature = 0;  ///< theta_f [K], difference to the reference temperature
 };
 
+/// One contact with a foundation. A case may have several, on boundaries of their own.
 struct ContactCase {
+  std::optional<std::string> name;  ///< letters, digits, _ and -
   std::vector<std::string> on;
   std::string where;
   std::map<std::string, std::string> places;  ///< of its keys: file, line and key
@@ -50,6 +52,9 @@ struct ContactCase {
   NormalCase normal;
   FrictionCase friction;
   HeatExchangeCase heat;
+
+  /// The contact in files and texts: its name, or else those of its boundaries, "left+right".
+  std::string called() const;
 };
 
 }  // namespace tourmaline::casefile

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <variant>
 
@@ -25,11 +26,13 @@ struct ContactPlace {
   /// orthonormal columns of the tangent plane, which the law's components belong to: those along
   /// which the point is free to slip come first
   Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> directions;
+  std::size_t contact = 0;  ///< which of the case's contacts, in the order of the case file
 };
 
 template <class Directions>
-ContactPlace contact_place(const Vector3 &point, double time, const Directions &directions) {
-  ContactPlace place{point, time, {}};
+ContactPlace contact_place(const Vector3 &point, double time, const Directions &directions,
+                           std::size_t contact) {
+  ContactPlace place{point, time, {}, contact};
   place.directions.setZero(3, directions.cols());
   place.directions.topRows(directions.rows()) = directions;
   return place;

@@ -1,0 +1,49 @@
+#include "contact/contacts.h"
+
+#include <algorithm>
+
+namespace tourmaline::contact {
+
+Contacts::Contacts(const std::vector<casefile::ContactCase> &asked, double step) {
+  for (const casefile::ContactCase &contact : asked)
+    all_.emplace_back(contact, step);
+}
+
+bool Contacts::any(bool (ContactLaws::*is_so)() const) const {
+  return std::any_of(all_.begin(), all_.end(),
+                     [&](const ContactLaws &laws) { return (laws.*is_so)(); });
+}
+
+bool Contacts::has_moving_foundation() const {
+  return any(&ContactLaws::has_moving_foundation);
+}
+
+bool Contacts::has_normal_unknowns() const {
+  return any(&ContactLaws::has_normal_unknowns);
+}
+
+bool Contacts::can_open() const {
+  return any(&ContactLaws::can_open);
+}
+
+bool Contacts::friction_depends_on_pressure() const {
+  return any(&ContactLaws::friction_depends_on_pressure);
+}
+
+bool Contacts::remembers_slip() const {
+  return any(&ContactLaws::remembers_slip);
+}
+
+FrictionAt Contacts::friction() const {
+  std::vector<FrictionAt> by_contact;
+  for (const ContactLaws &laws : all_)
+    by_contact.push_back(laws.friction());
+  return [by_contact](const ContactPlace &place) { return by_contact[place.contact](place); };
+}
+
+void Contacts::replace_friction() {
+  for (ContactLaws &laws : all_)
+    laws.replace_friction();
+}
+
+}  // namespace tourmaline::contact

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "contact/interface.h"
+#include "contact/laws.h"
+
+namespace tourmaline::contact {
+
+/// The laws of all contacts of a case. What is asked of them together is whether any of them is so;
+/// without contact none is.
+class Contacts {
+ public:
+  Contacts() = default;
+  /// `step`: k [s].
+  Contacts(const std::vector<casefile::ContactCase> &asked, double step);
+
+  /// By the order of the case file.
+  const ContactLaws &operator[](std::size_t contact) const { return all_[contact]; }
+  template <int dim>
+  const ContactLaws &of(const InterfaceNode<dim> &at) const {
+    return all_[at.contact];
+  }
+
+  bool has_moving_foundation() const;
+  bool has_normal_unknowns() const;
+  bool can_open() const;
+  bool friction_depends_on_pressure() const;
+  bool remembers_slip() const;
+
+  /// Of the contact that the place belongs to.
+  FrictionAt friction() const;
+  /// A program's own friction takes the place of the case's at all contacts.
+  void replace_friction();
+
+ private:
+  bool any(bool (ContactLaws::*is_so)() const) const;
+
+  std::vector<ContactLaws> all_;
+};
+
+}  // namespace tourmaline::contact

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "output/summary.h"
+#include "solve/model.h"
+#include "solve/route.h"
+
+namespace tourmaline::run {
+
+/// The contact of that number by its name; empty where it is the only one.
+std::string name_of_several(const std::vector<casefile::ContactCase> &contacts, std::size_t number);
+
+/// Where there are several contacts, columns of history.csv for each, behind `quantities`: numbers
+/// of nodes by status, forces and moments on the body, heat out of it. `quantities` are those of
+/// the step: moments stand beside the one of all contacts, heats are the sums of those of
+/// boundaries.
+template <int dim>
+void add_contact_sums(const solve::Model<dim> &model, const solve::StepOutcome &outcome,
+                      std::vector<std::pair<std::string, double>> &quantities);
+
+/// For summary.json; empty where there are not several.
+template <int dim>
+std::vector<output::ContactRecord> contact_records(const solve::Model<dim> &model);
+
+}  // namespace tourmaline::run
