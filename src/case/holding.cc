@@ -133,18 +133,10 @@ std::vector<Support> supports_of(const Case &asked, Held by_contact) {
   return supports;
 }
 
-// An iterative solution of the body's equations needs a body that is held whatever the contact
-// does.
-bool may_lean(const Case &asked) {
-  return asked.solver.body != "iterative";
-}
-
 // What the contact does for the holding, in brackets.
 std::string words_of_contact(const Case &asked) {
   if (asked.contacts.empty())
     return "";
-  if (!may_lean(asked))
-    return " (friction and contact that opens hold no body with solver.body = \"iterative\")";
   const bool is_slippery =
       std::all_of(asked.contacts.begin(), asked.contacts.end(),
                   [](const ContactCase &contact) { return contact.friction.law == "none"; });
@@ -188,8 +180,8 @@ void check_holding(const Case &asked) {
                          : " [[electrode]]: the electric potential floats, as no electrode has a "
                            "path to a given voltage; give one a `voltage`, or a boundary a "
                            "`potential`"));
-  const std::vector<std::string> free = free_motions(
-      asked.dimension, supports_of(asked, may_lean(asked) ? Held::all_it_can : Held::never_lost));
+  const std::vector<std::string> free =
+      free_motions(asked.dimension, supports_of(asked, Held::all_it_can));
   if (!free.empty())
     throw CaseError(fmt::format(
         "{} [[boundary]]: nothing holds the body against {}; prescribe further components of "

@@ -136,7 +136,6 @@ void declare(Visitor &v, SolverCase &solver, const std::vector<ContactCase> &con
         &solver.threads);
   declare_augmented_lagrangian(v, solver);
   v.check("multiplier", [&] { return multiplier_complaint(contacts, solver.multiplier); });
-  v.check("body", [&] { return body_complaint(contacts, solver.body); });
 }
 
 void declare(Visitor &v, OutputCase &output) {

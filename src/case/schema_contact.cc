@@ -274,16 +274,6 @@ std::string multiplier_complaint(const std::vector<ContactCase> &contacts,
       law, multiplier);
 }
 
-std::string body_complaint(const std::vector<ContactCase> &contacts, const std::string &body) {
-  const std::string law = law_of_the_state(contacts);
-  if (law.empty() || body != "iterative")
-    return "";
-  return fmt::format(
-      "contact with {} is not available with solver.body = \"iterative\" in this version; take "
-      "\"direct\"",
-      law);
-}
-
 void declare_contacts(Visitor &v, std::vector<ContactCase> &contacts, const MeshCase &mesh,
                       int dimension) {
   const Key key = {.name = "contact",

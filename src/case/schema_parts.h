@@ -30,10 +30,8 @@ void declare_boundaries(Visitor &v, std::vector<BoundaryCase> &boundaries, const
 void declare_electrodes(Visitor &v, std::vector<ElectrodeCase> &electrodes, const MeshCase &mesh);
 void declare_contacts(Visitor &v, std::vector<ContactCase> &contacts, const MeshCase &mesh,
                       int dimension);
-/// Of contacts whose laws the way of solving cannot take; empty: it can. `solver` and `body` are
-/// those of [solver].
+/// Of contacts whose laws the way of solving cannot take; empty: it can.
 std::string multiplier_complaint(const std::vector<ContactCase> &contacts,
                                  const std::string &multiplier);
-std::string body_complaint(const std::vector<ContactCase> &contacts, const std::string &body);
 
 }  // namespace tourmaline::casefile

@@ -53,7 +53,7 @@ struct BodySystem<dim>::Parts {
   std::vector<double> in_si(Vec scaled) const;
   void put_rows(std::span<const double> all, Vec scaled) const;
   void project(std::span<double> vector) const;
-  void multiply_cells(Vec x, Vec y) const;
+  void multiply_whole(Vec x, Vec y) const;
   Block block_of(Node node) const;
   void put_contact();
   void precondition();
@@ -62,7 +62,8 @@ struct BodySystem<dim>::Parts {
   double step;
   std::vector<bool> is_prescribed;
   std::vector<NodeTangent<dim>> contact, preconditioned;
-  std::vector<int> contact_index;     // by node; -1: not at the contact
+  std::vector<NodeCoupling<dim>> coupling;  // as `contact`, or empty
+  std::vector<int> contact_index;           // by node; -1: not at the contact
   std::vector<Block> contact_blocks;  // diagonal blocks of this rank's contact nodes, without C
   NodeRows rows;
   std::vector<std::pair<PetscInt, Block>> held;  // own rows, from the first one on, where Q != 1
@@ -229,8 +230,8 @@ PetscErrorCode BodySystem<dim>::Parts::multiply_free(Mat free, Vec x, Vec y) {
   PetscCall(VecGetArray(in->projected, &own));
   in->project_own(own);
   PetscCall(VecRestoreArray(in->projected, &own));
-  if (in->cells != nullptr)
-    in->multiply_cells(in->projected, y);
+  if (in->cells != nullptr || !in->coupling.empty())
+    in->multiply_whole(in->projected, y);
   else
     PetscCall(MatMult(in->matrix, in->projected, y));
   PetscFunctionReturn(0);
@@ -263,18 +264,29 @@ void BodySystem<dim>::Parts::put_rows(std::span<const double> all, Vec scaled) c
   check(VecRestoreArray(scaled, &own));
 }
 
-// Q (K + C) x for an x in the range of Q.
+// Q (K + C) x + E K x + G x for an x in the range of Q.
 template <int dim>
-void BodySystem<dim>::Parts::multiply_cells(Vec x, Vec y) const {
+void BodySystem<dim>::Parts::multiply_whole(Vec x, Vec y) const {
   using Vector = Eigen::Matrix<double, dim, 1>;
   const std::vector<double> state = in_si(x);
   std::vector<double> product(state.size());
-  cells->multiply(step, state, product);
+  if (cells != nullptr)
+    cells->multiply(step, state, product);
+  else
+    op.multiply(step, state, product);
+  std::vector<Vector> coupled;
+  for (std::size_t i = 0; i < coupling.size(); ++i) {
+    const std::size_t first = unknown<dim>(contact[i].node, 0);
+    coupled.push_back(coupling[i].of_force * Vector::Map(&product[first]) +
+                      coupling[i].of_displacement * Vector::Map(&state[first]));
+  }
   for (const NodeTangent<dim> &at : contact) {
     const std::size_t first = unknown<dim>(at.node, 0);
     Vector::Map(&product[first]) += at.stiffness * Vector::Map(&state[first]);
   }
   project(product);
+  for (std::size_t i = 0; i < coupled.size(); ++i)
+    Vector::Map(&product[unknown<dim>(contact[i].node, 0)]) += coupled[i];
   put_rows(product, y);
 }
 
@@ -351,6 +363,11 @@ void BodySystem<dim>::set_contact(const std::vector<NodeTangent<dim>> &contact) 
   if (!as_free)
     in.precondition();
   in.set_up_seconds += watch.lap();
+}
+
+template <int dim>
+void BodySystem<dim>::set_coupling(std::vector<NodeCoupling<dim>> coupling) {
+  parts_->coupling = std::move(coupling);
 }
 
 template <int dim>

@@ -24,6 +24,13 @@ struct NodeTangent {
   bool operator==(const NodeTangent &) const = default;
 };
 
+/// What else acts at a contact node, along directions that its projector leaves free: `of_force`
+/// times the node's rows of K x, and `of_displacement` [N/m] times its displacement.
+template <int dim>
+struct NodeCoupling {
+  typename NodeTangent<dim>::Matrix of_force, of_displacement;
+};
+
 /// What a linear solve took, and whether it came as far as it was asked to.
 struct Solved {
   int iterations = 0;
@@ -51,6 +58,9 @@ class BodySystem {
   /// Sets the matrix of another contact; one entry for each contact node, always the same nodes.
   /// The preconditioner stays where only stiffnesses differ.
   void set_contact(const std::vector<NodeTangent<dim>> &contact);
+  /// From now on the iteration solves Q (K + C) Q x + E K Q x + G Q x = Q r, with E and G of these,
+  /// one for each contact node, or of none; the preconditioner stays. `set_contact` comes first.
+  void set_coupling(std::vector<NodeCoupling<dim>> coupling);
   /// Makes the preconditioner that of the matrix as it is now, unless it is.
   void refresh();
 

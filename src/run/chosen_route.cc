@@ -59,6 +59,7 @@ solve::StepOutcome ChosenRoute<dim>::advance(int n, std::span<const double> righ
 // worth all the memory that there is.
 template <int dim>
 void ChosenRoute<dim>::factorise_after_all(int n, const SolveError &error) {
+  const Eigen::VectorXd slip = route_->accumulated_slip();
   route_.reset();
   const double needed = factorised_memory(model_.asked), available = available_memory().bytes;
   if (parallel::from_first(needed > available) != 0)
@@ -70,6 +71,8 @@ void ChosenRoute<dim>::factorise_after_all(int n, const SolveError &error) {
   direct_from_ = n;
   progress_.stage("factorisation");
   route_ = make_route(model_, iterative_);
+  if (slip.size() > 0)
+    route_->go_on_from(slip);
 }
 
 template <int dim>

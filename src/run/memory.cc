@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -46,8 +45,6 @@ bool solves_iteratively(const casefile::Case &asked) {
   if (asked.solver.method != "condensed" || asked.solver.body == "direct")
     return false;
   const bool too_large = asked.dimension == 3 && casefile::all_voltages_given(asked) &&
-                         std::none_of(asked.contacts.begin(), asked.contacts.end(),
-                                      [](const auto &one) { return one.depends_on_state(); }) &&
                          casefile::left_to_contact(asked).empty() &&
                          factorised_memory(asked) > available_memory().bytes / 2;
   return asked.solver.body == "iterative" || parallel::from_first(too_large) != 0;

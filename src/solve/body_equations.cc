@@ -14,6 +14,7 @@ namespace tourmaline::solve {
 namespace {
 
 constexpr double of_a_correction = 1e-12;  // reduction of the residual, once refined
+constexpr double of_round_off = 2e-15;     // of the terms of a row
 constexpr double enough = 1e-15;           // a correction that changes no digit
 
 // Of the rows of each field: u, phi, theta.
@@ -47,6 +48,8 @@ void BodyEquations<dim>::begin_step(std::span<const double> right_side, std::spa
   corrections_fall_ = true;
   forget_lack();
   forget_increment();
+  first_nodal_forces_ = nodal_forces();
+  first_round_off_ = round_off({});
 }
 
 template <int dim>
@@ -89,13 +92,29 @@ std::array<double, 3> BodyEquations<dim>::field_sizes() const {
   return sizes;
 }
 
+template <int dim>
+typename BodyEquations<dim>::NodalForces BodyEquations<dim>::nodal_forces() const {
+  using Vector = Eigen::Matrix<double, dim, 1>;
+  constexpr int n = body::Fields<dim>::count;
+  body::FieldProducts products;
+  model_.op.multiply_by_field(state_, products);
+  NodalForces forces;
+  for (const std::vector<double> &of_one : products.of)
+    for (std::size_t i = 0; i < of_one.size(); i += n)
+      forces.largest = larger(forces.largest, Vector::Map(&of_one[i]).norm());
+  forces.round_off = of_round_off * norms<dim>(model_.op.sizes(model_.step, state_))[0];
+  return forces;
+}
+
 // What the residual of the best state that doubles can hold may be, in each field: a few units of
 // the last place of every term that is summed.
 template <int dim>
-std::array<double, 3> BodyEquations<dim>::round_off() const {
+std::array<double, 3> BodyEquations<dim>::round_off(std::span<const double> right_side) const {
   std::vector<double> terms = model_.op.sizes(model_.step, state_);
   for (std::size_t i = 0; i < terms.size(); ++i)
-    terms[i] = is_prescribed_[i] ? 0 : 2e-15 * (terms[i] + std::abs(right_side_[i]));
+    terms[i] = is_prescribed_[i]
+                   ? 0
+                   : of_round_off * (terms[i] + (right_side.empty() ? 0 : std::abs(right_side[i])));
   return norms<dim>(terms);
 }
 
@@ -118,9 +137,9 @@ bool BodyEquations<dim>::is_solved(std::span<const double> free_residual) {
     return true;
   if (lack_ < before / 3)
     return false;
-  const std::array<double, 3> least = round_off();
+  const std::array<double, 3> least = round_off(right_side_);
   for (int f = 0; f < 3; ++f)
-    if (!(found[f] <= std::max(tolerance * sizes[f], least[f])))
+    if (!(found[f] <= std::max({tolerance * sizes[f], least[f], first_round_off_[f]})))
       return false;
   return true;
 }
@@ -145,6 +164,32 @@ bool BodyEquations<dim>::correct(std::span<const double> free_residual, double r
 }
 
 template <int dim>
+void BodyEquations<dim>::solve_held(double time,
+                                    const std::vector<krylov::NodeTangent<dim>> &held) {
+  system_.set_contact(held);
+  system_.refresh();
+  forget_lack();
+  const auto free_residual = [&] {
+    std::vector<double> residual = residual_;
+    system_.project(residual);
+    return residual;
+  };
+  constexpr int patience = 5;
+  double least = lack_;
+  for (int without_gain = 0; without_gain < patience; ++without_gain) {
+    update_residual();
+    if (is_solved(free_residual()))
+      return;
+    if (lack_ < least / 2) {
+      least = lack_;
+      without_gain = 0;
+    }
+    correct(free_residual(), std::clamp(0.3 / lack_, 1e-6, 1e-1));
+  }
+  give_up(time, free_residual());
+}
+
+template <int dim>
 void BodyEquations<dim>::refine() {
   system_.refine(model_.cells);
 }
@@ -165,6 +210,7 @@ double BodyEquations<dim>::backward_error(std::span<const double> free_residual)
   return system_.backward_error(free_residual, right_side_, state_);
 }
 
+// With what is left in each field.
 template <int dim>
 void BodyEquations<dim>::give_up(double time, std::span<const double> free_residual) const {
   constexpr std::array<const char *, 3> names{"displacement", "potential", "temperature"};

@@ -38,6 +38,16 @@ class BodyEquations {
   /// The same with the products cell by cell.
   std::vector<double> residual_by_cells() const;
 
+  /// The largest of the forces [N] that each field of the state exerts on a node by itself, those
+  /// at supports among them; and what round-off of the state may make of a node's force.
+  struct NodalForces {
+    double largest = 0, round_off = 0;
+  };
+  NodalForces nodal_forces() const;
+  /// The same of the state with which the step began. All others are summed from it and
+  /// corrections, so its round-off stays in them.
+  const NodalForces &first_nodal_forces() const { return first_nodal_forces_; }
+
   /// Whether the free residual is within solver.linear_tolerance in each field or, where an
   /// iteration gains little, within round-off. Refined equations are solved when corrections do not
   /// fall any more.
@@ -49,6 +59,9 @@ class BodyEquations {
   /// Adds the solution of the linear system, its residual taken down by `reduction`, to the state.
   /// False where the iteration did not come as far.
   bool correct(std::span<const double> free_residual, double reduction);
+  /// Corrects the state until all that is free beside the contact, which is `held`, is solved;
+  /// throws SolveError where that does not succeed.
+  void solve_held(double time, const std::vector<krylov::NodeTangent<dim>> &held);
   /// The last correction.
   const std::vector<double> &increment() const { return increment_; }
   void forget_increment();
@@ -66,12 +79,10 @@ class BodyEquations {
   krylov::BodySystem<dim> &system() { return system_; }
   const krylov::BodySystem<dim> &system() const { return system_; }
 
-  /// Throws SolveError with what is left in each field.
-  [[noreturn]] void give_up(double time, std::span<const double> free_residual) const;
-
  private:
+  [[noreturn]] void give_up(double time, std::span<const double> free_residual) const;
   std::array<double, 3> field_sizes() const;
-  std::array<double, 3> round_off() const;
+  std::array<double, 3> round_off(std::span<const double> right_side) const;
 
   const Model<dim> &model_;
   const std::vector<bool> &is_prescribed_;
@@ -81,6 +92,8 @@ class BodyEquations {
   // Of the step at hand:
   std::span<const double> right_side_;
   std::span<double> state_;
+  NodalForces first_nodal_forces_;
+  std::array<double, 3> first_round_off_{};
   double lack_ = 0;
   double correction_ = 0;
   bool corrections_fall_ = true;

@@ -16,6 +16,7 @@
 #include "solve/coupled_programme.h"
 #include "solve/first_places.h"
 #include "solve/judgement.h"
+#include "solve/leaning.h"
 #include "stopwatch.h"
 #include "tourmaline/error.h"
 
@@ -65,6 +66,9 @@ class CondensedRoute : public Route {
   Accuracy accuracy(std::span<const double> right_side, std::span<const double> state,
                     const StepOutcome &outcome) override;
   bool is_refined() const override { return condensed_.body().is_refined(); }
+  void go_on_from(const VectorXd &accumulated_slip) override {
+    contact_->set_accumulated_slip(accumulated_slip);
+  }
 
  private:
   void condense_onto_slips();
@@ -81,8 +85,6 @@ class CondensedRoute : public Route {
   CoupledSolution solve_leaning(const InterfaceProgramme &programme,
                                 const InterfaceSettings &settings) const;
   bool is_carried_off(const InterfaceProgramme &programme, const InterfaceSolution &solution) const;
-  std::string unheld_motions(const InterfaceSolution &solution) const;
-  [[noreturn]] void let_go(double time, const InterfaceSolution &solution) const;
   [[noreturn]] void give_up(double time, const InterfaceSolution &solution) const;
 
   void describe(RouteReport &report) const override;
@@ -196,8 +198,10 @@ CoupledSolution CondensedRoute<dim>::solve_contact(double time, const VectorXd &
                               resisted.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
   const InterfaceProgramme programme{slip_stiffness_, force, contact_->points(), scale};
   CoupledSolution solution = solve_programme(programme);
-  if (is_carried_off(programme, solution.interface))
-    let_go(time, solution.interface);
+  if (is_carried_off(programme, solution.interface)) {
+    const std::string unheld = unheld_motions(model_, *contact_, solution.interface.status);
+    let_go(time, unheld.empty() ? left_to_contact_ : unheld);
+  }
   if (!solution.interface.converged)
     give_up(time, solution.interface);
   return solution;
@@ -214,44 +218,6 @@ bool CondensedRoute<dim>::is_carried_off(const InterfaceProgramme &programme,
              counts * programme.force_scale;
 }
 
-// Where the contact nodes that stick or are pressed are all that holds the body beside its
-// supports.
-template <int dim>
-std::string CondensedRoute<dim>::unheld_motions(const InterfaceSolution &solution) const {
-  std::vector<casefile::Support> supports;
-  const auto add = [&](const Vector3 &point, const auto &direction) {
-    supports.push_back({point, {}});
-    std::copy(direction.begin(), direction.end(), supports.back().direction.begin());
-  };
-  for (const body::Prescribed &p : model_.prescribed)
-    if (const int c = static_cast<int>(p.unknown % body::Fields<dim>::count); c < dim)
-      add(p.point, Eigen::Matrix<double, dim, 1>::Unit(c));
-  const std::vector<ContactPoint> &points = contact_->points();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const contact::InterfaceNode<dim> &at = model_.interface[contact_->node_of(i)];
-    if (!model_.laws.of(at).can_open())
-      add(at.point, at.normal);
-    const bool holds = points[i].law.normal() ? solution.status[i] != ContactStatus::open
-                                              : solution.status[i] == ContactStatus::stick;
-    for (Index k = 0; holds && k < points[i].size; ++k)
-      add(at.point, Eigen::VectorXd(contact_->directions().col(points[i].offset + k))
-                        .segment(dim * static_cast<Index>(contact_->node_of(i)), dim));
-  }
-  return casefile::free_motions_in_words(dim, supports);
-}
-
-template <int dim>
-void CondensedRoute<dim>::let_go(double time, const InterfaceSolution &solution) const {
-  const std::string unheld = unheld_motions(solution);
-  throw SolveError(
-      fmt::format("no solution of the contact problem at t = {:g} s was found: nothing keeps the "
-                  "body from {}, as "
-                  "under these loads neither supports nor the contact hold it there. Prescribe "
-                  "further components of "
-                  "`displacement`, or press the body to the foundation in every step",
-                  time, unheld.empty() ? left_to_contact_ : unheld));
-}
-
 template <int dim>
 void CondensedRoute<dim>::give_up(double time, const InterfaceSolution &solution) const {
   if (!std::isfinite(solution.residual))
@@ -261,12 +227,7 @@ void CondensedRoute<dim>::give_up(double time, const InterfaceSolution &solution
         "of ten, often a unit",
         time));
   if (!left_to_contact_.empty())
-    throw SolveError(fmt::format(
-        "the contact problem at t = {:g} s has no solution that was found: residual {:.3g} of the "
-        "largest force after {} iterations. Nothing but the contact keeps the body from {}, and "
-        "with these loads it may not: the body would move rigidly. Prescribe further components "
-        "of `displacement`, or press the body to the foundation in every step",
-        time, solution.residual, solution.iterations, left_to_contact_));
+    give_up_leaning(time, solution, left_to_contact_);
   if (!solution.is_definite || !(error_of_slips_ <= 1e-2))
     throw SolveError(fmt::format(
         "the contact problem at t = {:g} s is too badly conditioned to be solved: round-off leaves "

@@ -53,6 +53,12 @@ class ContactNodes {
   /// The step that has ended is to be taken again: its slip is forgotten.
   void take_back() { slipped_ = slipped_before_; }
 
+  /// At the end of the last step [m], by node; empty where no law depends on it.
+  Eigen::VectorXd accumulated_slip() const {
+    return model_.laws.remembers_slip() ? slipped_ : Eigen::VectorXd();
+  }
+  void set_accumulated_slip(const Eigen::VectorXd &slip) { slipped_ = slipped_before_ = slip; }
+
   void save(output::SavedNumbers &numbers) const;
   void restore(const output::SavedNumbers &numbers);
 

@@ -23,11 +23,8 @@ namespace {
 
 class Cascade {
  public:
-  Cascade(const CoupledProgramme &programme, const InterfaceSettings &settings)
-      : programme_(programme), settings_(settings) {
-    if (!settings_.factors)
-      settings_.factors = &own_;
-  }
+  Cascade(const CoupledContact &contact, const InterfaceSettings &settings)
+      : programme_(contact), settings_(settings) {}
 
   CoupledSolution solve(const VectorXd &start);
 
@@ -35,11 +32,10 @@ class Cascade {
   double damped(const NaturalMap &map, const Place &x, const Direction &direction) const;
   bool newton(const NaturalMap &map, Place &x, int most);
   bool find_by_newton(const VectorXd &start, Place &x);
-  VectorXd without_contact() const;
   bool fixed_point(const NaturalMap &map, Place &x);
   bool filled(Place &x);
   bool filled_from_any(const VectorXd &start, Place &x);
-  bool continuation(Place &x);
+  bool continuation(Index n_entries, Place &x);
   bool sets_in_unstable(const VectorXd &start, const CoupledSolution &found) const;
   CoupledSolution solve_convex(const VectorXd &start);
   InterfaceSolution convex(const std::vector<PointLaw> &friction, const VectorXd &start);
@@ -47,9 +43,8 @@ class Cascade {
   // Every attempt may take as many iterations as are asked for.
   void begin_attempt() { last_ = iterations_ + settings_.max_iterations; }
 
-  const CoupledProgramme &programme_;
-  InterfaceSettings settings_;
-  KeptFactors own_;
+  const CoupledContact programme_;
+  const InterfaceSettings settings_;
   int iterations_ = 0;  // linear systems
   int last_ = 0;        // of the attempt
 };
@@ -78,7 +73,7 @@ bool Cascade::newton(const NaturalMap &map, Place &x, int most) {
   for (int k = 0; !map.is_zero(x, settings_.tolerance); ++k) {
     if (k == most || !is_left())
       return false;
-    const std::optional<Direction> direction = map.newton_direction(x, settings_.factors->coupled);
+    const std::optional<Direction> direction = map.newton_direction(x);
     ++iterations_;
     if (!direction)
       return false;
@@ -92,14 +87,6 @@ bool Cascade::newton(const NaturalMap &map, Place &x, int most) {
   return map.is_zero(x, settings_.tolerance);
 }
 
-VectorXd Cascade::without_contact() const {
-  VectorXd d = VectorXd::Zero(programme_.convex.force.size());
-  const Eigen::LLT<MatrixXd> factor(programme_.convex.stiffness);
-  if (factor.info() == Eigen::Success)
-    d = factor.solve(programme_.convex.force);
-  return d;
-}
-
 bool Cascade::find_by_newton(const VectorXd &start, Place &x) {
   constexpr int most = 50;
   const NaturalMap map(programme_, 1);
@@ -109,19 +96,17 @@ bool Cascade::find_by_newton(const VectorXd &start, Place &x) {
     return true;
   if (!settings_.is_definite)
     return false;
-  x = map.at(without_contact());
+  x = map.at(programme_.body.without_contact());
   return newton(map, x, most);
 }
 
 InterfaceSolution Cascade::convex(const std::vector<PointLaw> &friction, const VectorXd &start) {
-  std::vector<ContactPoint> points = programme_.convex.points;
+  std::vector<ContactPoint> points = programme_.points;
   for (std::size_t j = 0; j < friction.size(); ++j)
     points[programme_.couplings[j].slip].law = friction[j];
-  const InterfaceProgramme held{programme_.convex.stiffness, programme_.convex.force, points,
-                                programme_.convex.force_scale};
   InterfaceSettings left = settings_;
   left.max_iterations = std::max(1, last_ - iterations_);
-  InterfaceSolution found = minimise(held, start, left);
+  InterfaceSolution found = programme_.body.minimise(points, start, left);
   iterations_ += found.iterations;
   return found;
 }
@@ -160,7 +145,7 @@ bool Cascade::filled(Place &x) {
   const NaturalMap whole(programme_, 1, 0);
   if (!whole.has_jumps())
     return false;
-  const double largest = programme_.convex.force.cwiseAbs().maxCoeff();
+  const double largest = programme_.body.largest_force();
   x = NaturalMap(programme_, 1, largest).at(x.d);
   double ramp = 1, factor = 0.1;
   while (ramp > steepest) {
@@ -196,8 +181,8 @@ bool Cascade::filled_from_any(const VectorXd &start, Place &x) {
   };
   const std::vector<std::function<VectorXd()>> starts{
       [&] { return start; }, [&] { return with_bounds(none, VectorXd::Zero(n)); },
-      [&] { return with_bounds(all, all.bounds(all.at(rest))); }, [&] { return without_contact(); },
-      [&] { return VectorXd(rest); }};
+      [&] { return with_bounds(all, all.bounds(all.at(rest))); },
+      [&] { return programme_.body.without_contact(); }, [&] { return VectorXd(rest); }};
   return all.has_jumps() && std::any_of(starts.begin(), starts.end(), [&](const auto &make) {
            x = all.at(make());
            return filled(x);
@@ -205,11 +190,11 @@ bool Cascade::filled_from_any(const VectorXd &start, Place &x) {
 }
 
 // From no friction to all of it, by steps that are halved where they are too long.
-bool Cascade::continuation(Place &x) {
+bool Cascade::continuation(Index n_entries, Place &x) {
   constexpr double shortest = 1. / 256;
   double strength = 0, step = 0.25;
   const NaturalMap none(programme_, 0, 0);
-  x = none.at(VectorXd::Zero(programme_.convex.force.size()));
+  x = none.at(VectorXd::Zero(n_entries));
   if (!fixed_point(none, x))
     return false;
   while (strength < 1) {
@@ -258,7 +243,7 @@ bool Cascade::sets_in_unstable(const VectorXd &start, const CoupledSolution &fou
   std::vector<std::pair<Index, MatrixXd>> falls;  // from that row and column on
   for (std::size_t j = 0; j < programme_.couplings.size(); ++j) {
     const FrictionCoupling &coupling = programme_.couplings[j];
-    const ContactPoint &p = programme_.convex.points[coupling.slip];
+    const ContactPoint &p = programme_.points[coupling.slip];
     const VectorXd slip = found.interface.increment.segment(p.offset, p.size);
     if (!coupling.bound || slip.isZero(0))
       continue;
@@ -272,10 +257,12 @@ bool Cascade::sets_in_unstable(const VectorXd &start, const CoupledSolution &fou
   }
   if (falls.empty() || is_large(static_cast<Index>(entries.size())))
     return false;
-  MatrixXd stiffness = programme_.convex.stiffness(entries, entries);
+  std::optional<MatrixXd> stiffness = programme_.body.stiffness(entries);
+  if (!stiffness)
+    return false;
   for (const auto &[row, fall] : falls)
-    stiffness.block(row, row, fall.rows(), fall.cols()) += fall;
-  return Eigen::LLT<MatrixXd>(stiffness).info() != Eigen::Success;
+    stiffness->block(row, row, fall.rows(), fall.cols()) += fall;
+  return Eigen::LLT<MatrixXd>(*stiffness).info() != Eigen::Success;
 }
 
 CoupledSolution Cascade::solve(const VectorXd &start) {
@@ -299,7 +286,7 @@ CoupledSolution Cascade::solve(const VectorXd &start) {
   }
   if (!converged) {
     stage = ContactStage::continuation;
-    converged = continuation(x);
+    converged = continuation(start.size(), x);
     map = &with_shares;
   }
   x = map->at(x.d, x.share);
@@ -317,7 +304,13 @@ CoupledSolution Cascade::solve(const VectorXd &start) {
 
 CoupledSolution solve_coupled(const CoupledProgramme &programme, const VectorXd &start,
                               const InterfaceSettings &settings) {
-  return Cascade(programme, settings).solve(start);
+  DenseBody body(programme.convex, settings.factors);
+  return solve_coupled({body, programme.convex.points, programme.couplings}, start, settings);
+}
+
+CoupledSolution solve_coupled(const CoupledContact &contact, const VectorXd &start,
+                              const InterfaceSettings &settings) {
+  return Cascade(contact, settings).solve(start);
 }
 
 }  // namespace tourmaline::solve

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contact/friction_bound.h"
+#include "solve/contact_body.h"
 #include "solve/interface_newton.h"
 #include "solve/route.h"
 
@@ -35,6 +36,13 @@ struct CoupledProgramme {
   const std::vector<FrictionCoupling> &couplings;  ///< at most one for each point
 };
 
+/// The same, the body known by its answers.
+struct CoupledContact {
+  ContactBody &body;
+  const std::vector<ContactPoint> &points;
+  const std::vector<FrictionCoupling> &couplings;
+};
+
 struct CoupledSolution {
   InterfaceSolution interface;
   ContactStage stage = ContactStage::newton;
@@ -51,6 +59,8 @@ struct CoupledSolution {
 /// strong. (V. Acary, M. Bremond, O. Huber, in: Advanced Topics in Nonsmooth Dynamics, Springer
 /// 2018.)
 CoupledSolution solve_coupled(const CoupledProgramme &programme, const Eigen::VectorXd &start,
+                              const InterfaceSettings &settings);
+CoupledSolution solve_coupled(const CoupledContact &contact, const Eigen::VectorXd &start,
                               const InterfaceSettings &settings);
 
 }  // namespace tourmaline::solve

@@ -15,25 +15,35 @@ using contact::Tangent;
 using contact::TangentMatrix;
 using contact::Tresca;
 using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-NaturalMap::NaturalMap(const CoupledProgramme &programme, double strength,
+NaturalMap::NaturalMap(std::shared_ptr<ContactBody> body, const std::vector<ContactPoint> &points,
+                       const std::vector<FrictionCoupling> &couplings, double strength,
                        std::optional<double> ramp)
-    : convex_(programme.convex),
-      couplings_(programme.couplings),
+    : body_(std::move(body)),
+      points_(points),
+      couplings_(couplings),
       strength_(strength),
-      coupling_of_(convex_.points.size(), -1),
-      ramp_(ramp) {
+      coupling_of_(points.size(), -1),
+      ramp_(ramp),
+      largest_force_(body_->largest_force()) {
   for (std::size_t j = 0; j < couplings_.size(); ++j) {
     coupling_of_[couplings_[j].slip] = static_cast<int>(j);
     jump_.push_back(size_of_jump(couplings_[j]));
   }
-  for (const ContactPoint &p : convex_.points)
-    curvature_.push_back(largest_curvature(convex_.stiffness, p));
-  if (convex_.force.size() > 0)
-    largest_force_ = convex_.force.cwiseAbs().maxCoeff();
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    curvature_.push_back(body_->curvature(i));
 }
+
+NaturalMap::NaturalMap(const CoupledProgramme &programme, double strength,
+                       std::optional<double> ramp)
+    : NaturalMap(std::make_shared<DenseBody>(programme.convex), programme.convex.points,
+                 programme.couplings, strength, ramp) {}
+
+// The body belongs to somebody else.
+NaturalMap::NaturalMap(const CoupledContact &contact, double strength, std::optional<double> ramp)
+    : NaturalMap(std::shared_ptr<ContactBody>(std::shared_ptr<void>(), &contact.body),
+                 contact.points, contact.couplings, strength, ramp) {}
 
 // None where the pressure is known, and where the contact cannot open.
 double NaturalMap::size_of_jump(const FrictionCoupling &coupling) const {
@@ -70,8 +80,7 @@ NaturalMap::Place NaturalMap::at(VectorXd d) const {
 
 NaturalMap::Place NaturalMap::at(VectorXd d, VectorXd share) const {
   Place x{std::move(d), {}, std::move(share)};
-  x.force = convex_.force;
-  subtract_product(convex_.stiffness, x.d, x.force);
+  x.force = body_->force(x.d);
   return x;
 }
 
@@ -157,14 +166,14 @@ Tangent NaturalMap::point_value(std::size_t i, const Place &x) const {
 
 VectorXd NaturalMap::value(const Place &x) const {
   VectorXd all(x.d.size());
-  for (std::size_t i = 0; i < convex_.points.size(); ++i)
+  for (std::size_t i = 0; i < points_.size(); ++i)
     all.segment(point(i).offset, point(i).size) = point_value(i, x);
   return all;
 }
 
 double NaturalMap::merit(const Place &x) const {
   double sum = 0;
-  for (std::size_t i = 0; i < convex_.points.size(); ++i)
+  for (std::size_t i = 0; i < points_.size(); ++i)
     if (point(i).size > 0)
       sum += point_value(i, x).squaredNorm() / (curvature_[i] * curvature_[i]);
   const VectorXd shares = share_value(x);
@@ -176,7 +185,7 @@ double NaturalMap::merit(const Place &x) const {
 
 double NaturalMap::largest_value(const Place &x) const {
   double largest = 0;
-  for (std::size_t i = 0; i < convex_.points.size(); ++i)
+  for (std::size_t i = 0; i < points_.size(); ++i)
     largest = larger(largest, point_value(i, x).norm());
   for (const double lack : share_value(x))
     largest = larger(largest, std::abs(lack));
@@ -184,17 +193,17 @@ double NaturalMap::largest_value(const Place &x) const {
 }
 
 double NaturalMap::residual(const Place &x) const {
-  return relative_to(largest_value(x), size_of_forces(convex_, x.d));
+  return relative_to(largest_value(x), body_->size_of_forces(x.d));
 }
 
 bool NaturalMap::is_zero(const Place &x, double tolerance) const {
-  return is_within(convex_, x.d, largest_value(x), tolerance);
+  return body_->is_within(x.d, largest_value(x), tolerance);
 }
 
 std::vector<std::size_t> NaturalMap::unsettled(const Place &x, double tolerance) const {
-  const double allowed = tolerance * size_of_forces(convex_, x.d);
+  const double allowed = tolerance * body_->size_of_forces(x.d);
   std::vector<std::size_t> points;
-  for (std::size_t i = 0; i < convex_.points.size(); ++i)
+  for (std::size_t i = 0; i < points_.size(); ++i)
     if (!(point_value(i, x).norm() <= allowed))
       points.push_back(i);
   return points;
@@ -236,14 +245,11 @@ NaturalMap::Unknowns NaturalMap::unknowns(const Place &x) const {
   Unknowns u;
   u.d = VectorXd::Zero(x.d.size());
   u.share = VectorXd::Zero(x.share.size());
-  for (std::size_t i = 0; i < convex_.points.size(); ++i) {
+  for (std::size_t i = 0; i < points_.size(); ++i) {
     const ContactPoint &p = point(i);
     u.branches.push_back(branch(i, x));
-    for (Index c = p.offset; c < p.offset + p.size; ++c)
-      if (u.branches.back().is_held)
-        u.d[c] = -x.d[c];
-      else
-        u.entries.push_back(c);
+    if (u.branches.back().is_held)
+      u.d.segment(p.offset, p.size) = -x.d.segment(p.offset, p.size);
   }
   for (std::size_t j = 0; j < couplings_.size() && ramp_; ++j) {
     if (jump_[j] == 0)
@@ -257,83 +263,58 @@ NaturalMap::Unknowns NaturalMap::unknowns(const Place &x) const {
 }
 
 // F' = (I - D) lambda' - c D - w (T_p p' + T_s |d|' + T_s s'), lambda' = -A.
-void NaturalMap::fill_point(std::size_t i, const Place &x, const Unknowns &u, Index row,
-                            Rows &rows) const {
+ContactTangent::Point NaturalMap::tangent_at(std::size_t i, const Place &x,
+                                             const Unknowns &u) const {
   const ContactPoint &p = point(i);
   const Branch &at = u.branches[i];
-  rows.of_unknowns.add_of_force(row, p.offset,
-                                at.derivative - TangentMatrix::Identity(p.size, p.size));
-  rows.of_unknowns.add_local(row, p.offset, -curvature_[i] * at.derivative);
-  rows.right_side.segment(row, p.size) = -point_value(i, x);
+  ContactTangent::Point row;
+  row.point = i;
+  row.derivative = at.derivative;
+  row.of_own = -curvature_[i] * at.derivative;
+  row.right_side = -point_value(i, x);
   const FrictionCoupling *coupling = this->coupling(i);
   if (coupling == nullptr)
-    return;
+    return row;
   if (const double size = slip_size(i, x); size > 0)
-    rows.of_unknowns.add_local(
-        row, p.offset, -p.weight / size * at.by_slip * x.d.segment(p.offset, p.size).transpose());
+    row.of_own -= p.weight / size * at.by_slip * x.d.segment(p.offset, p.size).transpose();
   if (coupling->normal && !at.by_pressure.isZero(0)) {
     // w p' = D (lambda' + c delta') at the normal's point
     const std::size_t n = *coupling->normal;
-    const Tangent by_force =
-        p.weight / point(n).weight * u.branches[n].derivative(0, 0) * at.by_pressure;
-    rows.of_unknowns.add_of_force(row, point(n).offset, by_force);
-    rows.of_unknowns.add_local(row, point(n).offset, -curvature_[n] * by_force);
+    row.normal = n;
+    row.of_force = p.weight / point(n).weight * u.branches[n].derivative(0, 0) * at.by_pressure;
+    row.of_normal = -curvature_[n] * row.of_force;
   }
-  if (ramp_)
-    rows.of_unknowns.add_local(row, x.d.size() + coupling_of_[i], -p.weight * at.by_share);
+  if (ramp_) {
+    row.share = static_cast<std::size_t>(coupling_of_[i]);
+    row.of_share = -p.weight * at.by_share;
+  }
+  return row;
 }
 
-// y - e s = 0, y' = lambda' + c delta'.
-void NaturalMap::fill_share(std::size_t k, const Place &x, const Unknowns &u, Index row,
-                            Rows &rows) const {
-  const std::size_t j = u.shares[k], n = *couplings_[j].normal;
-  const auto one = [](double value) { return TangentMatrix::Constant(1, 1, value); };
-  rows.of_unknowns.add_of_force(row, point(n).offset, one(-1));
-  rows.of_unknowns.add_local(row, point(n).offset, one(curvature_[n]));
-  rows.of_unknowns.add_local(row, x.d.size() + static_cast<Index>(j), one(-*ramp_));
-  rows.right_side[row] = *ramp_ * share(j, x) - normal_force(j, x);
-}
-
-NaturalMap::Rows NaturalMap::rows(const Place &x, const Unknowns &u) const {
-  Rows all;
-  all.right_side.resize(static_cast<Index>(u.entries.size() + u.shares.size()));
-  Index row = 0;
-  for (std::size_t i = 0; i < convex_.points.size(); ++i)
-    if (!u.branches[i].is_held && point(i).size > 0) {
-      fill_point(i, x, u, row, all);
-      row += point(i).size;
-    }
-  for (std::size_t k = 0; k < u.shares.size(); ++k)
-    fill_share(k, x, u, row++, all);
+// Of a share y - e s = 0, y' = lambda' + c delta'.
+ContactTangent NaturalMap::tangent(const Place &x, const Unknowns &u) const {
+  ContactTangent all;
+  all.known = u.d;
+  all.known_share = u.share;
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    if (!u.branches[i].is_held && point(i).size > 0)
+      all.points.push_back(tangent_at(i, x, u));
+  for (const std::size_t j : u.shares) {
+    const std::size_t n = *couplings_[j].normal;
+    all.shares.push_back({j, n, curvature_[n], -*ramp_, *ramp_ * share(j, x) - normal_force(j, x)});
+  }
   return all;
 }
 
-InterfaceSystem NaturalMap::system(const Unknowns &u, const Rows &rows) const {
-  std::vector<Index> unknowns = u.entries;
-  for (const std::size_t j : u.shares)
-    unknowns.push_back(u.d.size() + static_cast<Index>(j));
-  return rows.of_unknowns.system(std::move(unknowns), u.d.size(), u.d.size() + u.share.size());
+ContactTangent NaturalMap::tangent(const Place &x) const {
+  return tangent(x, unknowns(x));
 }
 
-std::optional<NaturalMap::Direction> NaturalMap::newton_direction(const Place &x,
-                                                                  KeptFactor &factor) const {
-  const Unknowns u = unknowns(x);
-  VectorXd known(u.d.size() + u.share.size());
-  known << u.d, u.share;
-  VectorXd resisted = VectorXd::Zero(u.d.size());
-  if (!u.d.isZero(0))
-    resisted = symmetric_product(convex_.stiffness, u.d);
-  const Rows all = rows(x, u);
-  const InterfaceSystem asked = system(u, all);
-  if (asked.size() > 0) {
-    const std::optional<KeptFactor::Solved> found = factor.solve(
-        asked, convex_.stiffness, all.right_side - asked.of_force * resisted - asked.local * known);
-    if (!found)
-      return std::nullopt;
-    known += found->x;
-    resisted += found->resisted;
-  }
-  return Direction{known.head(u.d.size()), resisted, known.tail(u.share.size())};
+std::optional<NaturalMap::Direction> NaturalMap::newton_direction(const Place &x) const {
+  const std::optional<ContactBody::Moved> moved = body_->solve(tangent(x));
+  if (!moved)
+    return std::nullopt;
+  return Direction{moved->x, moved->resisted, moved->share};
 }
 
 // A whole step ends at a share that is one.
@@ -385,7 +366,7 @@ std::vector<double> NaturalMap::turns(const Place &x, const Direction &direction
   constexpr std::size_t most = 20;
   Place moving = x;
   std::vector<double> lengths;
-  for (std::size_t i = 0; i < convex_.points.size(); ++i)
+  for (std::size_t i = 0; i < points_.size(); ++i)
     if (point(i).size > 0)
       if (const double length = length_to_turn(i, x, direction, moving); length <= 1)
         lengths.push_back(length);
@@ -400,7 +381,7 @@ std::vector<double> NaturalMap::turns(const Place &x, const Direction &direction
 
 NaturalMap::Place NaturalMap::settled(const Place &x) const {
   Place exact = x;
-  for (std::size_t i = 0; i < convex_.points.size(); ++i)
+  for (std::size_t i = 0; i < points_.size(); ++i)
     if (branch(i, x).is_held)
       exact.d.segment(point(i).offset, point(i).size).setZero();
   return exact.d == x.d ? x : at(exact.d, exact.share);
@@ -436,7 +417,7 @@ CoupledSolution NaturalMap::solution(const Place &x) const {
   CoupledSolution found;
   found.interface.increment = x.d;
   found.interface.force = VectorXd::Zero(x.d.size());
-  for (std::size_t i = 0; i < convex_.points.size(); ++i) {
+  for (std::size_t i = 0; i < points_.size(); ++i) {
     const ContactPoint &p = point(i);
     const double r = curvature_[i] / p.weight;
     const LocalLaw law = this->law(i, x);

@@ -1,11 +1,12 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "solve/contact_body.h"
 #include "solve/coupled_programme.h"
-#include "solve/kept_factor.h"
 
 namespace tourmaline::solve {
 
@@ -26,6 +27,8 @@ namespace tourmaline::solve {
 class NaturalMap {
  public:
   NaturalMap(const CoupledProgramme &programme, double strength, std::optional<double> ramp = {});
+  /// What `contact` refers to outlives the map.
+  NaturalMap(const CoupledContact &contact, double strength, std::optional<double> ramp = {});
 
   /// d and f - A d, and by coupling s, without a ramp nothing.
   struct Place {
@@ -52,7 +55,9 @@ class NaturalMap {
   };
   /// Newton's, or of large systems nearly Newton's; nothing where the linear system cannot be
   /// solved. Points that are held go there at once and take no part in it.
-  std::optional<Direction> newton_direction(const Place &x, KeptFactor &factor) const;
+  std::optional<Direction> newton_direction(const Place &x) const;
+  /// The linear system of that direction.
+  ContactTangent tangent(const Place &x) const;
   Place along(const Place &x, const Direction &direction, double length) const;
 
   /// Lengths between 0 and 1 at which points change their branch on the way from x; at most some
@@ -81,20 +86,18 @@ class NaturalMap {
     contact::Tangent by_pressure, by_slip, by_share;
     bool is_held = false;  // the row is that of d = 0
   };
-  /// Of a direction what is known beforehand, and what is asked for: entries of d and shares.
+  /// Of a direction what is known beforehand, and what is asked for: points that are not held, and
+  /// shares.
   struct Unknowns {
     std::vector<Branch> branches;
-    std::vector<Eigen::Index> entries;
     std::vector<std::size_t> shares;  // couplings
     Eigen::VectorXd d, share;
   };
-  /// F' d = -F in the changes of d and, behind them, of the shares.
-  struct Rows {
-    SystemRows of_unknowns;
-    Eigen::VectorXd right_side;
-  };
 
-  const ContactPoint &point(std::size_t i) const { return convex_.points[i]; }
+  NaturalMap(std::shared_ptr<ContactBody> body, const std::vector<ContactPoint> &points,
+             const std::vector<FrictionCoupling> &couplings, double strength,
+             std::optional<double> ramp);
+  const ContactPoint &point(std::size_t i) const { return points_[i]; }
   const FrictionCoupling *coupling(std::size_t i) const;
   double largest_value(const Place &x) const;
   double size_of_jump(const FrictionCoupling &coupling) const;
@@ -111,17 +114,14 @@ class NaturalMap {
   Branch branch(std::size_t i, const Place &x) const;
   void add_coupling(std::size_t j, const Place &x, Branch &branch) const;
   Unknowns unknowns(const Place &x) const;
-  void fill_point(std::size_t i, const Place &x, const Unknowns &u, Eigen::Index row,
-                  Rows &rows) const;
-  void fill_share(std::size_t k, const Place &x, const Unknowns &u, Eigen::Index row,
-                  Rows &rows) const;
-  Rows rows(const Place &x, const Unknowns &u) const;
-  InterfaceSystem system(const Unknowns &u, const Rows &rows) const;
+  ContactTangent::Point tangent_at(std::size_t i, const Place &x, const Unknowns &u) const;
+  ContactTangent tangent(const Place &x, const Unknowns &u) const;
   double excess(std::size_t i, const Place &x) const;
   double length_to_turn(std::size_t i, const Place &x, const Direction &direction,
                         Place &moving) const;
 
-  const InterfaceProgramme convex_;  // refers to what is not its own
+  std::shared_ptr<ContactBody> body_;
+  const std::vector<ContactPoint> &points_;
   const std::vector<FrictionCoupling> &couplings_;
   double strength_;
   std::vector<double> curvature_;  // by point [N/m]

@@ -86,6 +86,11 @@ class Route {
   /// Whether products that belong to this route's states are those of `Model::cells`.
   virtual bool is_refined() const { return false; }
 
+  /// The slip that friction remembers, by interface node [m], empty where it does not; with it
+  /// another route goes on.
+  virtual Eigen::VectorXd accumulated_slip() const { return {}; }
+  virtual void go_on_from(const Eigen::VectorXd & /*accumulated_slip*/) {}
+
   RouteReport report() const;
 
   /// What the route knows from the steps before: with it a new route goes on to the same bits, and

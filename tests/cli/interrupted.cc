@@ -148,6 +148,12 @@ TEST_F(Interrupted, FrictionThatRemembersItsSlipOnAFoundationThatMovesGoesOn) {
   EXPECT_THAT(content_of(here() / "other/results/contact.csv"), HasSubstr("accumulated_slip"));
 }
 
+TEST_F(Interrupted, FrictionThatRemembersItsSlipGoesOnIteratively) {
+  std::ofstream(here() / "weakening.toml") << weakening;
+  expect_to_go_on("weakening.toml --set solver.body=iterative");
+  EXPECT_THAT(content_of(here() / "other/results/contact.csv"), HasSubstr("accumulated_slip"));
+}
+
 TEST_F(Interrupted, ADampedFoundationGoesOn) {
   std::string text = weakening;
   const std::string normal = "normal = \"unilateral\"";

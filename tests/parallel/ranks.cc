@@ -328,6 +328,16 @@ TEST_P(Ranks, ARubbedBlockThatComesOffIsTheSame) {
   expect_same_rubbing(file_of(rubbed_block), 3);
 }
 
+const char *const iteratively = " --set solver.body=iterative --set solver.linear_tolerance=1e-13";
+
+TEST_P(Ranks, ARubbedBodyThatComesOffIsTheSameIteratively) {
+  expect_same_rubbing(file_of(rubbed) + iteratively, 2);
+}
+
+TEST_P(Ranks, ARubbedBlockThatComesOffIsTheSameIteratively) {
+  expect_same_rubbing(file_of(rubbed_block) + iteratively, 3);
+}
+
 TEST_P(Ranks, ABodyThatItsContactLetsGoIsToldOnce) {
   expect_told_once(
       file_of(rubbed) + " --set 'boundary=[{on=\"top\",traction=[0,1e5],potential=0}]'", 3,

@@ -56,6 +56,14 @@ TEST_F(Remembering, SlipAddsUpOverTheSteps) {
   EXPECT_DOUBLE_EQ(slipped(nodes), 2e-6);
 }
 
+// As where a factorisation takes over from an iterative solution.
+TEST_F(Remembering, AnotherRouteGoesOnWithTheSlipSoFar) {
+  ContactNodes<2> nodes(model_, mask_), others(model_, mask_);
+  slipped(nodes);
+  others.set_accumulated_slip(nodes.accumulated_slip());
+  EXPECT_DOUBLE_EQ(slipped(others), 2e-6);
+}
+
 // As where refinement turns out to be worth its while.
 TEST_F(Remembering, AStepThatIsTakenAgainCountsOnce) {
   ContactNodes<2> nodes(model_, mask_);

@@ -33,8 +33,7 @@ VectorXd difference(const NaturalMap &map, const Place &x, const VectorXd &along
 // Newton's direction z solves F + F' z = 0: what the difference quotient of F along z lacks of -F,
 // but for points that are held, which go to d = 0.
 double error_of_direction(const NaturalMap &map, const Place &x) {
-  KeptFactor factor;
-  const auto direction = map.newton_direction(x, factor);
+  const auto direction = map.newton_direction(x);
   if (!direction)
     return HUGE_VAL;
   const double size = 1 + direction->d.norm() + direction->share.norm();

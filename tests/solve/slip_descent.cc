@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "random_contacts.h"
 #include "random_programmes.h"
 
 namespace tourmaline::solve {
@@ -96,6 +97,37 @@ TEST(SlipDescent, InexactDirectionsLeadThereToo) {
     ASSERT_TRUE(s.converged) << "programme " << k << ", residual " << s.residual;
     ASSERT_LT(violation(p, s.increment), 1e-9) << "programme " << k;
   }
+}
+
+// Penetrations are points like others: one that may not be, one that grows against a stiffness.
+void expect_all_found(NormalKind normal, FrictionKind friction) {
+  for (const int dim : {2, 3}) {
+    RandomContacts problems(20260201, normal, friction);
+    int most = 0;
+    for (int k = 0; k < 100; ++k) {
+      const ContactProblem contact = problems.next(dim);
+      const Problem p{contact.stiffness, contact.force, contact.points, {}};
+      const VectorXd start =
+          k % 2 ? problems.vector(p.force.size()) : VectorXd(VectorXd::Zero(p.force.size()));
+      Dense response(p, 0);
+      const InterfaceSolution s = descended(p, start, response, 4000);
+      ASSERT_TRUE(s.converged) << "programme " << k << ", residual " << s.residual;
+      ASSERT_LT(violation(contact, s.increment), 1e-9) << "programme " << k;
+      most = std::max(most, s.iterations);
+    }
+    ::testing::Test::RecordProperty("largest_number_of_iterations_" + std::to_string(dim) + "D",
+                                    most);
+  }
+}
+
+TEST(SlipDescent, FindsContactThatOpensFromAnyStart) {
+  expect_all_found(NormalKind::unilateral, FrictionKind::none);
+  expect_all_found(NormalKind::bilateral, FrictionKind::tresca);
+}
+
+TEST(SlipDescent, FindsContactThatYieldsFromAnyStart) {
+  expect_all_found(NormalKind::compliance, FrictionKind::none);
+  expect_all_found(NormalKind::damped, FrictionKind::none);
 }
 
 // From 10 m a point moves to where it belongs by the hand calculation, (10 - 2) N / 4 N/m.

@@ -55,9 +55,6 @@ struct ContactCase {
 
   /// The contact in files and texts: its name, or else those of its boundaries, "left+right".
   std::string called() const;
-  /// Whether what a law answers depends on pressure or penetration: the iterative solution of the
-  /// body's equations does not know such laws.
-  bool depends_on_state() const { return normal.law != "bilateral" || friction.law == "coulomb"; }
 };
 
 }  // namespace tourmaline::casefile

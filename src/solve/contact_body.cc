@@ -1,0 +1,117 @@
+#include "solve/contact_body.h"
+
+#include <utility>
+
+namespace tourmaline::solve {
+
+using contact::TangentMatrix;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+DenseBody::DenseBody(const InterfaceProgramme &programme, KeptFactors *factors)
+    : programme_(programme), factors_(factors == nullptr ? own_ : *factors) {
+  for (const ContactPoint &p : programme_.points)
+    curvature_.push_back(largest_curvature(programme_.stiffness, p));
+}
+
+VectorXd DenseBody::force(const VectorXd &d) {
+  VectorXd force = programme_.force;
+  subtract_product(programme_.stiffness, d, force);
+  return force;
+}
+
+double DenseBody::size_of_forces(const VectorXd &d) const {
+  return solve::size_of_forces(programme_, d);
+}
+
+bool DenseBody::is_within(const VectorXd &d, double residual, double tolerance) const {
+  return solve::is_within(programme_, d, residual, tolerance);
+}
+
+double DenseBody::largest_force() const {
+  return programme_.force.size() > 0 ? programme_.force.cwiseAbs().maxCoeff() : 0;
+}
+
+VectorXd DenseBody::without_contact() {
+  const Eigen::LLT<MatrixXd> factor(programme_.stiffness);
+  if (factor.info() != Eigen::Success)
+    return VectorXd::Zero(programme_.force.size());
+  return factor.solve(programme_.force);
+}
+
+InterfaceSolution DenseBody::minimise(const std::vector<ContactPoint> &points, VectorXd start,
+                                      const InterfaceSettings &settings) {
+  InterfaceSettings with_factors = settings;
+  with_factors.factors = &factors_;
+  return solve::minimise({programme_.stiffness, programme_.force, points, programme_.force_scale},
+                         std::move(start), with_factors);
+}
+
+void DenseBody::fill(const ContactTangent::Point &at, Index row, Rows &rows) const {
+  const ContactPoint &p = programme_.points[at.point];
+  rows.of_unknowns.add_of_force(row, p.offset,
+                                at.derivative - TangentMatrix::Identity(p.size, p.size));
+  rows.of_unknowns.add_local(row, p.offset, at.of_own);
+  rows.right_side.segment(row, p.size) = at.right_side;
+  for (Index c = 0; c < p.size; ++c)
+    rows.unknowns.push_back(p.offset + c);
+  if (at.normal) {
+    const Index n = programme_.points[*at.normal].offset;
+    rows.of_unknowns.add_of_force(row, n, at.of_force);
+    rows.of_unknowns.add_local(row, n, at.of_normal);
+  }
+  if (at.share)
+    rows.of_unknowns.add_local(row, programme_.force.size() + static_cast<Index>(*at.share),
+                               at.of_share);
+}
+
+void DenseBody::fill(const ContactTangent::Share &at, Index row, Rows &rows) const {
+  const auto one = [](double value) { return TangentMatrix::Constant(1, 1, value); };
+  const Index n = programme_.points[at.normal].offset;
+  const Index share = programme_.force.size() + static_cast<Index>(at.share);
+  rows.of_unknowns.add_of_force(row, n, one(-1));
+  rows.of_unknowns.add_local(row, n, one(at.of_normal));
+  rows.of_unknowns.add_local(row, share, one(at.of_share));
+  rows.right_side[row] = at.right_side;
+  rows.unknowns.push_back(share);
+}
+
+DenseBody::Rows DenseBody::rows(const ContactTangent &tangent) const {
+  auto n = static_cast<Index>(tangent.shares.size());
+  for (const ContactTangent::Point &at : tangent.points)
+    n += programme_.points[at.point].size;
+  Rows all;
+  all.right_side.resize(n);
+  Index row = 0;
+  for (const ContactTangent::Point &at : tangent.points) {
+    fill(at, row, all);
+    row += programme_.points[at.point].size;
+  }
+  for (const ContactTangent::Share &at : tangent.shares)
+    fill(at, row++, all);
+  return all;
+}
+
+std::optional<ContactBody::Moved> DenseBody::solve(const ContactTangent &tangent) {
+  const Index n = tangent.known.size(), n_shares = tangent.known_share.size();
+  VectorXd known(n + n_shares);
+  known << tangent.known, tangent.known_share;
+  VectorXd resisted = VectorXd::Zero(n);
+  if (!tangent.known.isZero(0))
+    resisted = symmetric_product(programme_.stiffness, tangent.known);
+  const Rows all = rows(tangent);
+  if (!all.unknowns.empty()) {
+    const InterfaceSystem asked = all.of_unknowns.system(all.unknowns, n, n + n_shares);
+    const std::optional<KeptFactor::Solved> found =
+        factors_.coupled.solve(asked, programme_.stiffness,
+                               all.right_side - asked.of_force * resisted - asked.local * known);
+    if (!found)
+      return std::nullopt;
+    known += found->x;
+    resisted += found->resisted;
+  }
+  return Moved{known.head(n), resisted, known.tail(n_shares)};
+}
+
+}  // namespace tourmaline::solve

@@ -1,0 +1,121 @@
+#include "solve/iterative_body.h"
+
+#include <algorithm>
+
+#include "case/holding.h"
+#include "larger.h"
+#include "solve/leaning.h"
+
+namespace tourmaline::solve {
+
+namespace {
+
+// Forward errors above it are worth refinement.
+constexpr double worth_refining = 1e-7;
+
+}  // namespace
+
+template <int dim>
+IterativeRoute<dim>::IterativeRoute(const Model<dim> &model)
+    : model_(model),
+      is_prescribed_(body::mask_of(model.prescribed, model.n_unknowns())),
+      left_to_contact_(casefile::left_to_contact(model.asked)),
+      body_(model, is_prescribed_, so_far_) {
+  so_far_.safe_steps = 0;
+}
+
+template <int dim>
+double IterativeRoute<dim>::contact_tolerance() const {
+  return 10 * std::max(model_.asked.solver.tolerance, model_.asked.solver.linear_tolerance);
+}
+
+// The change of the last step once more.
+template <int dim>
+void IterativeRoute<dim>::predict(std::span<const double> before) {
+  if (!two_before_.empty())
+    for (std::size_t i = 0; i < state_.size(); ++i)
+      if (!is_prescribed_[i])
+        state_[i] += before[i] - two_before_[i];
+  two_before_.assign(before.begin(), before.end());
+}
+
+// Where nothing holds the body, round-off of its stiffness does: loads then move it by so much that
+// the round-off of the forces that hold it is a part of them that counts.
+template <int dim>
+void IterativeRoute<dim>::check_held() const {
+  constexpr double counts = 1e-7;
+  if (left_to_contact_.empty())
+    return;
+  const auto [largest, round_off] = body_.nodal_forces();
+  if (!(round_off > counts * larger(largest, body_.first_nodal_forces().largest)))
+    return;
+  const std::string motions = unheld();
+  let_go(time_, motions.empty() ? left_to_contact_ : motions);
+}
+
+// A step that moves a field as never before tells whether refinement helps, and goes on with it if
+// so.
+template <int dim>
+void IterativeRoute<dim>::measure() {
+  const auto forward_error = [&] {
+    set_contact();
+    return body_.forward_error(freed(body_.residual_by_cells()));
+  };
+  double error = is_refined() ? body_.last_correction() : forward_error();
+  if (!is_refined() && error > worth_refining) {
+    body_.refine();
+    iterations_ = 0;
+    body_.update_residual();
+    settle();
+    error = body_.last_correction();
+  }
+  see_forward_error(error);
+}
+
+template <int dim>
+StepOutcome IterativeRoute<dim>::advance(double time, std::span<const double> right_side,
+                                         std::span<const double> before, std::span<double> state) {
+  time_ = time;
+  state_ = state;
+  iterations_ = 0;
+  predict(before);
+  body_.begin_step(right_side, state);
+  begin_contact(before);
+  settle();
+  check_held();
+  if (is_refined() || this->template outgrew_measured<dim>(state))
+    measure();
+  see_backward_error(body_.backward_error(freed(body_.residual())));
+  return outcome();
+}
+
+template <int dim>
+void IterativeRoute<dim>::describe(RouteReport &report) const {
+  report.condense_seconds = body_.system().set_up_seconds();
+  report.preconditioners = body_.system().set_ups();
+  for (std::size_t i = 0; i < is_prescribed_.size(); ++i)
+    if (!is_prescribed_[i]) {
+      ++report.unknowns;
+      report.electric_and_thermal_unknowns += body::field_of<dim>(i) > 0;
+    }
+}
+
+template <int dim>
+void IterativeRoute<dim>::save_memory(output::SavedNumbers &numbers) const {
+  body_.system().save(numbers);
+  save_contact(numbers);
+  numbers.put("state before", two_before_);
+}
+
+template <int dim>
+void IterativeRoute<dim>::restore_memory(const output::SavedNumbers &numbers) {
+  body_.system().restore(numbers, model_.interface.size());
+  restore_contact(numbers);
+  two_before_.resize(model_.n_unknowns());
+  numbers.fill("state before", two_before_);
+}
+
+template class IterativeRoute<2>;
+template class IterativeRoute<3>;
+
+}  // namespace tourmaline::solve

@@ -1,0 +1,64 @@
+#include "solve/leaning.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "case/holding.h"
+#include "tourmaline/error.h"
+
+namespace tourmaline::solve {
+
+using Eigen::Index;
+
+template <int dim>
+std::string unheld_motions(const Model<dim> &model, const ContactNodes<dim> &contact,
+                           const std::vector<ContactStatus> &status) {
+  std::vector<casefile::Support> supports;
+  const auto add = [&](const Vector3 &point, const auto &direction) {
+    supports.push_back({point, {}});
+    std::copy(direction.begin(), direction.end(), supports.back().direction.begin());
+  };
+  for (const body::Prescribed &p : model.prescribed)
+    if (const int c = static_cast<int>(p.unknown % body::Fields<dim>::count); c < dim)
+      add(p.point, Eigen::Matrix<double, dim, 1>::Unit(c));
+  const std::vector<ContactPoint> &points = contact.points();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const contact::InterfaceNode<dim> &at = model.interface[contact.node_of(i)];
+    if (!model.laws.of(at).can_open())
+      add(at.point, at.normal);
+    const bool holds = points[i].law.normal() ? status[i] != ContactStatus::open
+                                              : status[i] == ContactStatus::stick;
+    for (Index k = 0; holds && k < points[i].size; ++k)
+      add(at.point, Eigen::VectorXd(contact.directions().col(points[i].offset + k))
+                        .segment(dim * static_cast<Index>(contact.node_of(i)), dim));
+  }
+  return casefile::free_motions_in_words(dim, supports);
+}
+
+void let_go(double time, const std::string &motions) {
+  throw SolveError(
+      fmt::format("no solution of the contact problem at t = {:g} s was found: nothing keeps the "
+                  "body from {}, as "
+                  "under these loads neither supports nor the contact hold it there. Prescribe "
+                  "further components of "
+                  "`displacement`, or press the body to the foundation in every step",
+                  time, motions));
+}
+
+void give_up_leaning(double time, const InterfaceSolution &solution,
+                     const std::string &left_to_contact) {
+  throw SolveError(fmt::format(
+      "the contact problem at t = {:g} s has no solution that was found: residual {:.3g} of the "
+      "largest force after {} iterations. Nothing but the contact keeps the body from {}, and "
+      "with these loads it may not: the body would move rigidly. Prescribe further components "
+      "of `displacement`, or press the body to the foundation in every step",
+      time, solution.residual, solution.iterations, left_to_contact));
+}
+
+template std::string unheld_motions(const Model<2> &, const ContactNodes<2> &,
+                                    const std::vector<ContactStatus> &);
+template std::string unheld_motions(const Model<3> &, const ContactNodes<3> &,
+                                    const std::vector<ContactStatus> &);
+
+}  // namespace tourmaline::solve

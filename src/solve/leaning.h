@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "solve/contact_nodes.h"
+#include "solve/interface_newton.h"
+#include "solve/model.h"
+
+/// Bodies that only their contact holds: what to say where it does not.
+namespace tourmaline::solve {
+
+/// The rigid motions that are left where the contact points that stick or are pressed, by their
+/// `status`, are all that holds the body beside its supports, as a phrase; empty: none.
+template <int dim>
+std::string unheld_motions(const Model<dim> &model, const ContactNodes<dim> &contact,
+                           const std::vector<ContactStatus> &status);
+
+/// Throws SolveError: the loads carry the body off by these motions.
+[[noreturn]] void let_go(double time, const std::string &motions);
+
+/// Throws SolveError: no equilibrium was found. `left_to_contact`: the motions that only the
+/// contact keeps the body from.
+[[noreturn]] void give_up_leaning(double time, const InterfaceSolution &solution,
+                                  const std::string &left_to_contact);
+
+}  // namespace tourmaline::solve

@@ -1,0 +1,214 @@
+// Contact that opens and friction that follows the pressure, with the body's equations solved
+// iteratively: the same states, tractions and statuses as by the factorisation, in every column.
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "run_case.h"
+#include "tourmaline/case/case.h"
+#include "tourmaline/error.h"
+
+namespace tourmaline::testing {
+namespace {
+
+using Overrides = std::vector<std::string>;
+
+// Columns of one kind share their size: a component of a vector may be nothing but round-off.
+std::string kind_of(const std::string &column) {
+  const auto has = [&](const char *part) { return column.find(part) != std::string::npos; };
+  if (has("traction") || has("bound"))
+    return "traction";
+  if (has("slip_rate"))
+    return "rate";
+  return has("slip") || has("gap") || has("displacement") || has("u_") ? "length" : column;
+}
+
+// What is smaller than this in all rows, in SI units, is round-off beside what these cases do.
+constexpr double nothing = 1e-9;
+
+void expect_same(const Table &expected, const Table &found, double tolerance) {
+  const std::vector<std::string> not_compared{"step", "time", "x", "y", "z", "status"};
+  std::map<std::string, double> sizes;
+  for (const auto &[name, cells] : expected.columns)
+    if (std::find(not_compared.begin(), not_compared.end(), name) == not_compared.end())
+      sizes[kind_of(name)] = std::max(sizes[kind_of(name)], largest(expected, name));
+  for (const auto &[name, cells] : expected.columns) {
+    if (std::find(not_compared.begin(), not_compared.end(), name) != not_compared.end())
+      continue;
+    const double size = sizes[kind_of(name)];
+    const double least = kind_of(name) == "length" || kind_of(name) == "rate" ? 0 : nothing;
+    EXPECT_LE(difference(found, expected, name, std::max(size, least)), tolerance) << name;
+  }
+}
+
+void expect_same_runs(const RunCase &expected, const RunCase &found, double tolerance = 1e-8) {
+  expect_same(expected.nodes(), found.nodes(), tolerance);
+  expect_same(expected.contact(), found.contact(), tolerance);
+  EXPECT_EQ(expected.contact().columns.at("status"), found.contact().columns.at("status"));
+}
+
+void expect_balances(const RunCase &run, double tolerance) {
+  const Table history = run.history();
+  for (const char *column :
+       {"energy_imbalance", "force_imbalance", "charge_imbalance", "heat_imbalance"})
+    EXPECT_LT(largest(history, column), tolerance) << column;
+}
+
+struct Asked {
+  std::string name;  // of a file, or of what `text` is
+  Overrides overrides;
+  std::string text;
+
+  RunCase run(const Overrides &more) const {
+    Overrides all = overrides;
+    all.insert(all.end(), more.begin(), more.end());
+    all.push_back("output.fields=false");
+    return text.empty() ? RunCase(name, all) : RunCase(casefile::read_text(text, "case.toml", all));
+  }
+  RunCase iteratively() const {
+    return run({"solver.body=iterative", "solver.linear_tolerance=1e-13"});
+  }
+};
+
+void PrintTo(const Asked &asked, std::ostream *out) {
+  *out << asked.name << " " << ::testing::PrintToString(asked.overrides);
+}
+
+class ContactIteratively : public ::testing::TestWithParam<Asked> {};
+
+TEST_P(ContactIteratively, IsThatOfTheFactorisationInEveryColumn) {
+  const RunCase found = GetParam().iteratively();
+  expect_same_runs(GetParam().run({}), found);
+  expect_balances(found, 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    ShippedCases, ContactIteratively,
+    ::testing::Values(
+        // At its end this body is unloaded: nothing is left to compare.
+        Asked{"cases/verification/contact-compliance.toml", {"time.end=1.8", "time.steps=9"}, ""},
+        Asked{"cases/verification/contact-damped.toml", {}, ""},
+        Asked{"cases/verification/contact-capped-friction.toml", {}, ""},
+        Asked{"cases/verification/contact-slip-weakening.toml", {}, ""},
+        Asked{"cases/ssnv128/plate.toml", {"mesh.box.cells=[32,10]"}, ""},
+        Asked{"cases/ssnv128/solid.toml", {"mesh.box.cells=[32,1,10]"}, ""},
+        Asked{"cases/hertz/line.toml",
+              {"mesh.box.cells=[24,24]", "mesh.box.grading={left=30,bottom=30}"},
+              ""}));
+
+// Pressed, pulled, rubbed and warmed; the foundation moves.
+const char *const plane = R"toml(
+mesh.box = { min = [0, 0], max = [0.02, 0.01], cells = [12, 6] }
+material = { library = "BaTiO3-Liu2014", pyroelectric = [0, 1e-4] }
+time = { end = 1, steps = 5 }
+boundary = [
+  { on = "top", displacement = ["3e-7*t", "1e-7*sin(6*t)"], potential = 0, temperature = "20*t" },
+  { on = "right", traction = ["2e6*t", 0] } ]
+[contact]
+on = "bottom"
+gap = "5e-8*sin(300*x)"
+foundation_displacement = ["3e-7*sin(4*t)", "1e-7*t^2 + 1e-5*x*t"]
+normal = "unilateral"
+friction = { law = "coulomb", coefficient = 0.4 }
+heat = { law = "exchange", coefficient = 2e4, foundation_temperature = "20*t" }
+)toml";
+
+const std::string compliance = "contact.normal={law='compliance',coefficient=1e14}";
+const std::string damped = "contact.normal={law='damped',coefficient=1e13}";
+
+INSTANTIATE_TEST_SUITE_P(
+    Laws, ContactIteratively,
+    ::testing::Values(
+        Asked{"unilateral", {"contact.friction={law='none'}"}, plane},
+        Asked{
+            "stiff compliance",
+            {"contact.normal={law='compliance',coefficient=1e18}", "contact.friction={law='none'}"},
+            plane},
+        Asked{"compliance of degree 2",
+              {"contact.normal={law='compliance',coefficient=1e22,exponent=2}",
+               "contact.friction={law='none'}"},
+              plane},
+        Asked{"damped", {damped, "contact.friction={law='none'}"}, plane},
+        Asked{"Coulomb on a bilateral foundation", {"contact.normal=bilateral"}, plane},
+        Asked{"Coulomb on a damped foundation", {damped}, plane},
+        Asked{"coefficient of time, cohesion and limit",
+              {compliance,
+               "contact.friction={law='coulomb',coefficient='0.3+0.2*sin(5*t)+x',cohesion=2e5,"
+               "limit=3e7}"},
+              plane},
+        Asked{"slip-rate",
+              {"contact.friction={law='coulomb',coefficient={static=0.4,kinetic=0.3,speed=1e-6}}"},
+              plane},
+        Asked{
+            "slip-weakening",
+            {"contact.friction={law='coulomb',coefficient={static=0.4,kinetic=0.3,distance=1e-6}}"},
+            plane},
+        Asked{"quadratic elements", {"mesh.degree=2"}, plane},
+        Asked{"partly prescribed side",
+              {"boundary=[{on='top',displacement=['3e-7*t','1e-7*sin(6*t)'],potential=0},"
+               "{on='left',displacement=['free',0]},{on='right',displacement=['2e-7*t','free']}]"},
+              plane}));
+
+const char *const solid = R"toml(
+mesh.box = { min = [0, 0, 0], max = [0.02, 0.02, 0.01], cells = [6, 5, 3], cell = "hexahedron" }
+material = { library = "BaTiO3-Liu2014", pyroelectric = [0, 0, 1e-4] }
+time = { end = 1, steps = 4 }
+boundary = [ { on = "top", displacement = ["2e-7*t", "3e-7*t^2", "-5e-7*t"], potential = 0, temperature = "20*t" } ]
+[contact]
+on = "bottom"
+gap = "3e-3*((x - 0.008)^2 + (y - 0.011)^2)"
+foundation_displacement = ["5e-7*sin(4*t)", "1e-5*x*t", 0]
+normal = "unilateral"
+friction = { law = "coulomb", coefficient = 0.3 }
+heat = { law = "exchange", coefficient = 2e4, foundation_temperature = "20*t" }
+)toml";
+
+// A tube on a shaft that turns and is not quite round: normals in all directions.
+const char *const tube = R"toml(
+mesh.annulus = { inner = 0.02, outer = 0.03, height = 0.01, cells = [2, 20, 2], cell = "hexahedron" }
+material = { library = "BaTiO3-Liu2014" }
+time = { end = 1, steps = 3 }
+boundary = [ { on = "outer", displacement = ["2e-8*t", 0, 0], potential = 0, temperature = "-20*t" } ]
+[contact]
+on = "inner"
+gap = "1e-8*sin(300*x) + 2e-6*z"
+foundation_displacement = ["-1e-5*y*t", "1e-5*x*t", "1e-7*t"]
+normal = "unilateral"
+friction = { law = "coulomb", coefficient = 0.3 }
+)toml";
+
+INSTANTIATE_TEST_SUITE_P(
+    Solids, ContactIteratively,
+    ::testing::Values(Asked{"block", {}, solid},
+                      Asked{"block of tetrahedra", {"mesh.box.cell=tetrahedron"}, solid},
+                      Asked{"compliance and Tresca",
+                            {"contact.normal={law='compliance',coefficient=1e14}",
+                             "contact.friction={law='tresca',bound=1e5}"},
+                            solid},
+                      Asked{"tube", {}, tube}));
+
+TEST(EveryRoute, AgreesOnABodyThatIsWarmedRubbedAndLiftedOff) {
+  for (const Asked &asked : {Asked{"plane", {}, plane}, Asked{"solid", {}, solid}}) {
+    SCOPED_TRACE(asked.name);
+    const RunCase condensed = asked.run({});
+    const std::vector<std::string> status = condensed.contact().columns.at("status");
+    for (const char *each : {"stick", "slip", "open"})
+      EXPECT_THAT(status, ::testing::Contains(each));
+    expect_same_runs(condensed, asked.run({"solver.method=monolithic", "solver.tolerance=1e-12"}));
+    expect_same_runs(condensed, asked.iteratively());
+  }
+}
+
+TEST(ContactIteratively, WhatLetsTheBodyGoIsNamed) {
+  const Asked plate{"cases/ssnv128/plate.toml", {"mesh.box.cells=[16,5]"}, ""};
+  try {
+    plate.run({"solver.body=iterative", "boundary.1.traction=[0,'5e7*t']"});
+    FAIL() << "a body that is pulled away was solved";
+  } catch (const SolveError &error) {
+    EXPECT_THAT(error.what(),
+                ::testing::HasSubstr("nothing keeps the body from a translation along y"));
+  }
+}
+
+}  // namespace
+}  // namespace tourmaline::testing
