@@ -67,6 +67,21 @@ class Run:
                                   / np.linalg.eigvalsh(schur * c[:, None] * c)[0]))
         return float(min(values))
 
+    def condensed(self, t, x, slid):
+        """S z = s + q of the step that ends at t, from the state x: base (normal displacement without gap, tangential one
+        without slip in this step), body at z = 0, load, prescribed z by row, s."""
+        b = self.body
+        load = b.loads(t, x)
+        fn, ft = self.foundation(t)
+        base = np.concatenate([(self.case.gap(self.x, self.y, 0.0) + fn).astype(LONG), slid + ft])
+        trial = x.copy()
+        for i, value in b.held_values(t).items():
+            trial[i] = value
+        held = {j: float(self.turn[j] * trial[row] - base[j]) for j, row in enumerate(self.rows) if row in b.held}
+        trial[self.rows] = self.turn * base
+        self.solver.solve(trial, load)
+        return base, trial, load, held, self.turn * (load - b.K @ trial)[self.rows]
+
     def march(self, frozen=False, starts=0, random=np.random.default_rng(1)):
         b, n, case = self.body, self.n, self.case
         x = np.zeros(b.n, LONG)
@@ -78,16 +93,7 @@ class Run:
         self.largest = np.zeros(4)  # of each field, over all steps
         for k in range(1, case.steps + 1):
             t = k * case.end / case.steps
-            load = b.loads(t, x)
-            fn, ft = self.foundation(t)
-            base = np.concatenate([(g + fn).astype(LONG), slid + ft])
-            trial = x.copy()
-            for i, value in b.held_values(t).items():
-                trial[i] = value
-            held = {j: float(self.turn[j] * trial[row] - base[j]) for j, row in enumerate(self.rows) if row in b.held}
-            trial[self.rows] = self.turn * base
-            self.solver.solve(trial, load)
-            s = self.turn * (load - b.K @ trial)[self.rows]
+            base, trial, load, held, s = self.condensed(t, x, slid)
             step = Step(self.S, s, self.w, self.normal, self.friction, before.astype(float), accumulated.astype(float), held, size)
             z[n:] = 0
             state, closed, side, worst, margin = step.solve(z, frozen)
