@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "number_text.h"
+#include "printed_number.h"
 
 namespace tourmaline::contact {
 

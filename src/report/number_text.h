@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "number_text.h"
+#include "printed_number.h"
 
 namespace tourmaline::report {
 
