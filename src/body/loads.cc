@@ -92,7 +92,7 @@ Loads<dim>::Loads(const Discretisation<dim> &body, const casefile::Case &asked, 
   for (const casefile::BoundaryCase &boundary : asked.boundaries)
     add_surface_loads(body, boundary);
   for (const casefile::ContactCase &contact : asked.contacts)
-    if (contact.heat.law == "exchange")
+    if (contact.heat.exchanges())
       add_foundation_heat(body, contact);
 }
 

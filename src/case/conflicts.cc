@@ -107,7 +107,7 @@ void check_contact(const ContactCase &contact, const std::string &boundary, int 
                "contact nodes, prescribe that on a boundary that shares them",
                "xyz"[axis]));
   if (const Formula *formula = prescribed.find(boundary, thermal);
-      formula && contact.heat.law == "exchange")
+      formula && contact.heat.exchanges())
     fail(contact, boundary, *formula,
          "heat.law = \"exchange\" says what heat flows there, but it is prescribed as well");
 }

@@ -103,8 +103,8 @@ enum class Held { nothing, never_lost, all_it_can };
 
 void add_supports(const Case &asked, const ContactCase &contact, bool all_it_can,
                   std::vector<Support> &supports) {
-  const bool is_bilateral = contact.normal.law == "bilateral";
-  const bool has_friction = contact.friction.law != "none";
+  const bool is_bilateral = !contact.normal.can_open();
+  const bool has_friction = contact.friction.resists();
   for (const std::string &name : contact.on)
     for (const SidePoint &at : points_on(asked.mesh, name)) {
       if (is_bilateral || all_it_can)
@@ -139,7 +139,7 @@ std::string words_of_contact(const Case &asked) {
     return "";
   const bool is_slippery =
       std::all_of(asked.contacts.begin(), asked.contacts.end(),
-                  [](const ContactCase &contact) { return contact.friction.law == "none"; });
+                  [](const ContactCase &contact) { return !contact.friction.resists(); });
   return is_slippery ? " (contact without friction holds only the normal)" : "";
 }
 

@@ -74,11 +74,11 @@ Vector3 ContactLaws::foundation(const Vector3 &point, double time) const {
 }
 
 bool ContactLaws::has_bound() const {
-  return !is_replaced_ && asked_.friction.law == "coulomb";
+  return !is_replaced_ && asked_.friction.depends_on_pressure();
 }
 
 bool ContactLaws::can_open() const {
-  return asked_.normal.law != "bilateral";
+  return asked_.normal.can_open();
 }
 
 bool ContactLaws::has_normal_unknowns() const {
@@ -86,7 +86,7 @@ bool ContactLaws::has_normal_unknowns() const {
 }
 
 bool ContactLaws::friction_depends_on_pressure() const {
-  return has_bound() || (can_open() && (is_replaced_ || asked_.friction.law != "none"));
+  return has_bound() || (can_open() && (is_replaced_ || asked_.friction.resists()));
 }
 
 void ContactLaws::replace_friction() {

@@ -11,8 +11,7 @@ namespace {
 
 // Of the law's answers to the slip d, where J is not smooth, the nearest to `borne`: ascent of
 // lambda.d on the law's set from there, by steps of r, ends at the face that d belongs to.
-template <class Law>
-Tangent nearest_answer(const Law &law, const Tangent &d, double r, const Tangent &borne) {
+Tangent nearest_answer(const FrictionLaw &law, const Tangent &d, double r, const Tangent &borne) {
   constexpr int most = 100;
   Tangent lambda = law.traction(borne);
   for (int k = 0; k < most; ++k) {
@@ -41,9 +40,7 @@ Tangent PointLaw::whole(const Tangent &free, const Tangent &known) const {
 // point is held at rest (o = 0): taken is the nearest to `start`. Newton's method within a bracket.
 double PointLaw::known_trial(const Tangent &trial, double r, double start) const {
   const auto at = [&](double y) { return whole(trial, Tangent::Constant(1, y)); };
-  const auto lack = [&](double y) {
-    return y - with_law([&](const auto &law) { return law.traction(at(y)); })[1] - r * held_[0];
-  };
+  const auto lack = [&](double y) { return y - rule().traction(at(y))[1] - r * held_[0]; };
   double g = lack(start);
   if (g == 0)
     return start;
@@ -55,8 +52,7 @@ double PointLaw::known_trial(const Tangent &trial, double r, double start) const
   }
   constexpr int more_than_bisection_needs = 200;
   for (int k = 0; k < more_than_bisection_needs; ++k) {
-    const double slope =
-        1 - with_law([&](const auto &law) { return law.traction_derivative(at(near)); })(1, 1);
+    const double slope = 1 - rule().traction_derivative(at(near))(1, 1);
     double next = near - g / slope;
     if (!((next - near) * sense > 0 && (far - next) * sense > 0))
       next = near + (far - near) / 2;
@@ -79,14 +75,14 @@ Tangent PointLaw::whole_trial(const Tangent &trial, double r) const {
 }
 
 double PointLaw::dissipation(const Tangent &slip) const {
-  return with_law([&](const auto &law) { return law.dissipation(whole(slip, held_)); });
+  return rule().dissipation(whole(slip, held_));
 }
 
 Tangent PointLaw::traction(const Tangent &trial, double r) const {
   if (trial.size() == 0)
     return trial;
   const Tangent x = whole_trial(trial, r);
-  return with_law([&](const auto &law) { return law.traction(x); }).head(trial.size());
+  return rule().traction(x).head(trial.size());
 }
 
 // With P' of the whole law, the known trial value moves so that the slip there stays o:
@@ -96,7 +92,7 @@ TangentMatrix PointLaw::traction_derivative(const Tangent &trial, double r) cons
   if (n == 0)
     return TangentMatrix(0, 0);
   const Tangent x = whole_trial(trial, r);
-  TangentMatrix whole = with_law([&](const auto &law) { return law.traction_derivative(x); });
+  TangentMatrix whole = rule().traction_derivative(x);
   if (held_.size() == 0)
     return whole;
   const double left = 1 - whole(1, 1), across = whole(0, 1) * whole(1, 0);
@@ -107,7 +103,7 @@ ContactStatus PointLaw::status(const Tangent &trial, double r) const {
   if (!held_.isZero(0))
     return ContactStatus::slip;
   if (held_.size() == 0)
-    return with_law([&](const auto &law) { return law.status(trial); });
+    return rule().status(trial);
   // The known trial value of a point that sticks lies on the border of the law's set, where the law
   // itself may say either.
   const bool slips = (trial - traction(trial, r)).norm() > 1e-14 * trial.norm();
@@ -124,33 +120,30 @@ Tangent PointLaw::known_traction(const Tangent &slip, const Tangent &free,
   const Tangent d = whole(slip, held_);
   if (held_.size() == 0)
     return held_;
-  return with_law([&](const auto &law) -> Tangent {
-    if (law.is_smooth_at(d))
-      return law.gradient(d).tail(held_.size());
-    const double r = d.isZero(0) ? 1 : law.dissipation(d) / d.squaredNorm();
-    if (free.size() == 0)
-      return nearest_answer(law, d, r, borne);
-    const Tangent trial = free + r * slip;
-    const double y = known_trial(trial, r, borne[0] + r * held_[0]);
-    return law.traction(whole(trial, Tangent::Constant(1, y))).tail(1);
-  });
+  const FrictionLaw &law = rule();
+  if (law.is_smooth_at(d))
+    return law.gradient(d).tail(held_.size());
+  const double r = d.isZero(0) ? 1 : law.dissipation(d) / d.squaredNorm();
+  if (free.size() == 0)
+    return nearest_answer(law, d, r, borne);
+  const Tangent trial = free + r * slip;
+  const double y = known_trial(trial, r, borne[0] + r * held_[0]);
+  return law.traction(whole(trial, Tangent::Constant(1, y))).tail(1);
 }
 
 bool PointLaw::is_smooth_at(const Tangent &slip) const {
-  return with_law([&](const auto &law) { return law.is_smooth_at(whole(slip, held_)); });
+  return rule().is_smooth_at(whole(slip, held_));
 }
 
 Tangent PointLaw::gradient(const Tangent &slip) const {
-  return with_law([&](const auto &law) { return law.gradient(whole(slip, held_)); })
-      .head(slip.size());
+  return rule().gradient(whole(slip, held_)).head(slip.size());
 }
 
 // With one free component the Hessian is the small difference of large terms where o is small
 // beside z; what round-off makes negative would take the convexity away.
 TangentMatrix PointLaw::hessian(const Tangent &slip) const {
-  const TangentMatrix part = with_law([&](const auto &law) {
-                               return law.hessian(whole(slip, held_));
-                             }).topLeftCorner(slip.size(), slip.size());
+  const TangentMatrix part =
+      rule().hessian(whole(slip, held_)).topLeftCorner(slip.size(), slip.size());
   return held_.size() == 0 ? part : TangentMatrix(part.cwiseMax(0));
 }
 
@@ -159,9 +152,8 @@ bool PointLaw::has_kink(Index n_free) const {
 }
 
 bool PointLaw::has_bend(Index n_free) const {
-  return !held_.isZero(0) && !has_kink(n_free) && with_law([&](const auto &law) {
-    return !law.is_smooth_at(Tangent::Zero(n_free + held_.size()));
-  });
+  return !held_.isZero(0) && !has_kink(n_free) &&
+         !rule().is_smooth_at(Tangent::Zero(n_free + held_.size()));
 }
 
 }  // namespace tourmaline::contact

@@ -56,10 +56,7 @@ class PointLaw {
   double known_trial(const Tangent &trial, double r, double start) const;
   Tangent whole_trial(const Tangent &trial, double r) const;
   Tangent known_traction(const Tangent &slip, const Tangent &free, const Tangent &borne) const;
-  template <class Function>
-  auto with_law(Function &&f) const {
-    return std::visit(std::forward<Function>(f), law_);
-  }
+  const FrictionLaw &rule() const { return law_of(law_); }
 
   Friction law_;
   Tangent held_ = Tangent(0);

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "report/number_text.h"
+#include "contact/in_words.h"
 #include "tourmaline/case/case.h"
 
 namespace tourmaline::report {
@@ -30,74 +30,11 @@ std::string traction_text(const casefile::FormulaVector &components) {
   return fmt::format("σν = ({}) N/m²", list);
 }
 
-/// A constant with its power of ten, or the formula.
-std::string text_of(const Formula &formula) {
-  const bool is_constant = !formula.depends_on_time() && !formula.depends_on_place();
-  return is_constant ? number_text(formula.value({}, 0), 6) : formula.text();
-}
-
-std::string compliance_text(const casefile::NormalCase &normal) {
-  const std::string c = text_of(normal.coefficient);
-  if (normal.exponent == 1)
-    return fmt::format("compliance, p = c (u_ν − g)₊, c = {} N/m³", c);
-  return fmt::format("compliance, p = c (u_ν − g)₊^{}, c = {} N/m^{}", normal.exponent, c,
-                     2 + normal.exponent);
-}
-
-std::string normal_text(const casefile::NormalCase &normal) {
-  if (normal.law == "compliance")
-    return compliance_text(normal);
-  if (normal.law == "damped")
-    return fmt::format("damped contact, c = {} N s/m³", text_of(normal.coefficient));
-  return normal.law + " contact";
-}
-
-std::string coefficient_text(const casefile::FrictionCoefficientCase &mu) {
-  if (mu.value)
-    return "μ = " + mu.value->text();
-  return fmt::format(
-      "μ from {} to {} over {}", mu.at_rest->text(), mu.kinetic->text(),
-      mu.speed ? number_text(*mu.speed, 6) + " m/s" : number_text(*mu.distance, 6) + " m of slip");
-}
-
-std::string friction_text(const casefile::FrictionCase &friction) {
-  if (friction.law == "none")
-    return "no friction";
-  if (friction.law == "tresca")
-    return fmt::format("Tresca friction, S = {} N/m²", friction.bound.text());
-  std::string text = "Coulomb friction, " + coefficient_text(friction.coefficient);
-  if (!friction.cohesion.is_zero())
-    text += fmt::format(", cohesion {} N/m²", friction.cohesion.text());
-  if (friction.limit)
-    text += fmt::format(", at most {} N/m²", friction.limit->text());
-  return text;
-}
-
-void add_foundation(Conditions &conditions, const casefile::ContactCase &contact) {
-  if (!contact.gap.is_zero())
-    conditions.texts.push_back(fmt::format("gap g = {} m", text_of(contact.gap)));
-  std::string list;
-  for (const Formula &component : contact.foundation_displacement)
-    list += (list.empty() ? "" : ", ") + component.text();
-  if (!list.empty())
-    conditions.texts.push_back(fmt::format("foundation moves by ({}) m", list));
-}
-
-void add_contact(Conditions &conditions, const casefile::ContactCase &contact,
+void add_contact(Conditions &conditions, const casefile::ContactCase &asked,
                  const std::string &friction_name) {
   conditions.kind = "contact";
-  conditions.texts.push_back(normal_text(contact.normal));
-  add_foundation(conditions, contact);
-  if (!friction_name.empty())
-    conditions.texts.push_back(fmt::format("friction of a program: {}", friction_name));
-  else
-    conditions.texts.push_back(friction_text(contact.friction));
-  if (contact.heat.law == "insulated")
-    conditions.texts.push_back("insulated, q·ν = 0");
-  else
-    conditions.texts.push_back(fmt::format("heat exchange, k = {} W/(K m²), with {} K",
-                                           contact.heat.coefficient.text(),
-                                           contact.heat.foundation_temperature.text()));
+  for (const std::string &text : contact::in_words(asked, friction_name))
+    conditions.texts.push_back(text);
 }
 
 void add_mechanics(Conditions &conditions, const casefile::BoundaryCase &entry) {

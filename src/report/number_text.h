@@ -2,11 +2,9 @@
 
 #include <string>
 
-namespace tourmaline::report {
+#include "printed_number.h"
 
-/// `digits` significant digits without needless zeros, powers of ten as they are printed: "0.0312",
-/// "−3.96·10⁻¹¹". UTF-8.
-std::string number_text(double value, int digits);
+namespace tourmaline::report {
 
 /// A power of ten, 0 or another multiple of three, by which values of this size are shown.
 int shown_power(double size);

@@ -92,9 +92,8 @@ void read_tables(Result &result, const fs::path &folder) {
   remark_on_lost_tables(result, folder);
 }
 
-bool has_tresca(const casefile::Case &asked) {
-  return std::any_of(asked.contacts.begin(), asked.contacts.end(),
-                     [](const auto &contact) { return contact.friction.law == "tresca"; });
+bool has_known_bound(const casefile::ContactCase &asked) {
+  return asked.friction.resists() && !asked.friction.depends_on_pressure();
 }
 
 // Of a row of contact.csv, which names its contact where there are several.
@@ -106,7 +105,7 @@ const casefile::ContactCase &contact_at(const Result &result, std::size_t row) {
                                                                    : 0];
 }
 
-// Where it depends on the pressure, the table has it; Tresca's is known without the run.
+// Where it depends on the pressure, the table has it; elsewhere it is known without the run.
 void evaluate_friction_bound(Result &result) {
   const std::vector<double> *recorded =
       result.contact ? result.contact->find("friction_bound") : nullptr;
@@ -115,19 +114,16 @@ void evaluate_friction_bound(Result &result) {
     return;
   }
   if (!result.asked || !result.contact || !result.friction_name.empty() ||
-      !has_tresca(*result.asked))
+      std::none_of(result.asked->contacts.begin(), result.asked->contacts.end(), has_known_bound))
     return;
   const std::vector<double> *time = result.contact->find("time"), *x = result.contact->find("x"),
                             *y = result.contact->find("y"), *z = result.contact->find("z");
   if (!time || !x || !y)
     return;
   for (std::size_t i = 0; i < result.contact->n_rows(); ++i)
-    if (const casefile::FrictionCase &friction = contact_at(result, i).friction;
-        friction.law == "tresca")
-      result.friction_bound.push_back(
-          friction.bound.value({(*x)[i], (*y)[i], z ? (*z)[i] : 0}, (*time)[i]));
-    else
-      result.friction_bound.push_back(0);
+    // It is 0 where there is no friction.
+    result.friction_bound.push_back(contact_at(result, i).friction.bound.value(
+        {(*x)[i], (*y)[i], z ? (*z)[i] : 0}, (*time)[i]));
 }
 
 struct State {

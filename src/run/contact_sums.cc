@@ -60,7 +60,7 @@ void add_sums(const Sums &sums, const std::string &name, Quantities &quantities)
 // Through the boundaries of a contact that exchanges it.
 void add_heat(const casefile::ContactCase &contact, const std::string &name,
               Quantities &quantities) {
-  if (contact.heat.law != "exchange")
+  if (!contact.heat.exchanges())
     return;
   double heat = 0;
   for (const std::string &boundary : contact.on)

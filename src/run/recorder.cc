@@ -208,7 +208,7 @@ template <int dim>
 double Recorder<dim>::heat_flux(const contact::InterfaceNode<dim> &at, double theta,
                                 double time) const {
   const casefile::HeatExchangeCase &heat = model_.asked.contacts[at.contact].heat;
-  const double k_c = heat.law == "exchange" ? heat.coefficient.value(at.point, 0) : 0;
+  const double k_c = heat.exchanges() ? heat.coefficient.value(at.point, 0) : 0;
   return k_c == 0 ? 0 : k_c * (theta - heat.foundation_temperature.value(at.point, time));
 }
 

@@ -65,7 +65,7 @@ Balance<dim>::Balance(const Model<dim> &model, std::span<const double> initial)
       add_once(charge_boundaries_, load.kind().boundary);
   for (const casefile::ContactCase &contact : model.asked.contacts)
     for (const std::string &name : contact.on)
-      if (contact.heat.law == "exchange") {
+      if (contact.heat.exchanges()) {
         add_once(heat_boundaries_, name);
         exchange_[name] = exchange_weights(name, contact.heat.coefficient);
       }

@@ -64,7 +64,7 @@ Model<dim>::Model(const casefile::Case &asked_for, Built built)
   laws = contact::Contacts(asked.contacts, step);
   friction = laws.friction();
   for (const casefile::ContactCase &contact : asked.contacts)
-    if (contact.heat.law == "exchange") {
+    if (contact.heat.exchanges()) {
       op.add_exchange(body, contact.on, contact.heat.coefficient);
       cells.add_exchange(contact.on, contact.heat.coefficient);
     }

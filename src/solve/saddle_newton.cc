@@ -55,7 +55,13 @@ const char *Verdict::worst_name() const {
 template <int dim>
 SaddleNewton<dim>::SaddleNewton(SaddleSystem<dim> &system, const StepData &data,
                                 SaddlePoint prediction)
-    : system_(system), data_(data), x_(std::move(prediction)) {}
+    : system_(system), data_(data), x_(std::move(prediction)) {
+  constexpr double little = 1e-3;
+  const auto sizes = system_.row_sizes(data_, x_);
+  for (std::size_t field = 0; field < 3; ++field)
+    least_sizes_[field] = little * sizes[field];
+  least_displacement_ = little * system_.largest_displacement(x_);
+}
 
 template <int dim>
 bool SaddleNewton<dim>::solve(const SaddleSettings &settings) {
@@ -184,7 +190,9 @@ template <int dim>
 Verdict SaddleNewton<dim>::judge(const StepData &data) const {
   Verdict verdict;
   const auto rows = system_.largest_rows(system_.residual(data, x_));
-  const auto sizes = system_.row_sizes(data, x_);
+  auto sizes = system_.row_sizes(data, x_);
+  for (std::size_t field = 0; field < 3; ++field)
+    sizes[field] = larger(sizes[field], least_sizes_[field]);
   verdict.force_size = sizes[0];
   for (std::size_t field = 0; field < 3; ++field)
     verdict.blocks[field] = relative_to(rows[field], sizes[field]);
@@ -194,7 +202,8 @@ Verdict SaddleNewton<dim>::judge(const StepData &data) const {
       gap = larger(gap, std::abs(system_.displacement(p, x_, data)[0]));
     law = larger(law, law_residual(p));
   }
-  verdict.blocks[3] = relative_to(gap, system_.largest_displacement(x_));
+  verdict.blocks[3] =
+      relative_to(gap, larger(system_.largest_displacement(x_), least_displacement_));
   verdict.blocks[4] = relative_to(law, verdict.force_size);
   return verdict;
 }

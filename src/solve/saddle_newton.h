@@ -6,8 +6,10 @@
 
 namespace tourmaline::solve {
 
-/// Residuals of the blocks of (37), each over its own size: the body's rows by their largest sum of
-/// terms, u_nu of bilateral contact by the largest displacement, and the laws, w |lambda - P(lambda
+/// Residuals of the blocks of (37), each over its own size, or a thousandth of that where the step
+/// began if this is more, as round-off of what was does not go when all else does: the body's rows
+/// by their largest sum of terms, u_nu of bilateral contact by the largest displacement, and the
+/// laws, w |lambda - P(lambda
 /// + r y)| with the stiffness of a node for r, by the size of the mechanical rows.
 struct Verdict {
   static constexpr std::array names{"the balance of forces (31)", "the balance of charges (32)",
@@ -60,6 +62,8 @@ class SaddleNewton {
   SaddleSystem<dim> &system_;
   const StepData data_;
   SaddlePoint x_;
+  std::array<double, 3> least_sizes_{};  // of rows, by field
+  double least_displacement_ = 0;
   int iterations_ = 0;
 };
 

@@ -68,7 +68,7 @@ void add_flows(const casefile::Case &asked, List &list) {
       list.add_each("heat_", boundary.on, heat);
   }
   for (const casefile::ContactCase &contact : asked.contacts)
-    if (contact.heat.law == "exchange")
+    if (contact.heat.exchanges())
       list.add_each("heat_", contact.on, heat);
   for (const casefile::ElectrodeCase &electrode : asked.electrodes) {
     const std::string name = "electrode_" + electrode.name;
@@ -105,7 +105,7 @@ void add_each_contact(const casefile::Case &asked, List &list) {
     if (laws.has_moving_foundation() || laws.has_normal_unknowns())
       for (int c = asked.dimension == 2 ? 2 : 0; c < 3; ++c)
         list.add(whole("N m", asked.dimension), {std::string("contact_moment_") + axes[c] + name});
-    if (asked.contacts[i].heat.law == "exchange")
+    if (asked.contacts[i].heat.exchanges())
       list.add(whole("W", asked.dimension), {"contact_heat" + name});
   }
 }

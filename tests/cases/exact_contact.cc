@@ -67,6 +67,12 @@ TEST(ColumnOnCompliance, SinksInAsTheTwoStiffnessesShareTheWayAndComesOff) {
   expect_balances(run.history());
 }
 
+// At its end nothing is left but the round-off of what was.
+TEST(ColumnOnCompliance, IsAlsoSolvedWithAllUnknownsAtOnce) {
+  const RunCase run = verification("contact-compliance", {"solver.method=monolithic"});
+  expect_in_time(run.contact(), "normal_displacement", sunk);
+}
+
 TEST(ColumnOnCompliance, TheFoundationHoldsTheEnergyOfASpringAndGivesItBack) {
   const Table history = verification("contact-compliance").history();
   expect_in_time(history, "contact_energy", [](double t) {

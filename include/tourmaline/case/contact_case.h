@@ -14,6 +14,8 @@ struct NormalCase {
   std::string law = "bilateral";  ///< bilateral | unilateral | compliance | damped
   Formula coefficient = 0;        ///< c: [N/m^(2+m)] of compliance, [N s/m^3] of damped
   double exponent = 1;            ///< m >= 1 of compliance
+
+  bool can_open() const { return law != "bilateral"; }
 };
 
 /// mu of Coulomb's law: `value` alone, or from `at_rest` to `kinetic` over `speed` or `distance`.
@@ -31,12 +33,17 @@ struct FrictionCase {
       coefficient;               ///< of Coulomb's, whose bound is min(cohesion + mu p, limit)
   Formula cohesion = 0;          ///< [N/m^2]
   std::optional<Formula> limit;  ///< [N/m^2]; not given: none
+
+  bool resists() const { return law != "none"; }
+  bool depends_on_pressure() const { return law == "coulomb"; }
 };
 
 struct HeatExchangeCase {
   std::string law = "insulated";       ///< insulated | exchange
   Formula coefficient = 0;             ///< k_c [W/(K m^2)], no dependence on t
   Formula foundation_temperature = 0;  ///< theta_f [K], difference to the reference temperature
+
+  bool exchanges() const { return law != "insulated"; }
 };
 
 /// One contact with a foundation. A case may have several, on boundaries of their own.

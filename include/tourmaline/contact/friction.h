@@ -15,9 +15,13 @@ struct FrictionCase;
 namespace tourmaline::contact {
 
 /// The friction laws there are. A new law is its file, its place here, and its line in
-/// `friction_of`. A law is convex in the slip increment and offers what Tresca offers; no friction
-/// is the bound zero.
+/// `friction_of`. A law is convex in the slip increment; no friction is the bound zero.
 using Friction = std::variant<Tresca, OwnLaw>;
+
+inline const FrictionLaw &law_of(const Friction &friction) {
+  const auto *own = std::get_if<OwnLaw>(&friction);
+  return own ? *own->law : std::get<Tresca>(friction);
+}
 
 /// Where and when a law is asked for.
 struct ContactPlace {

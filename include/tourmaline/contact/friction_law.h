@@ -17,7 +17,7 @@ namespace tourmaline::contact {
 /// not, like friction that grows with the slip rate or is regularised, is none of this kind.
 /// Vectors have as many components as the argument: one in two dimensions, two in three. d is the
 /// whole tangential slip, also where other conditions move the point. `Tresca`, whose C is a ball,
-/// has the same functions and says more of them.
+/// is one of them.
 ///
 /// What decides the numbers: `traction`, as a step is done when lambda = P(lambda + r d) holds at
 /// all points; `status`, which must be that of `traction`; and at points that prescribed components
@@ -50,16 +50,6 @@ class FrictionLaw {
 /// Such a law as a value beside the others; one there must be.
 struct OwnLaw {
   std::shared_ptr<const FrictionLaw> law;
-
-  double dissipation(const Tangent &d) const { return law->dissipation(d); }
-  Tangent traction(const Tangent &trial) const { return law->traction(trial); }
-  TangentMatrix traction_derivative(const Tangent &trial) const {
-    return law->traction_derivative(trial);
-  }
-  ContactStatus status(const Tangent &trial) const { return law->status(trial); }
-  bool is_smooth_at(const Tangent &d) const { return law->is_smooth_at(d); }
-  Tangent gradient(const Tangent &d) const { return law->gradient(d); }
-  TangentMatrix hessian(const Tangent &d) const { return law->hessian(d); }
 };
 
 }  // namespace tourmaline::contact

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "tourmaline/contact/tangent.h"
-#include "tourmaline/contact_status.h"
+#include "tourmaline/contact/friction_law.h"
 
 namespace tourmaline::contact {
 
@@ -13,24 +12,23 @@ namespace tourmaline::contact {
 ///     lambda = P(lambda + r d),   P the projection onto the ball of radius S,
 ///
 /// or lambda in the subdifferential of the dissipation S |d|.
-struct Tresca {
-  double bound = 0;  ///< S >= 0, finite [N/m^2]
+class Tresca final : public FrictionLaw {
+ public:
+  explicit Tresca(double bound_of_it = 0) : bound(bound_of_it) {}
 
-  /// Dissipation per area over an increment d [m]: S |d| [J/m^2].
-  double dissipation(const Tangent &d) const;
-  /// lambda for the trial value lambda + r d [N/m^2].
-  Tangent traction(const Tangent &trial) const;
-  /// Derivative of `traction`: the identity inside the ball and on it (a point at the bound without
-  /// slip sticks), outside S / |x| (I - x x^T / |x|^2).
-  TangentMatrix traction_derivative(const Tangent &trial) const;
-  /// slip where the trial value lies outside the ball.
-  ContactStatus status(const Tangent &trial) const;
+  double bound;  ///< S >= 0, finite [N/m^2]
 
-  /// Where the dissipation is smooth: d != 0, or S = 0. There follow its gradient [N/m^2] and
-  /// Hessian [N/m^3].
-  bool is_smooth_at(const Tangent &d) const;
-  Tangent gradient(const Tangent &d) const;
-  TangentMatrix hessian(const Tangent &d) const;
+  double dissipation(const Tangent &d) const override;
+  Tangent traction(const Tangent &trial) const override;
+  /// The identity inside the ball and on it (a point at the bound without slip sticks), outside S /
+  /// |x| (I - x x^T / |x|^2).
+  TangentMatrix traction_derivative(const Tangent &trial) const override;
+  ContactStatus status(const Tangent &trial) const override;
+
+  /// Everywhere but at d = 0, and there if S = 0.
+  bool is_smooth_at(const Tangent &d) const override;
+  Tangent gradient(const Tangent &d) const override;
+  TangentMatrix hessian(const Tangent &d) const override;
 };
 
 }  // namespace tourmaline::contact
