@@ -232,9 +232,15 @@ void declare(Visitor &v, ContactCase &contact, const MeshCase &mesh, int dimensi
           [&](Visitor &inner) { declare(inner, contact.normal); });
   v.refuse("charge", "not available in this version; no charge crosses the contact boundary");
   v.refuse("electric", "not available in this version; no charge crosses the contact boundary");
-  v.table({.name = "friction", .description = "The tangential contact law"},
+  v.table({.name = "friction",
+           .description = "The tangential contact law. None may be given as a text: friction = "
+                          "\"none\"",
+           .sole = "law"},
           [&](Visitor &inner) { declare(inner, contact.friction); });
-  v.table({.name = "heat", .description = "The heat flow between body and foundation"},
+  v.table({.name = "heat",
+           .description = "The heat flow between body and foundation. None may be given as a text: "
+                          "heat = \"insulated\"",
+           .sole = "law"},
           [&](Visitor &inner) { declare(inner, contact.heat); });
 }
 

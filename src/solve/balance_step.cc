@@ -159,6 +159,22 @@ void excuse_leaks(const std::array<double, 3> &size, BalanceRoundOff &sums) {
       *of_field[f] = sums.energy[f] = anything;
 }
 
+// By how much the contact is open at most [m]: the contact is solved from where it is closed, and
+// forces have the round-off of those that would pull the body there.
+template <int dim>
+double widest_opening(const Model<dim> &model, const BalanceStep<dim> &step) {
+  double widest = 0;
+  for (const contact::InterfaceNode<dim> &at : model.interface) {
+    if (!model.laws.of(at).can_open())
+      continue;
+    double opening = model.reach(at, step.time);
+    for (int c = 0; c < dim; ++c)
+      opening -= at.normal[c] * step.now.unknowns[body::unknown<dim>(at.node, c)];
+    widest = std::max(widest, opening);
+  }
+  return widest;
+}
+
 // What moves or holds prescribed values, and what moves at the contact, works against the round-off
 // of forces, charges and heats [J].
 template <int dim>
@@ -267,7 +283,8 @@ BalanceRoundOff round_off_of(const Model<dim> &model, const CoupledFields &coupl
   constexpr double eps = std::numeric_limits<double>::epsilon(), several = 1e2, neighbours = 10;
   const std::vector<double> diagonal = model.op.diagonal(model.step);
   const std::array<double, Fields<dim>::count> scale = body::Operator<dim>::scales(diagonal);
-  const std::array<double, 3> size = coupled_sizes(coupled, step, scale);
+  std::array<double, 3> size = coupled_sizes(coupled, step, scale);
+  size[0] = std::max(size[0], widest_opening(model, step) / scale[0]);
   const double watt = model.op.reference_temperature() / model.step;
   BalanceRoundOff sums;
   for (std::size_t i = 0; i < diagonal.size(); ++i) {

@@ -217,14 +217,14 @@ bool Cascade::continuation(Index n_entries, Place &x) {
 // Where the body begins to touch a foundation that yields, the programme's value may tell too
 // little of the way to its minimum; the natural map's zero is the same place.
 CoupledSolution Cascade::solve_convex(const VectorXd &start) {
-  constexpr int most = 3;
+  const int most = may_yield(programme_.points) ? 3 : 1;
   CoupledSolution found;
   found.interface.increment = start;
   for (int k = 0; k < most; ++k) {
     begin_attempt();
     found.stage = ContactStage::convex;
     found.interface = convex({}, found.interface.increment);
-    if (found.interface.converged || !found.interface.is_definite)
+    if (found.interface.converged || !found.interface.is_definite || most == 1)
       break;
     if (Place x; find_by_newton(found.interface.increment, x)) {
       found = NaturalMap(programme_, 1).solution(x);

@@ -33,9 +33,7 @@ class Iteration {
         factor_(factor) {
     for (const ContactPoint &p : programme.points)
       curvature_.push_back(largest_curvature(programme.stiffness, p));
-    may_yield_ = std::any_of(
-        programme.points.begin(), programme.points.end(),
-        [](const ContactPoint &p) { return p.law.normal() != nullptr && !p.law.has_kink(p.size); });
+    may_yield_ = solve::may_yield(programme.points);
     update_residual_force();
   }
 
@@ -373,6 +371,12 @@ InterfaceSolution nothing_to_slip(const InterfaceProgramme &programme) {
 }
 
 }  // namespace
+
+bool may_yield(const std::vector<ContactPoint> &points) {
+  return std::any_of(points.begin(), points.end(), [](const ContactPoint &p) {
+    return p.law.normal() != nullptr && !p.law.has_kink(p.size);
+  });
+}
 
 double largest_curvature(const Eigen::MatrixXd &stiffness, const ContactPoint &p) {
   const TangentMatrix block = stiffness.block(p.offset, p.offset, p.size, p.size);

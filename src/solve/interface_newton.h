@@ -55,6 +55,10 @@ struct InterfaceSolution {
   std::vector<std::size_t> unsettled;  ///< points that carry the residual, if not converged
 };
 
+/// Whether the foundation yields at any of these points: its law has no kink, but a bend where the
+/// body begins to touch.
+bool may_yield(const std::vector<ContactPoint> &points);
+
 /// The largest eigenvalue of the point's own block of A [N/m]; 0 where it has no entries.
 double largest_curvature(const Eigen::MatrixXd &stiffness, const ContactPoint &point);
 

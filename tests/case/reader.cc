@@ -252,5 +252,18 @@ TEST(Override, ReplacesAWholeTable) {
   EXPECT_EQ(read({"contact.heat={law='insulated'}"}).contacts.front().heat.law, "insulated");
 }
 
+TEST(Reader, TakesALawThatNeedsNothingElseAsAText) {
+  const Case asked = read_text(
+      "mesh.box = { min = [0, 0], max = [1, 1], cells = [1, 1] }\n"
+      "material.library = \"BaTiO3-Liu2014\"\ntime = { end = 1, steps = 1 }\n"
+      "boundary = [ { on = \"top\", displacement = [0, 0], potential = 0, temperature = 0 } ]\n"
+      "contact = { on = \"bottom\", normal = \"unilateral\", friction = \"none\", heat = "
+      "\"insulated\" }\n",
+      "case.toml", {});
+  EXPECT_TRUE(asked.contacts[0].normal.can_open());
+  EXPECT_FALSE(asked.contacts[0].friction.resists());
+  EXPECT_FALSE(asked.contacts[0].heat.exchanges());
+}
+
 }  // namespace
 }  // namespace tourmaline::casefile

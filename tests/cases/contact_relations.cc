@@ -443,5 +443,22 @@ heat = { law = "exchange", coefficient = 2e4, foundation_temperature = "20*t" }
   }
 }
 
+// What forces that would close the gap leave of round-off is no lack of energy.
+TEST(FarFromTheFoundation, ABodyMovesAsOneWithoutContact) {
+  for (const char *gap : {"1e-4", "3e-3", "1"}) {
+    const RunCase run = run_text(R"toml(
+mesh.box = { min = [0, 0], max = [0.1, 0.05], cells = [8, 4], cell = "quadrilateral" }
+material.library = "BaTiO3-Liu2014"
+time = { end = 1, steps = 4 }
+boundary = [ { on = "top", displacement = [0, "-1e-6*t"], potential = 0 } ]
+contact = { on = "bottom", normal = "unilateral" }
+)toml",
+                                 {std::string("contact.gap=") + gap});
+    for (const double u : run.nodes().numbers("u_y"))
+      EXPECT_NEAR(u, -1e-6, 1e-16 + 1e-15 * std::stod(gap));
+    EXPECT_EQ(run.history().numbers("open").back(), 9);
+  }
+}
+
 }  // namespace
 }  // namespace tourmaline::testing
