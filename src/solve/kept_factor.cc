@@ -126,7 +126,7 @@ VectorXd symmetric_product(const MatrixXd &a, const VectorXd &v) {
 
 void subtract_product(const MatrixXd &a, const VectorXd &v, VectorXd &from) {
   if (is_large(a.rows()))
-    from.noalias() -= a.selfadjointView<Eigen::Lower>() * v;
+    from -= symmetric_product(a, v);
   else
     from.noalias() -= a * v;
 }
