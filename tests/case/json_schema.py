@@ -340,9 +340,11 @@ class CaseSchema(unittest.TestCase):
         self.assertGreater(refused, 12)
 
     def test_says_unit_and_default(self):
-        friction = self.schema["properties"]["contact"]["properties"]["friction"]["properties"]
+        as_text, as_table = self.schema["properties"]["contact"]["properties"]["friction"]["anyOf"]
+        friction = as_table["properties"]
         self.assertIn("[N/m^2]", friction["bound"]["description"])
         self.assertEqual(friction["law"]["default"], "none")
+        self.assertEqual(as_text["enum"], ["none"])
 
 
 if __name__ == "__main__":
