@@ -99,7 +99,7 @@ class ContactBySolutions : public IterativeRoute<dim>, private ContactBody, priv
                      const VectorXd &descent) override;
   double force_size() const override { return size_; }
   using IterativeRoute<dim>::accuracy;
-  double accuracy() const override { return model_.asked.solver.linear_tolerance * size_; }
+  double force_accuracy() const override { return model_.asked.solver.linear_tolerance * size_; }
 
   ContactNodes<dim> contact_;
   std::vector<double> curvatures_;  // by point [N/m]

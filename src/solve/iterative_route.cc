@@ -51,7 +51,7 @@ class ActiveSetRoute : public IterativeRoute<dim>, private SlipResponse {
   VectorXd direction(const std::vector<bool> &is_smooth, const std::vector<TangentMatrix> &hessian,
                      const VectorXd &descent) override;
   double force_size() const override { return contact_.force_size(body_.residual()); }
-  double accuracy() const override;
+  double force_accuracy() const override;
 
   void settle() override;
   void set_contact() override { body_.system().set_contact(contact_.tangents()); }
@@ -86,7 +86,7 @@ double ActiveSetRoute<dim>::terms_at_contact() const {
 }
 
 template <int dim>
-double ActiveSetRoute<dim>::accuracy() const {
+double ActiveSetRoute<dim>::force_accuracy() const {
   return model_.asked.solver.linear_tolerance * terms_at_contact_;
 }
 

@@ -261,14 +261,14 @@ InterfaceSolution minimise(const SlipProgramme &programme, SlipResponse &respons
   double allowed = 0;
   const auto residual = [&] {
     allowed = descent.allowed(settings.tolerance);
-    const bool is_small = descent.largest_residual() <= std::max(allowed, response.accuracy());
+    const bool is_small = descent.largest_residual() <= std::max(allowed, response.force_accuracy());
     if (is_small)
       descent.settle();
     return descent.largest_residual();
   };
   double least = residual();
   while (least > allowed && solved < settings.max_iterations &&
-         (least > response.accuracy() || solved - last_gain < patience)) {
+         (least > response.force_accuracy() || solved - last_gain < patience)) {
     descent.proximal_step(settings.tolerance);
     bool more = true;
     while (more && solved < settings.max_iterations) {
@@ -280,7 +280,7 @@ InterfaceSolution minimise(const SlipProgramme &programme, SlipResponse &respons
       last_gain = solved;
     }
   }
-  InterfaceSolution solution = descent.solution(std::max(allowed, response.accuracy()));
+  InterfaceSolution solution = descent.solution(std::max(allowed, response.force_accuracy()));
   solution.iterations = solved;
   return solution;
 }

@@ -28,7 +28,7 @@ class SlipResponse {
 
   /// Error that these forces have at most [N]. A residual that is no larger and falls no more is
   /// taken for zero.
-  virtual double accuracy() const = 0;
+  virtual double force_accuracy() const = 0;
 };
 
 /// The programme of `InterfaceProgramme` with A known by its answers alone.

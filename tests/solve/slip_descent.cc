@@ -45,7 +45,7 @@ class Dense : public SlipResponse {
   }
 
   double force_size() const override { return size_; }
-  double accuracy() const override { return 1e-15 * size_; }
+  double force_accuracy() const override { return 1e-15 * size_; }
 
   int forces = 0;
   VectorXd asked_for;
