@@ -261,7 +261,8 @@ InterfaceSolution minimise(const SlipProgramme &programme, SlipResponse &respons
   double allowed = 0;
   const auto residual = [&] {
     allowed = descent.allowed(settings.tolerance);
-    const bool is_small = descent.largest_residual() <= std::max(allowed, response.force_accuracy());
+    const bool is_small =
+        descent.largest_residual() <= std::max(allowed, response.force_accuracy());
     if (is_small)
       descent.settle();
     return descent.largest_residual();

@@ -68,7 +68,7 @@ TEST(SeveralContacts, AreReadBackFromTheResolvedCase) {
 
 TEST(SeveralContacts, OneOfThemIsResolvedAsTheTableThatItMayBe) {
   const std::string text = resolved(read("[contact]\non = \"left\"\n"));
-  EXPECT_THAT(text, AllOf(HasSubstr("\n[contact]\non"), HasSubstr("\n[contact.friction]\n")));
+  EXPECT_THAT(text, AllOf(HasSubstr("\n[contact]\non"), HasSubstr("\nfriction = \"none\"\n")));
   EXPECT_EQ(resolved(read("[[contact]]\non = \"left\"\n")), text);
 }
 
