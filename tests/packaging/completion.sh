@@ -36,7 +36,7 @@ offers 'tourmaline figures results --format s' svg
 offers 'tourmaline materials BaTiO3-L' BaTiO3-Liu2014
 offers 'tourmaline materials --file ' first.toml results
 offers 'tourmaline run first.toml --set conta' contact.
-offers 'tourmaline run first.toml --set contact.f' contact.foundation_displacement= contact.friction.
+offers 'tourmaline run first.toml --set contact.f' contact.foundation_displacement= contact.friction. contact.friction=
 offers 'tourmaline run first.toml --set contact.friction.' contact.friction.law= contact.friction.bound= contact.friction.coefficient. \
   contact.friction.coefficient= contact.friction.cohesion= contact.friction.limit=
 offers 'tourmaline run first.toml --set "boundary[2].tr' 'boundary[2].traction='
