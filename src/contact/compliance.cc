@@ -31,8 +31,10 @@ double Compliance::pressure(double trial, double r) const {
   return borne < trial / 2 ? borne : trial - r * delta;
 }
 
+// Where the body just touches, the slope is that of pressing it in: a body that only the contact
+// holds would be loose at the start otherwise.
 double Compliance::pressure_derivative(double trial, double r) const {
-  if (trial <= 0)
+  if (trial < 0)
     return 0;
   const double stiffness = stiffness_at(penetration(trial, r));
   return stiffness / (stiffness + r);
@@ -43,7 +45,7 @@ double Compliance::pressure_at(double delta) const {
 }
 
 double Compliance::stiffness_at(double delta) const {
-  return delta > 0 ? coefficient_ * exponent_ * std::pow(delta, exponent_ - 1) : 0;
+  return delta >= 0 ? coefficient_ * exponent_ * std::pow(delta, exponent_ - 1) : 0;
 }
 
 double Compliance::potential(double delta) const {

@@ -156,4 +156,9 @@ bool PointLaw::has_bend(Index n_free) const {
          !rule().is_smooth_at(Tangent::Zero(n_free + held_.size()));
 }
 
+std::optional<double> PointLaw::bound() const {
+  const auto *ball = std::get_if<Tresca>(&law_);
+  return ball ? std::optional(ball->bound) : std::nullopt;
+}
+
 }  // namespace tourmaline::contact

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <concepts>
+#include <optional>
 
 #include "tourmaline/contact/friction.h"
 
@@ -50,6 +51,8 @@ class PointLaw {
   /// `n_free`: number of components of z.
   bool has_kink(Eigen::Index n_free) const;
   bool has_bend(Eigen::Index n_free) const;
+  /// Radius of the ball of its tractions [N/m^2]; nothing where they are another set.
+  std::optional<double> bound() const;
 
  private:
   Tangent whole(const Tangent &free, const Tangent &known) const;

@@ -20,4 +20,10 @@ std::vector<std::uint32_t> keep_used_points(Grid &grid) {
   return used;
 }
 
+const double *HistoryRow::find(std::string_view name) const {
+  const auto found = std::find_if(quantities.begin(), quantities.end(),
+                                  [&](const auto &quantity) { return quantity.first == name; });
+  return found == quantities.end() ? nullptr : &found->second;
+}
+
 }  // namespace tourmaline::output

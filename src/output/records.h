@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -102,6 +103,9 @@ struct HistoryRow {
   double residual = 0;
   std::size_t stick = 0, slip = 0, open = 0;
   std::vector<std::pair<std::string, double>> quantities;
+
+  /// The quantity of that name; null where there is none.
+  const double *find(std::string_view name) const;
 };
 
 /// The smallest or largest value of a field and the node where it stands.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace tourmaline::run {
 
@@ -88,6 +89,29 @@ void add_contact_sums(const solve::Model<dim> &model, const solve::StepOutcome &
 }
 
 template <int dim>
+void add_contact_extremes(const solve::Model<dim> &model,
+                          const std::vector<output::ContactRow> &rows, Quantities &quantities) {
+  if (!model.laws.has_normal_unknowns() || rows.empty())
+    return;
+  const auto add = [&](const std::string &name, const auto &belongs) {
+    double pressure = -std::numeric_limits<double>::infinity(), opening = pressure;
+    for (const output::ContactRow &row : rows)
+      if (belongs(row)) {
+        pressure = std::max(pressure, -row.normal_traction);
+        opening = std::max(opening, row.gap);
+      }
+    quantities.emplace_back("max_pressure" + name, pressure);
+    quantities.emplace_back("max_opening" + name, opening);
+  };
+  add("", [](const auto &) { return true; });
+  const std::vector<casefile::ContactCase> &contacts = model.asked.contacts;
+  for (std::size_t i = 0; contacts.size() > 1 && i < contacts.size(); ++i)
+    add("_" + contacts[i].called(), [&](const output::ContactRow &row) {
+      return row.contact_number == static_cast<std::int32_t>(i);
+    });
+}
+
+template <int dim>
 std::vector<output::ContactRecord> contact_records(const solve::Model<dim> &model) {
   std::vector<output::ContactRecord> records;
   if (model.asked.contacts.size() < 2)
@@ -101,6 +125,10 @@ std::vector<output::ContactRecord> contact_records(const solve::Model<dim> &mode
 
 template void add_contact_sums(const solve::Model<2> &, const solve::StepOutcome &, Quantities &);
 template void add_contact_sums(const solve::Model<3> &, const solve::StepOutcome &, Quantities &);
+template void add_contact_extremes(const solve::Model<2> &, const std::vector<output::ContactRow> &,
+                                   Quantities &);
+template void add_contact_extremes(const solve::Model<3> &, const std::vector<output::ContactRow> &,
+                                   Quantities &);
 template std::vector<output::ContactRecord> contact_records(const solve::Model<2> &);
 template std::vector<output::ContactRecord> contact_records(const solve::Model<3> &);
 

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "output/records.h"
 #include "output/summary.h"
 #include "solve/model.h"
 #include "solve/route.h"
@@ -20,6 +21,14 @@ std::string name_of_several(const std::vector<casefile::ContactCase> &contacts, 
 template <int dim>
 void add_contact_sums(const solve::Model<dim> &model, const solve::StepOutcome &outcome,
                       std::vector<std::pair<std::string, double>> &quantities);
+
+/// Where the contact can open or friction follows the pressure, columns of history.csv, behind
+/// `quantities`: of the contact, and of each where there are several, the largest pressure [N/m^2]
+/// and the largest opening [m]. `rows`: those of the contact nodes.
+template <int dim>
+void add_contact_extremes(const solve::Model<dim> &model,
+                          const std::vector<output::ContactRow> &rows,
+                          std::vector<std::pair<std::string, double>> &quantities);
 
 /// For summary.json; empty where there are not several.
 template <int dim>

@@ -79,6 +79,9 @@ std::string ending_text(int dimension, const Highlights &highlights,
   if (last.stick + last.slip + last.open > 0)
     text += line("contact", fmt::format("{} of {} nodes stick, {} slip, {} are open", last.stick,
                                         last.stick + last.slip + last.open, last.slip, last.open));
+  if (const double *pressure = last.find("max_pressure"))
+    text += line("pressure", fmt::format("at most {} N/m^2, opening at most {} m",
+                                         number(*pressure), number(*last.find("max_opening"))));
   if (!highlights.imbalance_name().empty())
     text +=
         line("balances", fmt::format("closed up to {:.1e} ({}, step {})", highlights.imbalance(),

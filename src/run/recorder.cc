@@ -113,6 +113,7 @@ output::HistoryRow Recorder<dim>::step(int n, const solve::StepOutcome &outcome,
     row.quantities.emplace_back("min_" + e.field, e.minimum);
     row.quantities.emplace_back("max_" + e.field, e.maximum);
   }
+  add_contact_extremes(model_, rows, row.quantities);
   add_contact_sums(model_, outcome, row.quantities);
   check.quantities(row.quantities);
   check.quantities({{"residual", row.residual}});

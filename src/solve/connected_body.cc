@@ -90,12 +90,7 @@ void ConnectedBody<dim>::add_responses() {
 
 template <int dim>
 std::vector<double> ConnectedBody<dim>::product(const std::vector<double> &x) const {
-  std::vector<double> y(x.size());
-  if (body_.is_refined())
-    model_.cells.multiply(model_.step, x, y);
-  else
-    model_.op.multiply(model_.step, x, y);
-  return y;
+  return model_.product(x, body_.is_refined());
 }
 
 template <int dim>

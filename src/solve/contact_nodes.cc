@@ -193,8 +193,8 @@ void ContactNodes<dim>::end_step(const CoupledSolution &solution, StepOutcome &o
           solution.interface.increment.segment(p.offset, p.size).norm(), p.law.held().norm());
   }
   for (std::size_t i = 0; is_coupled() && i < nodes_.size(); ++i)
-    if (const auto *ball = std::get_if<contact::Tresca>(&friction(nodes_[i], solution).law()))
-      outcome.friction_bound[static_cast<Index>(i)] = ball->bound;
+    outcome.friction_bound[static_cast<Index>(i)] =
+        friction(nodes_[i], solution).bound().value_or(0);
   if (model_.laws.remembers_slip())
     outcome.accumulated_slip = slipped_;
 }

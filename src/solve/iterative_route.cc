@@ -3,234 +3,148 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
+#include "case/holding.h"
 #include "larger.h"
-#include "solve/active_set.h"
+#include "solve/active_set_route.h"
 #include "solve/contact_by_solutions.h"
 #include "solve/first_places.h"
-#include "solve/iterative_body.h"
 #include "solve/leaning.h"
-#include "solve/slip_descent.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::solve {
 
 namespace {
 
-using contact::TangentMatrix;
-using Eigen::VectorXd;
-
-// Bilateral contact with friction that depends on nothing but the slip.
-template <int dim>
-class ActiveSetRoute : public IterativeRoute<dim>, private SlipResponse {
- public:
-  explicit ActiveSetRoute(const Model<dim> &model)
-      : IterativeRoute<dim>(model), contact_(model, this->is_prescribed_) {}
-
- private:
-  using IterativeRoute<dim>::model_;
-  using IterativeRoute<dim>::body_;
-  using IterativeRoute<dim>::time_;
-  using IterativeRoute<dim>::state_;
-  using IterativeRoute<dim>::iterations_;
-  using IterativeRoute<dim>::so_far_;
-  using IterativeRoute<dim>::left_to_contact_;
-  using IterativeRoute<dim>::contact_tolerance;
-
-  void begin_contact(std::span<const double> before) override;
-  double terms_at_contact() const;
-  std::vector<double> freed(std::vector<double> residual) const override;
-  std::vector<double> free_residual() const { return freed(body_.residual()); }
-  void impose();
-
-  bool find_fast();
-  bool newton_step();
-  void find_safely();
-  VectorXd force(const VectorXd &d) override;
-  VectorXd direction(const std::vector<bool> &is_smooth, const std::vector<TangentMatrix> &hessian,
-                     const VectorXd &descent) override;
-  double force_size() const override { return contact_.force_size(body_.residual()); }
-  double force_accuracy() const override;
-
-  void settle() override;
-  void set_contact() override { body_.system().set_contact(contact_.tangents()); }
-  StepOutcome outcome() override;
-  [[noreturn]] void give_up_contact(const InterfaceSolution &solution) const;
-  void save_contact(output::SavedNumbers &numbers) const override { contact_.save(numbers); }
-  void restore_contact(const output::SavedNumbers &numbers) override { contact_.restore(numbers); }
-
-  ActiveSet<dim> contact_;
-  std::vector<double> carried_;  // storage for `Model::carried`
-  double terms_at_contact_ = 0;  // of the step at hand
-};
-
-template <int dim>
-void ActiveSetRoute<dim>::begin_contact(std::span<const double> before) {
-  contact_.begin_step(time_, model_.carried(before, time_, carried_), state_);
-  impose();
-  terms_at_contact_ = terms_at_contact();
-}
-
-// The largest of the terms that nodal forces of the contact are summed from [N].
-template <int dim>
-double ActiveSetRoute<dim>::terms_at_contact() const {
-  if (contact_.is_empty())
-    return 0;
-  body::FieldProducts products;
-  model_.op.multiply_by_field(state_, products);
-  double largest = 0;
-  for (const std::vector<double> &product : products.of)
-    largest = larger(largest, contact_.largest_force(product));
-  return largest;
-}
-
-template <int dim>
-double ActiveSetRoute<dim>::force_accuracy() const {
-  return model_.asked.solver.linear_tolerance * terms_at_contact_;
-}
-
-// What of a residual of the body Newton's method takes down.
-template <int dim>
-std::vector<double> ActiveSetRoute<dim>::freed(std::vector<double> residual) const {
-  contact_.subtract_friction(residual);
-  body_.system().project(residual);
-  return residual;
-}
-
-template <int dim>
-void ActiveSetRoute<dim>::impose() {
-  contact_.impose(state_);
-  body_.update_residual();
-}
-
-template <int dim>
-bool ActiveSetRoute<dim>::newton_step() {
-  constexpr double reduction = 1e-2;     // what is left, the next iteration takes
-  constexpr std::size_t tiresome = 100;  // linear iterations: friction is stiffer than the body
-  body_.system().set_contact(contact_.tangents());
-  ++iterations_;
-  const std::size_t before = so_far_.krylov_iterations;
-  return body_.correct(free_residual(), reduction) &&
-         (contact_.is_empty() || so_far_.krylov_iterations - before <= tiresome);
-}
-
-// The fast stage: Newton's method on all unknowns, in which body and active set settle together. It
-// may cycle; false when it has gained nothing in a while.
-template <int dim>
-bool ActiveSetRoute<dim>::find_fast() {
-  constexpr int patience = 10, most = 30;
-  double least = std::numeric_limits<double>::infinity(), least_of_body = least;
-  for (int last_gain = 0; iterations_ == 0 || iterations_ - last_gain < patience;) {
-    if (iterations_ > 0) {
-      const double worst = contact_.largest_residual(body_.residual());
-      const bool contact_is_solved = worst <= contact_tolerance() * force_size();
-      if (contact_is_solved && body_.is_solved(free_residual()))
-        return true;
-      if (iterations_ >= std::min(most, model_.asked.solver.max_iterations))
-        return false;
-      if (worst < least || (contact_is_solved && body_.lack() < least_of_body))
-        last_gain = iterations_;
-      least = std::min(least, worst);
-      if (contact_is_solved)
-        least_of_body = std::min(least_of_body, body_.lack());
-      if (contact_.change(body_.residual()))
-        impose();
-    }
-    if (!newton_step())
-      return false;
-    contact_.read_slips(state_);
-    impose();
-  }
-  return false;
-}
-
-// The body starts where it would be if it moved with the contact as it did in the last linear
-// solve, as far as the contact does.
-template <int dim>
-VectorXd ActiveSetRoute<dim>::force(const VectorXd &d) {
-  const VectorXd before = contact_.increments_of(state_);
-  contact_.set_increments(d);
-  const VectorXd moved = contact_.components(body_.increment());
-  if (const double size = moved.squaredNorm(); size > 0) {
-    const double share = moved.dot(d - before) / size;
-    for (std::size_t i = 0; i < state_.size(); ++i)
-      state_[i] += share * body_.increment()[i];
-  }
-  contact_.impose(state_);
-  body_.solve_held(time_, contact_.held());
-  return contact_.components(body_.residual());
-}
-
-template <int dim>
-VectorXd ActiveSetRoute<dim>::direction(const std::vector<bool> &is_smooth,
-                                        const std::vector<TangentMatrix> &hessian,
-                                        const VectorXd &descent) {
-  constexpr double reduction = 1e-4;
-  std::vector<double> r = body_.residual();
-  contact_.put_forces(is_smooth, descent, r);
-  body_.system().set_contact(contact_.tangents(is_smooth, hessian));
-  body_.system().refresh();
-  body_.system().project(r);
-  const std::vector<double> state(state_.begin(), state_.end());
-  const bool solved = body_.correct(r, reduction);
-  std::copy(state.begin(), state.end(), state_.begin());
-  ++iterations_;
-  return solved ? contact_.components(body_.increment()) : VectorXd();
-}
-
-// The safe stage: descent in the programme of the contact, from any start.
-template <int dim>
-void ActiveSetRoute<dim>::find_safely() {
-  const std::vector<ContactPoint> points = contact_.programme_points();
-  const std::vector<double> curvatures = contact_.curvatures();
-  VectorXd start = contact_.increments();
-  so_far_.safe_steps += start.size() > 0;  // without slips there is only the body to go on with
-  body_.forget_increment();
-  const int left = model_.asked.solver.max_iterations - iterations_;
-  const InterfaceSolution solution = minimise(SlipProgramme{points, curvatures}, *this,
-                                              std::move(start), {contact_tolerance(), left});
-  if (!solution.converged)
-    give_up_contact(solution);
-}
-
-template <int dim>
-void ActiveSetRoute<dim>::settle() {
-  body_.system().set_contact(contact_.tangents());
-  body_.system().refresh();
-  if (!find_fast())
-    find_safely();
-}
-
-template <int dim>
-StepOutcome ActiveSetRoute<dim>::outcome() {
-  StepOutcome outcome = contact_.outcome(body_.residual());
-  outcome.newton_iterations = iterations_;
-  contact_.set_active(outcome.status);
-  return outcome;
-}
-
-template <int dim>
-void ActiveSetRoute<dim>::give_up_contact(const InterfaceSolution &solution) const {
-  if (!left_to_contact_.empty())
-    give_up_leaning(time_, solution, left_to_contact_);
-  const std::vector<std::size_t> &unsettled = solution.unsettled;
-  throw SolveError(fmt::format(
-      "the contact iteration did not converge at t = {:g} s: residual {:.3g} of the largest force "
-      "after {} Newton iterations, wanted {:.3g}; {} points are unsettled, among them{}; raise "
-      "solver.max_iterations or solver.linear_tolerance, or take solver.body = \"direct\"",
-      time_, solution.residual, iterations_, contact_tolerance(), unsettled.size(),
-      first_places(unsettled.size(),
-                   [&](std::size_t i) { return model_.interface[unsettled[i]].point; })));
-}
+// Forward errors above it are worth refinement.
+constexpr double worth_refining = 1e-7;
 
 }  // namespace
 
 template <int dim>
+IterativeRoute<dim>::IterativeRoute(const Model<dim> &model)
+    : model_(model),
+      is_prescribed_(body::mask_of(model.prescribed, model.n_unknowns())),
+      left_to_contact_(casefile::left_to_contact(model.asked)),
+      body_(model, is_prescribed_, so_far_) {
+  so_far_.safe_steps = 0;
+}
+
+template <int dim>
+double IterativeRoute<dim>::contact_tolerance() const {
+  return 10 * std::max(model_.asked.solver.tolerance, model_.asked.solver.linear_tolerance);
+}
+
+// The change of the last step once more.
+template <int dim>
+void IterativeRoute<dim>::predict(std::span<const double> before) {
+  if (!two_before_.empty())
+    for (std::size_t i = 0; i < state_.size(); ++i)
+      if (!is_prescribed_[i])
+        state_[i] += before[i] - two_before_[i];
+  two_before_.assign(before.begin(), before.end());
+}
+
+// Where nothing holds the body, round-off of its stiffness does: loads then move it by so much that
+// the round-off of the forces that hold it is a part of them that counts.
+template <int dim>
+void IterativeRoute<dim>::check_held() const {
+  constexpr double counts = 1e-7;
+  if (left_to_contact_.empty())
+    return;
+  const auto [largest, round_off] = body_.nodal_forces();
+  if (!(round_off > counts * larger(largest, body_.first_nodal_forces().largest)))
+    return;
+  const std::string motions = unheld();
+  let_go(time_, motions.empty() ? left_to_contact_ : motions);
+}
+
+// A step that moves a field as never before tells whether refinement helps, and goes on with it if
+// so.
+template <int dim>
+void IterativeRoute<dim>::measure() {
+  const auto forward_error = [&] {
+    set_contact();
+    return body_.forward_error(freed(body_.residual_by_cells()));
+  };
+  double error = is_refined() ? body_.last_correction() : forward_error();
+  if (!is_refined() && error > worth_refining) {
+    body_.refine();
+    iterations_ = 0;
+    body_.update_residual();
+    settle();
+    error = body_.last_correction();
+  }
+  see_forward_error(error);
+}
+
+template <int dim>
+StepOutcome IterativeRoute<dim>::advance(double time, std::span<const double> right_side,
+                                         std::span<const double> before, std::span<double> state) {
+  time_ = time;
+  state_ = state;
+  iterations_ = 0;
+  predict(before);
+  body_.begin_step(right_side, state);
+  begin_contact(before);
+  settle();
+  check_held();
+  if (is_refined() || this->template outgrew_measured<dim>(state))
+    measure();
+  see_backward_error(body_.backward_error(freed(body_.residual())));
+  return outcome();
+}
+
+template <int dim>
+void IterativeRoute<dim>::describe(RouteReport &report) const {
+  report.condense_seconds = body_.system().set_up_seconds();
+  report.preconditioners = body_.system().set_ups();
+  for (std::size_t i = 0; i < is_prescribed_.size(); ++i)
+    if (!is_prescribed_[i]) {
+      ++report.unknowns;
+      report.electric_and_thermal_unknowns += body::field_of<dim>(i) > 0;
+    }
+}
+
+template <int dim>
+void IterativeRoute<dim>::save_memory(output::SavedNumbers &numbers) const {
+  body_.system().save(numbers);
+  save_contact(numbers);
+  numbers.put("state before", two_before_);
+}
+
+template <int dim>
+void IterativeRoute<dim>::restore_memory(const output::SavedNumbers &numbers) {
+  body_.system().restore(numbers, model_.interface.size());
+  restore_contact(numbers);
+  two_before_.resize(model_.n_unknowns());
+  numbers.fill("state before", two_before_);
+}
+
+template <int dim>
+void IterativeRoute<dim>::give_up_contact(const InterfaceSolution &solution,
+                                          const std::function<Vector3(std::size_t)> &place) const {
+  if (!left_to_contact_.empty()) {
+    if (const std::string motions = unheld(); !motions.empty())
+      let_go(time_, motions);
+    give_up_leaning(time_, solution, left_to_contact_);
+  }
+  const std::vector<std::size_t> &unsettled = solution.unsettled;
+  throw SolveError(fmt::format(
+      "the contact iteration did not converge at t = {:g} s: residual {:.3g} of the largest force "
+      "after {} Newton iterations, wanted {:.3g}; {} points are unsettled, among them{}; raise "
+      "solver.max_iterations or solver.linear_tolerance, take smaller time steps, or take "
+      "solver.body = \"direct\"",
+      time_, solution.residual, iterations_, contact_tolerance(), unsettled.size(),
+      first_places(unsettled.size(), [&](std::size_t i) { return place(unsettled[i]); })));
+}
+
+template class IterativeRoute<2>;
+template class IterativeRoute<3>;
+
+template <int dim>
 std::unique_ptr<Route> iterative_route(const Model<dim> &model) {
-  if (model.laws.has_normal_unknowns())
-    return contact_by_solutions(model);
-  return std::make_unique<ActiveSetRoute<dim>>(model);
+  return model.laws.has_normal_unknowns() ? contact_by_solutions(model) : active_set_route(model);
 }
 
 template std::unique_ptr<Route> iterative_route<2>(const Model<2> &);

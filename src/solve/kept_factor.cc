@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "condensation/gmres.h"
-
 namespace tourmaline::solve {
 
 using Eigen::Index;
@@ -14,11 +12,12 @@ using Sparse = InterfaceSystem::Sparse;
 
 namespace {
 
-constexpr double reduction = 1e-2;  // the next Newton iteration takes what is left
-constexpr int most_products = 12, usual_products = 4;
-// A factor of n rows costs as much as some n / 60 products with what belongs to them (measured at n
-// = 6,000): when so many more than usual were needed, another one would have been worth it.
-constexpr double rows_by_product = 60;
+constexpr double reduction = 3e-2;  // the next Newton iteration takes what is left
+constexpr std::size_t most_products = 12;
+constexpr double usual_products = 2;
+// A factor of n rows costs as much as some n / 100 products with what belongs to them (measured at
+// n = 7,000): when so many more than usual were needed, another one would have been worth it.
+constexpr double rows_by_product = 100;
 
 // Column `unknown` of the system's matrix for the rows from `first` on.
 template <class Block>
@@ -76,6 +75,23 @@ VectorXd diagonal_of(const InterfaceSystem &system, const MatrixXd &a) {
   }
   return diagonal;
 }
+
+/// A part of the solution and M times it, which has the size 1.
+struct Direction {
+  KeptFactor::Solved moved;
+  VectorXd product;
+
+  void add(double factor, const Direction &other) {
+    moved.x += factor * other.moved.x;
+    moved.resisted += factor * other.moved.resisted;
+    product += factor * other.product;
+  }
+  void scale(double factor) {
+    moved.x *= factor;
+    moved.resisted *= factor;
+    product *= factor;
+  }
+};
 
 std::vector<double> as_numbers(const Sparse &matrix) {
   std::vector<double> numbers;
@@ -160,21 +176,27 @@ VectorXd KeptFactor::nearly_solved(const InterfaceSystem &system, const VectorXd
   return x;
 }
 
-// Nothing where the factor does not serve.
+// Generalised conjugate residuals. Nothing where the factor does not serve.
 std::optional<KeptFactor::Solved> KeptFactor::iterate(const InterfaceSystem &system,
                                                       const MatrixXd &a, const VectorXd &b) {
   const VectorXd diagonal = diagonal_of(system, a);
-  excess_ -= usual_products;
-  const auto times = [&](const VectorXd &x) -> VectorXd {
-    excess_ += !x.isZero(0);
-    return x.isZero(0) ? x : product(system, spread(system, a, x));
-  };
-  const auto nearly = [&](const VectorXd &r) { return nearly_solved(system, diagonal, r); };
-  const Solved all =
-      spread(system, a, condensation::gmres(times, nearly, b, reduction, most_products));
-  excess_ = std::max(excess_, 0.);
-  const bool is_near = (b - product(system, all)).norm() <= 10 * reduction * b.norm();
-  return is_near ? std::optional(all) : std::nullopt;
+  Solved x{VectorXd::Zero(system.local.cols()), VectorXd::Zero(a.rows())};
+  std::vector<Direction> directions;
+  VectorXd left = b;
+  while (left.norm() > reduction * b.norm() && directions.size() < most_products) {
+    Direction next{spread(system, a, nearly_solved(system, diagonal, left)), {}};
+    next.product = product(system, next.moved);
+    for (const Direction &before : directions)
+      next.add(-before.product.dot(next.product), before);
+    next.scale(1 / next.product.norm());
+    const double share = next.product.dot(left);
+    x.x += share * next.moved.x;
+    x.resisted += share * next.moved.resisted;
+    left -= share * next.product;
+    directions.push_back(std::move(next));
+  }
+  excess_ = std::max(excess_ + static_cast<double>(directions.size()) - usual_products, 0.);
+  return left.norm() <= 10 * reduction * b.norm() ? std::optional(x) : std::nullopt;
 }
 
 // Nothing where it must be solved exactly.

@@ -89,6 +89,16 @@ double Model<dim>::reach(const contact::InterfaceNode<dim> &at, double time) con
 }
 
 template <int dim>
+std::vector<double> Model<dim>::product(std::span<const double> x, bool by_cells) const {
+  std::vector<double> product(x.size());
+  if (by_cells)
+    cells.multiply(step, x, product);
+  else
+    op.multiply(step, x, product);
+  return product;
+}
+
+template <int dim>
 std::span<const double> Model<dim>::carried(std::span<const double> before, double time,
                                             std::vector<double> &carried) const {
   if (!laws.has_moving_foundation())

@@ -52,6 +52,8 @@ struct Model {
   /// slip is what they differ from these. `carried` is filled where the foundation moves.
   std::span<const double> carried(std::span<const double> before, double time,
                                   std::vector<double> &carried) const;
+  /// K x of the step; cell by cell, where the round-off of assembled entries would stay unseen.
+  std::vector<double> product(std::span<const double> x, bool by_cells) const;
 
  private:
   struct Built;  // material and mesh, made before the members that need them

@@ -94,6 +94,19 @@ void add_contact(const casefile::Case &asked, List &list) {
     list.add("", {"contact_stage"});
 }
 
+void add_contact_extremes(const casefile::Case &asked, List &list) {
+  const contact::Contacts laws(asked.contacts, asked.time.end / asked.time.steps);
+  if (!laws.has_normal_unknowns())
+    return;
+  std::vector<std::string> names{""};
+  for (std::size_t i = 0; asked.contacts.size() > 1 && i < asked.contacts.size(); ++i)
+    names.push_back("_" + asked.contacts[i].called());
+  for (const std::string &name : names) {
+    list.add("N/m^2", {"max_pressure" + name});
+    list.add("m", {"max_opening" + name});
+  }
+}
+
 // Of several contacts what each has, as run/contact_sums.cc writes it.
 void add_each_contact(const casefile::Case &asked, List &list) {
   const contact::Contacts laws(asked.contacts, asked.time.end / asked.time.steps);
@@ -139,6 +152,7 @@ std::vector<Output> outputs_of(const casefile::Case &asked) {
   list.add(power, {"stored_heat_rate", "heat_source"});
   list.add("", {"energy_imbalance", "force_imbalance", "charge_imbalance", "heat_imbalance"});
   add_extremes(asked.dimension, list);
+  add_contact_extremes(asked, list);
   add_each_contact(asked, list);
   return list.all;
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <set>
 
 #include "../output/decode_vtk.h"
@@ -27,6 +28,7 @@ class RunWithFields {
 
   std::string content(const std::string &name) const { return output::content_of(folder_ / name); }
   Table contact() const { return read_table(folder_ / "contact.csv"); }
+  Table history() const { return read_table(folder_ / "history.csv"); }
   std::set<std::string> names() const { return output::names_in(folder_.path()); }
 
  private:
@@ -208,6 +210,25 @@ INSTANTIATE_TEST_SUITE_P(OfEveryKind, Facets,
                                            Cells{"tetrahedron", 1, 5, 2},
                                            Cells{"hexahedron", 1, 9, 2},
                                            Cells{"hexahedron", 2, 28, 2}));
+
+double largest(std::vector<double> values, double sign) {
+  for (double &value : values)
+    value *= sign;
+  return *std::max_element(values.begin(), values.end());
+}
+
+TEST(History, ItsLargestPressureAndOpeningAreThoseOfTheContactNodes) {
+  const RunWithFields run(laws + "coulomb-cooled.toml", few_steps);
+  const Table history = run.history(), last = step_of(run.contact(), 2);
+  EXPECT_EQ(history.numbers("max_pressure").back(), largest(last.numbers("normal_traction"), -1));
+  EXPECT_EQ(history.numbers("max_opening").back(), largest(last.numbers("gap"), 1));
+  EXPECT_GT(history.numbers("max_opening").back(), 0);
+}
+
+TEST(History, BilateralContactWithTrescasLawHasNoPressureToTell) {
+  const RunWithFields run(laws + "bilateral-tresca.toml", few_steps);
+  EXPECT_FALSE(run.history().columns.contains("max_pressure"));
+}
 
 }  // namespace
 }  // namespace tourmaline::testing

@@ -91,6 +91,12 @@ TEST(ColumnOnDampedFoundation, SinksInAtTheLoadOverTheCoefficient) {
   expect_balances(run.history());
 }
 
+TEST(ColumnOnDampedFoundation, IsAlsoSolvedWithAllUnknownsAtOnce) {
+  const RunCase run = verification("contact-damped", {"solver.method=monolithic"});
+  expect_in_time(run.contact(), "normal_displacement", [](double t) { return 1e6 / 1e13 * t; });
+  expect_in_time(run.contact(), "normal_traction", [](double) { return -1e6; });
+}
+
 // 2. Friction whose bound changes.
 
 TEST(CappedFriction, SticksThenFollowsThePressureThenTheLimit) {

@@ -248,6 +248,14 @@ TEST(Damped, FromAnOpenGapThePressureBeginsAtTheFoundation) {
   EXPECT_DOUBLE_EQ(Damped(4, 0.5, -7).pressure_at(0.5), 4);
 }
 
+// A body that only the contact holds would be loose at the start otherwise.
+TEST_F(NormalLaws, TouchingIsPressing) {
+  constexpr double r = 3e11;
+  EXPECT_EQ(Unilateral().pressure_derivative(0, r), 1);
+  EXPECT_EQ(Compliance(1e11, 1).pressure_derivative(0, r), 0.25);
+  EXPECT_EQ(Damped(1e11, 1, 0).pressure_derivative(0, r), 0.25);
+}
+
 TEST(LocalLaw, ANormalLawIsALawOfOneComponentThatHoldsNoSlip) {
   const LocalLaw law = NormalPoint(std::make_shared<Compliance>(12, 2));
   EXPECT_DOUBLE_EQ(law.traction(along(4), 2)[0], 3);

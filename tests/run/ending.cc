@@ -49,6 +49,16 @@ TEST(Ending, ACoordinateThatIsRoundOffBesideTheBodysSizeIsZero) {
               HasSubstr("-1 V at (1.2e-18, -3e-17) to 3 V at (2e-13, 0.001)"));
 }
 
+TEST(Ending, WhereTheContactMayOpenItTellsPressureAndOpening) {
+  Highlights highlights;
+  output::HistoryRow last = row(1, 0, 0);
+  last.quantities.emplace_back("max_pressure", 2.5e6);
+  last.quantities.emplace_back("max_opening", 3e-9);
+  highlights.see(last);
+  EXPECT_THAT(ending_text(2, highlights, extremes, 1),
+              HasSubstr("  pressure      at most 2.5e+06 N/m^2, opening at most 3e-09 m\n"));
+}
+
 TEST(Ending, WithoutContactThereIsNoneToTell) {
   Highlights highlights;
   output::HistoryRow free = row(1, 0, 0);
