@@ -13,12 +13,6 @@ using contact::Coulomb;
 using contact::FrictionBound;
 using contact::FrictionCoefficient;
 
-#ifdef NDEBUG
-constexpr int n_programmes = 2000;
-#else
-constexpr int n_programmes = 60;
-#endif
-
 struct Count {
   int failed = 0, wrong = 0;
   std::array<int, n_contact_stages> by_stage{};

@@ -18,6 +18,13 @@
 
 namespace tourmaline::solve {
 
+// Of each kind in a test.
+#ifdef NDEBUG
+constexpr int n_programmes = 2000;
+#else
+constexpr int n_programmes = 60;
+#endif
+
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;

@@ -104,7 +104,7 @@ void expect_all_found(NormalKind normal, FrictionKind friction) {
   for (const int dim : {2, 3}) {
     RandomContacts problems(20260201, normal, friction);
     int most = 0;
-    for (int k = 0; k < 100; ++k) {
+    for (int k = 0; k < n_programmes; ++k) {
       const ContactProblem contact = problems.next(dim);
       const Problem p{contact.stiffness, contact.force, contact.points, {}};
       const VectorXd start =
