@@ -34,7 +34,7 @@ std::vector<std::string> snapping_warnings(const Case &asked) {
   std::vector<std::string> warnings;
   for (const ContactCase &contact : asked.contacts)
     if (const FrictionCoefficientCase &mu = contact.friction.coefficient;
-        contact.friction.depends_on_pressure() && mu.at_rest && mu.kinetic && falls(asked, contact))
+        mu.at_rest && mu.kinetic && falls(asked, contact))
       warnings.push_back(warning(mu));
   return warnings;
 }

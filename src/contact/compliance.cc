@@ -1,7 +1,12 @@
 #include "contact/compliance.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+
+#include "contact/kinds.h"
+#include "contact/values.h"
 
 namespace tourmaline::contact {
 
@@ -51,5 +56,25 @@ double Compliance::stiffness_at(double delta) const {
 double Compliance::potential(double delta) const {
   return delta > 0 ? coefficient_ * std::pow(delta, exponent_ + 1) / (exponent_ + 1) : 0;
 }
+
+namespace {
+
+std::string words(const casefile::NormalCase &asked) {
+  const std::string c = text_of(asked.coefficient);
+  if (asked.exponent == 1)
+    return fmt::format("compliance, p = c (u_ν − g)₊, c = {} N/m³", c);
+  return fmt::format("compliance, p = c (u_ν − g)₊^{}, c = {} N/m^{}", asked.exponent, c,
+                     2 + asked.exponent);
+}
+
+std::shared_ptr<const NormalLaw> at(const casefile::NormalCase &asked, const Vector3 &point,
+                                    double /*step*/, double /*before*/) {
+  return std::make_shared<Compliance>(
+      positive(asked.coefficient, point, "the coefficient of normal compliance"), asked.exponent);
+}
+
+}  // namespace
+
+const NormalKind normal_kinds::compliance{.name = "compliance", .at = at, .words = words};
 
 }  // namespace tourmaline::contact

@@ -1,6 +1,12 @@
 #include "contact/coulomb.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+
+#include "contact/kinds.h"
+#include "contact/values.h"
+#include "printed_number.h"
 
 namespace tourmaline::contact {
 
@@ -20,5 +26,61 @@ FrictionBound::Value Coulomb::at(double pressure, double slip) const {
     return {limit_, 0, 0};
   return {free, mu, coefficient_.derivative(slip) * pressure};
 }
+
+namespace {
+
+FrictionCoefficient coefficient(const casefile::FrictionCoefficientCase &asked,
+                                const Vector3 &point, double time, double step, double slipped) {
+  FrictionCoefficient mu;
+  if (asked.value) {
+    mu.at_rest = mu.kinetic = not_negative(*asked.value, point, time, "the friction coefficient");
+    return mu;
+  }
+  mu.at_rest = not_negative(*asked.at_rest, point, time, "the static friction coefficient");
+  mu.kinetic = not_negative(*asked.kinetic, point, time, "the kinetic friction coefficient");
+  if (asked.speed) {
+    mu.scale = *asked.speed;
+    mu.per_slip = 1 / step;
+  } else {
+    mu.scale = *asked.distance;
+    mu.before = slipped;
+    mu.per_slip = 1;
+  }
+  return mu;
+}
+
+std::shared_ptr<const FrictionBound> bound(const casefile::FrictionCase &asked,
+                                           const Vector3 &point, double time, double step,
+                                           double slipped) {
+  const double cohesion = not_negative(asked.cohesion, point, time, "the cohesion");
+  const double limit = asked.limit
+                           ? value_from(cohesion, *asked.limit, point, time,
+                                        "the limit of the friction bound, beside the cohesion,")
+                           : std::numeric_limits<double>::infinity();
+  return std::make_shared<Coulomb>(coefficient(asked.coefficient, point, time, step, slipped),
+                                   cohesion, limit);
+}
+
+std::string coefficient_words(const casefile::FrictionCoefficientCase &mu) {
+  if (mu.value)
+    return "μ = " + mu.value->text();
+  return fmt::format(
+      "μ from {} to {} over {}", mu.at_rest->text(), mu.kinetic->text(),
+      mu.speed ? number_text(*mu.speed, 6) + " m/s" : number_text(*mu.distance, 6) + " m of slip");
+}
+
+std::string words(const casefile::FrictionCase &asked) {
+  std::string text = "Coulomb friction, " + coefficient_words(asked.coefficient);
+  if (!asked.cohesion.is_zero())
+    text += fmt::format(", cohesion {} N/m²", asked.cohesion.text());
+  if (asked.limit)
+    text += fmt::format(", at most {} N/m²", asked.limit->text());
+  return text;
+}
+
+}  // namespace
+
+const FrictionKind friction_kinds::coulomb{
+    .name = "coulomb", .at = nullptr, .bound = bound, .words = words};
 
 }  // namespace tourmaline::contact

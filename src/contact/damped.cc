@@ -1,5 +1,10 @@
 #include "contact/damped.h"
 
+#include <fmt/format.h>
+
+#include "contact/kinds.h"
+#include "contact/values.h"
+
 namespace tourmaline::contact {
 
 double Damped::pressure(double trial, double r) const {
@@ -25,5 +30,21 @@ double Damped::potential(double delta) const {
 double Damped::dissipated(double delta) const {
   return pressure_at(delta) * (delta - before_);
 }
+
+namespace {
+
+std::string words(const casefile::NormalCase &asked) {
+  return fmt::format("damped contact, c = {} N s/m³", text_of(asked.coefficient));
+}
+
+std::shared_ptr<const NormalLaw> at(const casefile::NormalCase &asked, const Vector3 &point,
+                                    double step, double before) {
+  return std::make_shared<Damped>(
+      positive(asked.coefficient, point, "the coefficient of the damped response"), step, before);
+}
+
+}  // namespace
+
+const NormalKind normal_kinds::damped{.name = "damped", .at = at, .words = words};
 
 }  // namespace tourmaline::contact

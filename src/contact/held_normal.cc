@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "contact/kinds.h"
+
 namespace tourmaline::contact {
 
 double HeldNormal::pressure(double trial, double /*r*/) const {
@@ -31,5 +33,11 @@ double HeldNormal::potential(double delta) const {
 bool HeldNormal::is_closed(double /*trial*/) const {
   return true;
 }
+
+const NormalKind normal_kinds::bilateral{
+    .name = "bilateral",
+    .at = [](const casefile::NormalCase &, const Vector3 &, double,
+             double) -> std::shared_ptr<const NormalLaw> { return std::make_shared<HeldNormal>(); },
+    .words = [](const casefile::NormalCase &) -> std::string { return "bilateral contact"; }};
 
 }  // namespace tourmaline::contact

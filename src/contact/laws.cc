@@ -1,63 +1,8 @@
 #include "contact/laws.h"
 
-#include <fmt/format.h>
-
-#include <cmath>
-#include <limits>
-
-#include "contact/compliance.h"
-#include "contact/coulomb.h"
-#include "contact/damped.h"
-#include "contact/held_normal.h"
-#include "contact/unilateral.h"
-#include "tourmaline/error.h"
+#include "contact/kinds.h"
 
 namespace tourmaline::contact {
-
-namespace {
-
-using casefile::Formula;
-
-// The value of a formula, which must lie from `least` on, or above it.
-double value_from(const Formula &formula, const Vector3 &point, double time, const char *what,
-                  double least, bool is_open = false) {
-  const double value = formula.value(point, time);
-  if (is_open ? value > least : value >= least)
-    return value;
-  throw CaseError(fmt::format(
-      "{}: {} is {:g} at ({:g}, {:g}, {:g}), t = {:g} s; it must be {} {:g}", formula.where(), what,
-      value, point[0], point[1], point[2], time, is_open ? ">" : ">=", least));
-}
-
-double positive(const Formula &formula, const Vector3 &point, const char *what) {
-  return value_from(formula, point, 0, what, 0, true);
-}
-
-double not_negative(const Formula &formula, const Vector3 &point, double time, const char *what) {
-  return value_from(formula, point, time, what, 0);
-}
-
-FrictionCoefficient coefficient(const casefile::FrictionCoefficientCase &asked,
-                                const Vector3 &point, double time, double step, double slipped) {
-  FrictionCoefficient mu;
-  if (asked.value) {
-    mu.at_rest = mu.kinetic = not_negative(*asked.value, point, time, "the friction coefficient");
-    return mu;
-  }
-  mu.at_rest = not_negative(*asked.at_rest, point, time, "the static friction coefficient");
-  mu.kinetic = not_negative(*asked.kinetic, point, time, "the kinetic friction coefficient");
-  if (asked.speed) {
-    mu.scale = *asked.speed;
-    mu.per_slip = 1 / step;
-  } else {
-    mu.scale = *asked.distance;
-    mu.before = slipped;
-    mu.per_slip = 1;
-  }
-  return mu;
-}
-
-}  // namespace
 
 ContactLaws::ContactLaws(const casefile::ContactCase &asked, double step)
     : asked_(asked), step_(step) {}
@@ -74,7 +19,7 @@ Vector3 ContactLaws::foundation(const Vector3 &point, double time) const {
 }
 
 bool ContactLaws::has_bound() const {
-  return !is_replaced_ && asked_.friction.depends_on_pressure();
+  return !is_replaced_ && kind_of(asked_.friction).bound != nullptr;
 }
 
 bool ContactLaws::can_open() const {
@@ -98,18 +43,7 @@ bool ContactLaws::remembers_slip() const {
 }
 
 std::shared_ptr<const NormalLaw> ContactLaws::normal(const Vector3 &point, double before) const {
-  const casefile::NormalCase &normal = asked_.normal;
-  if (normal.law == "unilateral")
-    return std::make_shared<Unilateral>();
-  if (normal.law == "compliance")
-    return std::make_shared<Compliance>(
-        positive(normal.coefficient, point, "the coefficient of normal compliance"),
-        normal.exponent);
-  if (normal.law == "damped")
-    return std::make_shared<Damped>(
-        positive(normal.coefficient, point, "the coefficient of the damped response"), step_,
-        before);
-  return std::make_shared<HeldNormal>();
+  return kind_of(asked_.normal).at(asked_.normal, point, step_, before);
 }
 
 double ContactLaws::pressure_under_supports(const Vector3 &point, double before, double now) const {
@@ -123,16 +57,8 @@ FrictionAt ContactLaws::friction() const {
 
 std::shared_ptr<const FrictionBound> ContactLaws::bound(const Vector3 &point, double time,
                                                         double slipped) const {
-  if (!has_bound())
-    return nullptr;
-  const casefile::FrictionCase &asked = asked_.friction;
-  const double cohesion = not_negative(asked.cohesion, point, time, "the cohesion");
-  const double limit =
-      asked.limit ? value_from(*asked.limit, point, time,
-                               "the limit of the friction bound, beside the cohesion,", cohesion)
-                  : std::numeric_limits<double>::infinity();
-  return std::make_shared<Coulomb>(coefficient(asked.coefficient, point, time, step_, slipped),
-                                   cohesion, limit);
+  return has_bound() ? kind_of(asked_.friction).bound(asked_.friction, point, time, step_, slipped)
+                     : nullptr;
 }
 
 }  // namespace tourmaline::contact

@@ -1,5 +1,10 @@
 #include "tourmaline/contact/tresca.h"
 
+#include <fmt/format.h>
+
+#include "contact/kinds.h"
+#include "tourmaline/error.h"
+
 namespace tourmaline::contact {
 
 namespace {
@@ -44,5 +49,32 @@ TangentMatrix Tresca::hessian(const Tangent &d) const {
     return TangentMatrix::Zero(d.size(), d.size());
   return bound / d.norm() * across(d);
 }
+
+namespace {
+
+Friction at(const casefile::FrictionCase &asked, const ContactPlace &place) {
+  const double bound = asked.bound.value(place.point, place.time);
+  if (bound < 0)
+    throw CaseError(fmt::format(
+        "{}: the friction bound is {:g} N/m^2 at ({:g}, {:g}, {:g}), t = {:g} s; "
+        "it must be >= 0 (paper, eq. 9)",
+        asked.bound.where(), bound, place.point[0], place.point[1], place.point[2], place.time));
+  return Tresca{bound};
+}
+
+std::string words(const casefile::FrictionCase &asked) {
+  return fmt::format("Tresca friction, S = {} N/m²", asked.bound.text());
+}
+
+}  // namespace
+
+const FrictionKind friction_kinds::tresca{
+    .name = "tresca", .at = at, .bound = nullptr, .words = words};
+
+const FrictionKind friction_kinds::none{
+    .name = "none",
+    .at = [](const casefile::FrictionCase &, const ContactPlace &) -> Friction { return Tresca{}; },
+    .bound = nullptr,
+    .words = [](const casefile::FrictionCase &) -> std::string { return "no friction"; }};
 
 }  // namespace tourmaline::contact

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "contact/kinds.h"
+
 namespace tourmaline::contact {
 
 double Unilateral::pressure(double trial, double /*r*/) const {
@@ -28,5 +30,11 @@ double Unilateral::stiffness_at(double /*delta*/) const {
 double Unilateral::potential(double delta) const {
   return delta <= 0 ? 0 : std::numeric_limits<double>::infinity();
 }
+
+const NormalKind normal_kinds::unilateral{
+    .name = "unilateral",
+    .at = [](const casefile::NormalCase &, const Vector3 &, double,
+             double) -> std::shared_ptr<const NormalLaw> { return std::make_shared<Unilateral>(); },
+    .words = [](const casefile::NormalCase &) -> std::string { return "unilateral contact"; }};
 
 }  // namespace tourmaline::contact

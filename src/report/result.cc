@@ -9,6 +9,7 @@
 #include <set>
 
 #include "case/resolved.h"
+#include "contact/kinds.h"
 #include "report/field_file.h"
 #include "report/recorded_mesh.h"
 #include "report/text_file.h"
@@ -93,7 +94,7 @@ void read_tables(Result &result, const fs::path &folder) {
 }
 
 bool has_known_bound(const casefile::ContactCase &asked) {
-  return asked.friction.resists() && !asked.friction.depends_on_pressure();
+  return asked.friction.resists() && contact::kind_of(asked.friction).bound == nullptr;
 }
 
 // Of a row of contact.csv, which names its contact where there are several.

@@ -35,7 +35,6 @@ struct FrictionCase {
   std::optional<Formula> limit;  ///< [N/m^2]; not given: none
 
   bool resists() const { return law != "none"; }
-  bool depends_on_pressure() const { return law == "coulomb"; }
 };
 
 struct HeatExchangeCase {

@@ -14,8 +14,8 @@ struct FrictionCase;
 
 namespace tourmaline::contact {
 
-/// The friction laws there are. A new law is its file, its place here, and its line in
-/// `friction_of`. A law is convex in the slip increment; no friction is the bound zero.
+/// A friction law: Tresca's, or one of a program's own. A law is convex in the slip increment; no
+/// friction is the bound zero.
 using Friction = std::variant<Tresca, OwnLaw>;
 
 inline const FrictionLaw &law_of(const Friction &friction) {
