@@ -12,6 +12,18 @@
 
 namespace tourmaline::casefile {
 
+std::string ContactCase::crosses_by_state() const {
+  if (heat.pressure)
+    return "heat.pressure";
+  if (heat.ramp)
+    return "heat.ramp";
+  if (heat.friction_share.value_or(0) > 0)
+    return "heat.friction_share";
+  if (electric.ramp)
+    return "electric.ramp";
+  return electric.law == "leak" ? "electric.law = \"leak\"" : "";
+}
+
 std::string ContactCase::called() const {
   return name ? *name : fmt::format("{}", fmt::join(on, "+"));
 }
