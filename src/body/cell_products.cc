@@ -151,13 +151,13 @@ CellProducts<dim>::CellProducts(const Discretisation<dim> &body,
 template <int dim>
 void CellProducts<dim>::add_exchange(const std::vector<std::string> &boundaries,
                                      const casefile::Formula &coefficient) {
-  exchanges_.push_back({boundaries, &coefficient});
+  exchanges_.push_back({boundaries, &coefficient, 1});
 }
 
 template <int dim>
 void CellProducts<dim>::add_capacitors(const std::vector<std::string> &boundaries,
-                                       const casefile::Formula &coefficient) {
-  capacitors_.push_back({boundaries, &coefficient});
+                                       const casefile::Formula &coefficient, double factor) {
+  capacitors_.push_back({boundaries, &coefficient, factor});
 }
 
 template <int dim>
@@ -219,7 +219,8 @@ void CellProducts<dim>::exchange(const std::vector<Exchange> &exchanges, int com
         double value = 0;
         for (std::size_t a = 0; a < facet.nodes.size(); ++a)
           value += facet.value(q, a) * x[unknown<dim>(facet.nodes[a], component)];
-        const double flow = exchange.coefficient->value(facet.points[q], 0) * facet.jxw[q] * value;
+        const double flow = exchange.factor * exchange.coefficient->value(facet.points[q], 0) *
+                            facet.jxw[q] * value;
         for (std::size_t a = 0; a < facet.nodes.size(); ++a)
           taken[facet.nodes[a]] += facet.value(q, a) * flow;
       }

@@ -27,7 +27,7 @@ class CellProducts {
   void add_exchange(const std::vector<std::string> &boundaries,
                     const casefile::Formula &coefficient);
   void add_capacitors(const std::vector<std::string> &boundaries,
-                      const casefile::Formula &coefficient);
+                      const casefile::Formula &coefficient, double factor = 1);
 
   /// As of `Operator`, all of them.
   void multiply(double step, std::span<const double> x, std::span<double> y) const;
@@ -52,6 +52,7 @@ class CellProducts {
   struct Exchange {
     std::vector<std::string> boundaries;
     const casefile::Formula *coefficient;
+    double factor;
   };
   std::vector<Exchange> exchanges_, capacitors_;
 };

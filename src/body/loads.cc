@@ -148,9 +148,9 @@ template <int dim>
 void Loads<dim>::add_exchange(const Discretisation<dim> &body, const SurfaceExchange &exchange) {
   const bool is_heat = exchange.field == SurfaceExchange::temperature;
   for (const std::string &name : exchange.on)
-    add_over_facets(body,
-                    {is_heat ? LoadKind::foundation_heat : LoadKind::foundation_charge, name},
-                    exchange.outside, exchange.coefficient, is_heat ? heat_factor_ : -1.,
+    add_over_facets(body, {is_heat ? LoadKind::foundation_heat : LoadKind::foundation_charge, name},
+                    exchange.outside, exchange.coefficient,
+                    is_heat ? heat_factor_ : -exchange.factor,
                     is_heat ? Fields<dim>::temperature : Fields<dim>::potential);
 }
 

@@ -16,7 +16,16 @@ namespace tourmaline::body {
 
 /// What a load is, and the boundary it acts on; none for volume loads.
 struct LoadKind {
-  enum Kind { force, charge, heat, traction, surface_charge, heat_flux, foundation_heat, foundation_charge } kind;
+  enum Kind {
+    force,
+    charge,
+    heat,
+    traction,
+    surface_charge,
+    heat_flux,
+    foundation_heat,
+    foundation_charge
+  } kind;
   std::string boundary;
   int component = 0;  ///< of force and traction
 };

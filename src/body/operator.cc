@@ -118,11 +118,11 @@ Energies Operator<dim>::energy_shift(std::span<const double> x) const {
 template <int dim>
 void Operator<dim>::add_facets(const Discretisation<dim> &body,
                                const std::vector<std::string> &boundaries,
-                               const casefile::Formula &coefficient, const char *what,
-                               std::vector<double> &entries) {
+                               const casefile::Formula &coefficient, double factor,
+                               const char *what, std::vector<double> &entries) {
   const auto add_facet = [&](const Quadrature<dim> &facet) {
     for (std::size_t q = 0; q < facet.jxw.size(); ++q) {
-      const double k_c = coefficient.value(facet.points[q], 0);
+      const double k_c = factor * coefficient.value(facet.points[q], 0);
       if (k_c < 0)
         throw CaseError(coefficient.where() + ": the coefficient of " + what + " is negative");
       for (std::size_t a = 0; a < facet.nodes.size(); ++a)
@@ -138,15 +138,15 @@ template <int dim>
 void Operator<dim>::add_exchange(const Discretisation<dim> &body,
                                  const std::vector<std::string> &boundaries,
                                  const casefile::Formula &coefficient) {
-  add_facets(body, boundaries, coefficient, "heat exchange", conduction_);
+  add_facets(body, boundaries, coefficient, 1, "heat exchange", conduction_);
 }
 
 template <int dim>
 void Operator<dim>::add_capacitors(const Discretisation<dim> &body,
                                    const std::vector<std::string> &boundaries,
-                                   const casefile::Formula &coefficient) {
+                                   const casefile::Formula &coefficient, double factor) {
   capacitors_.resize(graph_.column.size(), 0.);
-  add_facets(body, boundaries, coefficient, "charge exchange", capacitors_);
+  add_facets(body, boundaries, coefficient, factor, "charge exchange", capacitors_);
 }
 
 template <int dim>

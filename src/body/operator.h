@@ -32,8 +32,8 @@ struct FieldProducts {
 ///     capacitors X = (c psi, psi) on Gamma_C
 ///
 /// G in rows and columns of theta only, X in those of phi, so that the step of (31)-(33) has the
-/// operator storage - (k / theta_ref) G - X, and its heat rows see the state before through the heat
-/// rows of `storage`. Where products with a step are meant below, X is in them.
+/// operator storage - (k / theta_ref) G - X, and its heat rows see the state before through the
+/// heat rows of `storage`. Where products with a step are meant below, X is in them.
 ///
 /// With `Modes::incompatible` the cells' modes (`CellModes`) are condensed out of `storage`, all
 /// fields at once: what is left is symmetric, as definite as before, and its heat rows are those of
@@ -57,9 +57,10 @@ class Operator {
   /// place.
   void add_exchange(const Discretisation<dim> &body, const std::vector<std::string> &boundaries,
                     const casefile::Formula &coefficient);
-  /// Adds (c phi, psi) on the named boundaries; `coefficient` is c [F/m^2], by place.
+  /// Adds (c phi, psi) on the named boundaries; c is `factor` times `coefficient`, by place
+  /// [F/m^2].
   void add_capacitors(const Discretisation<dim> &body, const std::vector<std::string> &boundaries,
-                      const casefile::Formula &coefficient);
+                      const casefile::Formula &coefficient, double factor = 1);
 
   const NodeGraph &graph() const { return graph_; }
   double reference_temperature() const { return reference_temperature_; }
@@ -113,7 +114,7 @@ class Operator {
   void add_cell(const Quadrature<dim> &cell, const material::BodyConstants<dim> &material);
   void add_modes(const Quadrature<dim> &cell, const material::BodyConstants<dim> &material);
   void add_facets(const Discretisation<dim> &body, const std::vector<std::string> &boundaries,
-                  const casefile::Formula &coefficient, const char *what,
+                  const casefile::Formula &coefficient, double factor, const char *what,
                   std::vector<double> &entries);
   std::vector<double> times(const std::vector<double> &entries, int component,
                             std::span<const double> x) const;
@@ -122,7 +123,7 @@ class Operator {
   NodeGraph graph_;
   std::vector<Block, Eigen::aligned_allocator<Block>> storage_;
   std::vector<double> conduction_;
-  std::vector<double> capacitors_;  // empty: there are none
+  std::vector<double> capacitors_;     // empty: there are none
   std::vector<CellModes<dim>> modes_;  // of this rank's cells
   double reference_temperature_;
 };

@@ -19,9 +19,7 @@ std::string ContactCase::crosses_by_state() const {
     return "heat.ramp";
   if (heat.friction_share.value_or(0) > 0)
     return "heat.friction_share";
-  if (electric.ramp)
-    return "electric.ramp";
-  return electric.law == "leak" ? "electric.law = \"leak\"" : "";
+  return electric.ramp ? "electric.ramp" : "";
 }
 
 std::string ContactCase::called() const {

@@ -184,8 +184,9 @@ void declare(Visitor &v, PressureConductanceCase &pressure) {
 
 Key ramp_key(const std::string &what, const Use &used) {
   return {.name = "ramp",
-          .description = what + " by clamp(1 - gap/ramp, 0, 1), gap being the opening at the end of "
-                                "the step, so that it ends where the opening reaches this",
+          .description = what +
+                         " by clamp(1 - gap/ramp, 0, 1), gap being the opening at the end of "
+                         "the step, so that it ends where the opening reaches this",
           .unit = "m",
           .range = positive(sense::slip),
           .default_words = "it does not fade",

@@ -64,10 +64,10 @@ void add_foundation(const casefile::ContactCase &asked, std::vector<std::string>
 }
 
 std::string heat_text(const casefile::HeatExchangeCase &heat) {
-  std::string text =
-      heat.exchanges() ? fmt::format("heat exchange, k = {} W/(K m²), with {} K",
-                                     heat.coefficient.text(), heat.foundation_temperature.text())
-                       : "insulated, q·ν = 0";
+  std::string text = heat.exchanges()
+                         ? fmt::format("heat exchange, k = {} W/(K m²), with {} K",
+                                       heat.coefficient.text(), heat.foundation_temperature.text())
+                         : "insulated, q·ν = 0";
   if (heat.pressure)
     text += fmt::format(", and {} (p/({} N/m²))^{}", heat.pressure->coefficient.text(),
                         number_text(heat.pressure->reference, 6), heat.pressure->exponent);

@@ -153,7 +153,7 @@ bool ContactLaws::lets_pass(Crossing what) const {
 bool ContactLaws::crosses_by_state(Crossing what) const {
   if (what == Crossing::heat)
     return asked_.heat.pressure || asked_.heat.ramp || is_warmed_by_friction();
-  return asked_.electric.ramp || remembers_charge();
+  return asked_.electric.ramp.has_value();
 }
 
 std::optional<body::SurfaceExchange> ContactLaws::linear(Crossing what) const {
@@ -164,7 +164,7 @@ std::optional<body::SurfaceExchange> ContactLaws::linear(Crossing what) const {
              heat.foundation_temperature}};
   if (what == Crossing::charge && electric.exchanges() && !crosses_by_state(what))
     return {{body::SurfaceExchange::potential, asked_.on, electric.coefficient,
-             electric.foundation_potential}};
+             electric.foundation_potential, remembers_charge() ? step_ : 1., remembers_charge()}};
   return std::nullopt;
 }
 

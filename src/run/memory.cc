@@ -56,8 +56,7 @@ bool solves_iteratively(const casefile::Case &asked) {
   if (asked.solver.method != "condensed" || asked.solver.body == "direct")
     return false;
   const bool too_large = asked.dimension == 3 && casefile::all_voltages_given(asked) &&
-                         casefile::left_to_contact(asked).empty() &&
-                         !crosses_by_state(asked) &&
+                         casefile::left_to_contact(asked).empty() && !crosses_by_state(asked) &&
                          factorised_memory(asked) > available_memory().bytes / 2;
   return asked.solver.body == "iterative" || parallel::from_first(too_large) != 0;
 }

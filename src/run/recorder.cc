@@ -213,13 +213,20 @@ template <int dim>
 double Recorder<dim>::flux(contact::Crossing what, std::size_t i, double value, double time,
                            const Eigen::VectorXd &flow) const {
   const contact::InterfaceNode<dim> &at = model_.interface[i];
-  const double by_state =
-      flow.size() > 0 ? flow[static_cast<Eigen::Index>(i)] / at.weight : 0;
+  const double by_state = flow.size() > 0 ? flow[static_cast<Eigen::Index>(i)] / at.weight : 0;
   const auto &linear = linear_[at.contact][what == contact::Crossing::heat ? 0 : 1];
-  const double coefficient = linear ? linear->coefficient.value(at.point, 0) : 0;
+  const double coefficient = linear ? linear->factor * linear->coefficient.value(at.point, 0) : 0;
   if (coefficient == 0)
     return by_state;
   return coefficient * (value - linear->outside.value(at.point, time)) + by_state;
+}
+
+template <int dim>
+double Recorder<dim>::charge_flux(const solve::StepOutcome &outcome, std::size_t i, double phi,
+                                  double time) const {
+  const double before =
+      outcome.leaked_flux.size() > 0 ? outcome.leaked_flux[static_cast<Eigen::Index>(i)] : 0;
+  return before + flux(contact::Crossing::charge, i, phi, time, outcome.charge_flow);
 }
 
 template <int dim>
@@ -251,7 +258,7 @@ std::vector<output::ContactRow> Recorder<dim>::contact_rows(int n,
                     phi,
                     flux(contact::Crossing::heat, i, theta, model_.time(n), outcome.heat_flow),
                     model_.laws.of(at).gap(at.point) - to_foundation.dot(at.normal),
-                    flux(contact::Crossing::charge, i, phi, model_.time(n), outcome.charge_flow),
+                    charge_flux(outcome, i, phi, model_.time(n)),
                     {},
                     name_of_several(model_.asked.contacts, at.contact),
                     static_cast<std::int32_t>(at.contact)});

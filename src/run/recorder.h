@@ -56,13 +56,15 @@ class Recorder {
   bool has_contact() const { return !model_.asked.contacts.empty(); }
   double flux(contact::Crossing what, std::size_t i, double value, double time,
               const Eigen::VectorXd &flow) const;
+  double charge_flux(const solve::StepOutcome &outcome, std::size_t i, double phi,
+                     double time) const;
 
   const solve::Model<dim> &model_;
   output::ResultFolder &folder_;
   // Of the field files, if any are written.
   std::optional<body::Recovery<dim>> recovery_;
-  output::Grid grid_;                     // this rank's cells and the nodes they use, by region
-  std::vector<std::uint32_t> nodes_;      // of the grid: regional nodes
+  output::Grid grid_;                 // this rank's cells and the nodes they use, by region
+  std::vector<std::uint32_t> nodes_;  // of the grid: regional nodes
   // By contact, of heat and of charge: what crosses by place alone.
   std::vector<std::array<std::optional<body::SurfaceExchange>, 2>> linear_;
   output::ContactFacets contact_facets_;  // on the first rank

@@ -67,7 +67,8 @@ Balance<dim>::Balance(const Model<dim> &model, std::span<const double> initial)
     for (const std::string &name : linear.on) {
       const bool is_heat = linear.field == body::SurfaceExchange::temperature;
       add_once(is_heat ? heat_boundaries_ : charge_boundaries_, name);
-      (is_heat ? exchange_ : capacitors_)[name] = exchange_weights(name, linear.coefficient);
+      (is_heat ? exchange_ : capacitors_)[name] =
+          exchange_weights(name, linear.coefficient, linear.factor);
     }
   for (const contact::Crossing what : {contact::Crossing::heat, contact::Crossing::charge})
     find_crossings(what);
@@ -84,12 +85,13 @@ template <int dim>
 void Balance<dim>::find_crossings(contact::Crossing what) {
   const bool is_heat = what == contact::Crossing::heat;
   std::vector<std::string> &boundary_of = is_heat ? heat_boundary_of_ : charge_boundary_of_;
-  if (!model_.laws.crosses_by_state(what))
-    return;
-  boundary_of.resize(model_.interface.size());
+  const auto is_booked = [&](const contact::ContactLaws &laws) {
+    return laws.crosses_by_state(what) || (!is_heat && laws.remembers_charge());
+  };
   for (std::size_t c = 0; c < model_.asked.contacts.size(); ++c) {
-    if (!model_.laws[c].crosses_by_state(what))
+    if (!is_booked(model_.laws[c]))
       continue;
+    boundary_of.resize(model_.interface.size());
     for (const std::string &name : model_.asked.contacts[c].on) {
       add_once(is_heat ? heat_boundaries_ : charge_boundaries_, name);
       const std::vector<body::Node> nodes = model_.body.nodes_on({name});
@@ -118,13 +120,13 @@ double Balance<dim>::smallest_heat() const {
 // The integral of k_c times each node's shape function over a boundary.
 template <int dim>
 typename Balance<dim>::NodeWeights Balance<dim>::exchange_weights(
-    const std::string &boundary, const casefile::Formula &coefficient) const {
+    const std::string &boundary, const casefile::Formula &coefficient, double factor) const {
   std::vector<double> by_node(model_.body.n_nodes(), 0.);
   model_.body.for_each_facet({boundary}, [&](const body::Quadrature<dim> &facet) {
     for (std::size_t q = 0; q < facet.jxw.size(); ++q)
       for (std::size_t a = 0; a < facet.nodes.size(); ++a)
         by_node[facet.nodes[a]] +=
-            coefficient.value(facet.points[q], 0) * facet.jxw[q] * facet.value(q, a);
+            factor * coefficient.value(facet.points[q], 0) * facet.jxw[q] * facet.value(q, a);
   });
   parallel::sum(by_node);
   NodeWeights weights;
@@ -332,9 +334,11 @@ void Balance<dim>::add_charges(const Step &step, Columns &columns) {
   for (std::size_t i = 0; i < charge_boundary_of_.size(); ++i) {
     const std::size_t unknown =
         body::unknown<dim>(model_.interface[i].node, Fields<dim>::potential);
-    if (is_prescribed_[unknown] || charge_boundary_of_[i].empty())
+    if (charge_boundary_of_[i].empty())
       continue;
-    const double charge = step.now.charges[unknown] - step.known_charges()[unknown];
+    double charge = step.leaked.size() > 0 ? step.leaked[static_cast<Eigen::Index>(i)] : 0;
+    if (!is_prescribed_[unknown])
+      charge += step.now.charges[unknown] - step.known_charges()[unknown];
     through[charge_boundary_of_[i]] += charge;
     imbalance.add(charge);
   }

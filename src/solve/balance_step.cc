@@ -76,6 +76,9 @@ void add_capacitors(const Model<dim> &model, bool cell_by_cell, BalanceStep<dim>
   step.with_capacitors.assign(step.loads.begin(), step.loads.end());
   for (body::Node node = 0; node < held.size(); ++node)
     step.with_capacitors[body::unknown<dim>(node, Fields<dim>::potential)] += held[node];
+  for (Eigen::Index i = 0; i < step.leaked.size(); ++i)
+    step.with_capacitors[body::unknown<dim>(model.interface[static_cast<std::size_t>(i)].node,
+                                            Fields<dim>::potential)] += step.leaked[i];
 }
 
 // Known charges are loads and what crosses the contact; what holds a prescribed potential is what
@@ -292,6 +295,7 @@ BalanceStep<dim> balance_step(const Model<dim> &model, const std::vector<bool> &
   step.friction = by_unknown(model, outcome.friction_forces);
   step.carried = carried(model, time, step.before.unknowns);
   step.normal = normal_energy(model, step);
+  step.leaked = outcome.leaked_charge;
   add_capacitors(model, cell_by_cell, step);
   find_charges(is_prescribed, by_node(model, outcome.charge_flow), cell_by_cell, step);
   step.friction_heat = outcome.friction_heat;

@@ -52,6 +52,7 @@ struct BalanceStep {
   std::vector<double> conducted;      ///< by node [W]
   std::vector<double> heat_supplied;  ///< by node, at prescribed temperatures [W]
   Eigen::VectorXd friction_heat;      ///< by interface node, into the body [W]; empty: none
+  Eigen::VectorXd leaked;             ///< by interface node, before this step [C]; empty: none
   std::vector<double> heat_crossed;   ///< by node, at the contact by its state, inwards [W]
   std::vector<double> contact;        ///< by unknown [N]
   std::vector<double> friction;       ///< the part of it that opposes the slip [N]

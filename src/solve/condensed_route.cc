@@ -40,9 +40,9 @@ void share(StepOutcome &outcome) {
                               static_cast<double>(outcome.slip_jumped)};
   for (const auto status : outcome.status)
     numbers.push_back(static_cast<double>(status));
-  for (const VectorXd &by_node : {outcome.contact_forces, outcome.friction_forces,
-                                  outcome.friction_bound, outcome.accumulated_slip,
-                                  outcome.heat_flow, outcome.friction_heat, outcome.charge_flow})
+  for (const VectorXd &by_node :
+       {outcome.contact_forces, outcome.friction_forces, outcome.friction_bound,
+        outcome.accumulated_slip, outcome.heat_flow, outcome.friction_heat, outcome.charge_flow})
     numbers.insert(numbers.end(), by_node.begin(), by_node.end());
   parallel::from_first(std::span<double>(numbers));
   outcome.newton_iterations = static_cast<int>(numbers[0]);
@@ -53,8 +53,8 @@ void share(StepOutcome &outcome) {
   for (auto &status : outcome.status)
     status = static_cast<ContactStatus>(*next++);
   for (VectorXd *by_node : {&outcome.contact_forces, &outcome.friction_forces,
-                            &outcome.friction_bound, &outcome.accumulated_slip,
-                            &outcome.heat_flow, &outcome.friction_heat, &outcome.charge_flow}) {
+                            &outcome.friction_bound, &outcome.accumulated_slip, &outcome.heat_flow,
+                            &outcome.friction_heat, &outcome.charge_flow}) {
     std::copy_n(next, by_node->size(), by_node->begin());
     next += by_node->size();
   }
@@ -117,7 +117,7 @@ class CondensedRoute : public Route {
   MatrixXd whole_stiffness_;
   KeptFactors whole_factors_;
   int negative_at_contact_ = 0;  // pivots in their rows
-  double error_of_slips_ = 0;  // the contact's own share of the forward error
+  double error_of_slips_ = 0;    // the contact's own share of the forward error
 };
 
 template <int dim>
@@ -184,8 +184,8 @@ void CondensedRoute<dim>::condense_exchanges() {
   const auto scale = exchange_->scale().asDiagonal();
   whole_stiffness_.resize(n + m, n + m);
   whole_stiffness_.topLeftCorner(n, n) =
-      directions.transpose() * MatrixXd(s.topLeftCorner(directions.rows(), directions.rows()) *
-                                        directions);
+      directions.transpose() *
+      MatrixXd(s.topLeftCorner(directions.rows(), directions.rows()) * directions);
   whole_stiffness_.topRightCorner(n, m) =
       directions.transpose() * MatrixXd(s.topRightCorner(directions.rows(), m) * scale);
   whole_stiffness_.bottomLeftCorner(m, n) = whole_stiffness_.topRightCorner(n, m).transpose();
@@ -425,8 +425,7 @@ Accuracy CondensedRoute<dim>::accuracy(std::span<const double> right_side,
     q.conservativeResize(q.size() + exchange_->size());
     q.tail(exchange_->size()) = exchange_->rows(outcome);
   }
-  return {body.backward_error(right_side, state, q),
-          larger(inside, error_of_slips_)};
+  return {body.backward_error(right_side, state, q), larger(inside, error_of_slips_)};
 }
 
 template <int dim>
@@ -464,8 +463,7 @@ void CondensedRoute<dim>::restore_memory(const output::SavedNumbers &numbers) {
   if (parallel::is_first() && contact_) {
     contact_->restore(numbers);
     exchange_->restore(numbers);
-    whole_factors_.coupled.restore("exchange programme's factor", numbers,
-                                   whole_stiffness_.rows());
+    whole_factors_.coupled.restore("exchange programme's factor", numbers, whole_stiffness_.rows());
   }
 }
 

@@ -59,7 +59,7 @@ class ConnectedBody {
   std::vector<std::size_t> contact_;  // the unknowns c
   condensation::CondensedBody<dim> body_;
   Circuit circuit_;
-  std::vector<std::size_t> lifted_;  // prescribed unknowns that are not in c
+  std::vector<std::size_t> lifted_;                       // prescribed unknowns that are not in c
   std::vector<std::vector<double>> response_, reaction_;  // psi and K psi, by free electrode
   Eigen::MatrixXd coupling_;                              // G [C/m]
   Eigen::LLT<Eigen::MatrixXd> admittance_;                // C + Y [F]

@@ -130,8 +130,8 @@ template <int dim>
 void ContactNodes<dim>::know_pressure(std::size_t i, double time, std::span<const double> before) {
   const contact::InterfaceNode<dim> &at = model_.interface[i];
   Node &node = nodes_[i];
-  node.pressure = model_.laws.of(at).pressure_under_supports(
-      at.point, penetration(i, time, before), node.penetration);
+  node.pressure = model_.laws.of(at).pressure_under_supports(at.point, penetration(i, time, before),
+                                                             node.penetration);
   if (node.coupling == none)
     return;
   couplings_[node.coupling].pressure = node.pressure;

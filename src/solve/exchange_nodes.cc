@@ -75,9 +75,8 @@ VectorXd ExchangeNodes<dim>::entries(std::span<const double> state) const {
 template <int dim>
 double ExchangeNodes<dim>::of_flow(std::size_t k) const {
   const double weight = model_.interface[sites_[k].node].weight;
-  return sites_[k].what == Crossing::heat
-             ? model_.step / model_.op.reference_temperature() * weight
-             : weight;
+  return sites_[k].what == Crossing::heat ? model_.step / model_.op.reference_temperature() * weight
+                                          : weight;
 }
 
 template <int dim>

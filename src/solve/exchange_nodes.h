@@ -69,7 +69,7 @@ class ExchangeNodes {
   const Model<dim> &model_;
   std::vector<ExchangeSite> sites_;
   Eigen::VectorXd scale_;
-  std::vector<ExchangePoint> points_;          // by site
+  std::vector<ExchangePoint> points_;         // by site
   Eigen::VectorXd crossed_, crossed_before_;  // D.nu by site, and a step ago [C/m^2]
 };
 

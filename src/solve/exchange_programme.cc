@@ -188,8 +188,8 @@ ContactState state_at(const ExchangePoint &at, const std::vector<ContactPoint> &
     state.penetration += d[n.offset];
   }
   const ContactPoint &p = points[at.slip];
-  state.friction = friction_at(at.slip, points, solution, couplings)
-                       .dissipation(d.segment(p.offset, p.size));
+  state.friction =
+      friction_at(at.slip, points, solution, couplings).dissipation(d.segment(p.offset, p.size));
   return state;
 }
 

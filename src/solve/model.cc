@@ -69,8 +69,8 @@ Model<dim>::Model(const casefile::Case &asked_for, Built built)
       op.add_exchange(body, exchange.on, exchange.coefficient);
       cells.add_exchange(exchange.on, exchange.coefficient);
     } else {
-      op.add_capacitors(body, exchange.on, exchange.coefficient);
-      cells.add_capacitors(exchange.on, exchange.coefficient);
+      op.add_capacitors(body, exchange.on, exchange.coefficient, exchange.factor);
+      cells.add_capacitors(exchange.on, exchange.coefficient, exchange.factor);
     }
   }
   assemble_seconds = built.since_mesh.lap();

@@ -31,8 +31,8 @@ struct Model {
   body::Operator<dim> op;
   body::CellProducts<dim> cells;  ///< the products of `op`, cell by cell
   std::vector<body::Prescribed> prescribed;
-  std::vector<std::vector<body::Node>> electrodes;  ///< nodes by electrode of the case
-  contact::Contacts laws;                            ///< the case's
+  std::vector<std::vector<body::Node>> electrodes;      ///< nodes by electrode of the case
+  contact::Contacts laws;                               ///< the case's
   std::vector<body::SurfaceExchange> linear_exchanges;  ///< in operator and loads
   body::Loads<dim> loads;
   std::vector<contact::InterfaceNode<dim>> interface;  ///< empty without contact

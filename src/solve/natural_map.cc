@@ -258,8 +258,8 @@ double NaturalMap::residual_of_exchanges(const Place &x) const {
     }
     const contact::Exchange::Value q = flow(at, x);
     lack[at.field] = larger(lack[at.field], std::abs(x.force[at.entry] + at.of_flow * q.flow));
-    size[at.field] = larger(size[at.field],
-                            std::abs(at.of_flow * q.by_value * at.of_value * x.d[at.entry]));
+    size[at.field] =
+        larger(size[at.field], std::abs(at.of_flow * q.by_value * at.of_value * x.d[at.entry]));
   }
   double worst = 0;
   for (std::size_t field = 0; field < size.size(); ++field)

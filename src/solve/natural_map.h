@@ -103,8 +103,7 @@ class NaturalMap {
 
   NaturalMap(std::shared_ptr<ContactBody> body, const std::vector<ContactPoint> &points,
              const std::vector<FrictionCoupling> &couplings,
-             std::span<const ExchangePoint> exchanges, double strength,
-             std::optional<double> ramp);
+             std::span<const ExchangePoint> exchanges, double strength, std::optional<double> ramp);
   const ContactPoint &point(std::size_t i) const { return points_[i]; }
   const FrictionCoupling *coupling(std::size_t i) const;
   double largest_value(const Place &x) const;

@@ -41,6 +41,9 @@ struct StepOutcome {
   Eigen::VectorXd heat_flow;      ///< out of the body, that of friction in it [W]
   Eigen::VectorXd friction_heat;  ///< of it what friction brings into the body [W]
   Eigen::VectorXd charge_flow;    ///< D.nu times the weight [C]
+  /// by interface node, what crossed leaks in the steps before, where these are in the operator
+  Eigen::VectorXd leaked_charge;  ///< integrated against the shape functions [C]
+  Eigen::VectorXd leaked_flux;    ///< [C/m^2]
   /// Whether friction fell faster with the slip of this step, where it began, than the body
   /// unloads: then the slip is a jump. Looked for in the condensed route, on contacts of less than
   /// a thousand slipping unknowns.

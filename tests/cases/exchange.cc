@@ -77,8 +77,7 @@ TEST(FrictionHeat, OfNothingIsTheExchangeAlone) {
 }
 
 // Of a body with all couplings, in which heat, pressure and slip depend on one another.
-const Overrides coupled{"material={library='BaTiO3-Liu2014'}",
-                        "time={end=2,steps=8}",
+const Overrides coupled{"material={library='BaTiO3-Liu2014'}", "time={end=2,steps=8}",
                         "contact.friction.coefficient={static=0.4,kinetic=0.25,speed=5e-5}",
                         "contact.gap='-2e-7*x/0.02'"};
 
@@ -158,8 +157,9 @@ TEST(ChargeExchange, DividesTheVoltageOfAColumnAsCapacitorsDo) {
     expect_all(run.history().numbers("charge_bottom"), 1e-7 * charged(1e-7) * 0.01);
     expect_balances(run.history());
   }
-  const RunCase other = verification("charge-exchange", {"contact.electric.coefficient=1e-6",
-                                                         "contact.electric.foundation_potential=50"});
+  const RunCase other = verification(
+      "charge-exchange",
+      {"contact.electric.coefficient=1e-6", "contact.electric.foundation_potential=50"});
   expect_all(other.contact().numbers("potential"), charged(1e-6, 50));
   expect_balances(other.history());
 }

@@ -50,9 +50,9 @@ TEST(HeatExchange, DerivativesAreThoseOfDifferences) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform;
   for (int k = 0; k < 50; ++k)
-    expect_derivatives(law, 40 * uniform(random) - 20,
-                       {2e5 * uniform(random) + 1e3, -2.9e-7 * uniform(random) - 1e-9,
-                        10 * uniform(random)});
+    expect_derivatives(
+        law, 40 * uniform(random) - 20,
+        {2e5 * uniform(random) + 1e3, -2.9e-7 * uniform(random) - 1e-9, 10 * uniform(random)});
 }
 
 TEST(HeatExchange, TheConstantPartFadesWithTheGapAndThePressuresDoesNot) {

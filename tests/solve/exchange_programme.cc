@@ -39,15 +39,15 @@ struct Problem {
     for (double &f : force)
       f = 2 * normal(random);
     for (Index i = 0; i < n; ++i) {
-      points.push_back({2 * i, 1, 1,
-                        contact::LocalLaw(contact::NormalPoint(
-                            std::make_shared<contact::Unilateral>()))});
+      points.push_back(
+          {2 * i, 1, 1,
+           contact::LocalLaw(contact::NormalPoint(std::make_shared<contact::Unilateral>()))});
       points.push_back({2 * i + 1, 1, 1, contact::PointLaw(contact::Tresca{0})});
       FrictionCoupling &friction = couplings.emplace_back();
       friction.slip = static_cast<std::size_t>(2 * i + 1);
       friction.normal = static_cast<std::size_t>(2 * i);
-      friction.bound = std::make_shared<contact::Coulomb>(
-          contact::FrictionCoefficient{0.4, 0.2, 1, 0, 1}, 0);
+      friction.bound =
+          std::make_shared<contact::Coulomb>(contact::FrictionCoefficient{0.4, 0.2, 1, 0, 1}, 0);
       ExchangePoint &heat = exchanges.emplace_back();
       heat.entry = size + i;
       heat.slip = friction.slip;
@@ -88,8 +88,7 @@ double lack(const Problem &problem, const CoupledSolution &found) {
   double worst = 0;
   for (const ExchangePoint &at : problem.exchanges) {
     const contact::ContactState state = state_at(at, problem.points, found, problem.couplings);
-    const double q =
-        at.law->at(at.of_value * found.interface.increment[at.entry], state).flow;
+    const double q = at.law->at(at.of_value * found.interface.increment[at.entry], state).flow;
     worst = std::max(worst, std::abs(row[at.entry] + at.of_flow * q));
   }
   return worst;
