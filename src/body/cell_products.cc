@@ -151,7 +151,13 @@ CellProducts<dim>::CellProducts(const Discretisation<dim> &body,
 template <int dim>
 void CellProducts<dim>::add_exchange(const std::vector<std::string> &boundaries,
                                      const casefile::Formula &coefficient) {
-  exchanges_.push_back({boundaries, &coefficient});
+  exchanges_.push_back({boundaries, &coefficient, 1});
+}
+
+template <int dim>
+void CellProducts<dim>::add_capacitors(const std::vector<std::string> &boundaries,
+                                       const casefile::Formula &coefficient, double factor) {
+  capacitors_.push_back({boundaries, &coefficient, factor});
 }
 
 template <int dim>
@@ -201,13 +207,20 @@ void CellProducts<dim>::conduction(std::span<const double> x, std::vector<double
       }
     }
   });
-  for (const Exchange &exchange : exchanges_)
+  exchange(exchanges_, Fields<dim>::temperature, x, taken);
+}
+
+template <int dim>
+void CellProducts<dim>::exchange(const std::vector<Exchange> &exchanges, int component,
+                                 std::span<const double> x, std::vector<double> &taken) const {
+  for (const Exchange &exchange : exchanges)
     body_.for_each_facet(exchange.boundaries, [&](const Quadrature<dim> &facet) {
       for (std::size_t q = 0; q < facet.jxw.size(); ++q) {
-        double theta = 0;
+        double value = 0;
         for (std::size_t a = 0; a < facet.nodes.size(); ++a)
-          theta += facet.value(q, a) * x[unknown<dim>(facet.nodes[a], Fields<dim>::temperature)];
-        const double flow = exchange.coefficient->value(facet.points[q], 0) * facet.jxw[q] * theta;
+          value += facet.value(q, a) * x[unknown<dim>(facet.nodes[a], component)];
+        const double flow = exchange.factor * exchange.coefficient->value(facet.points[q], 0) *
+                            facet.jxw[q] * value;
         for (std::size_t a = 0; a < facet.nodes.size(); ++a)
           taken[facet.nodes[a]] += facet.value(q, a) * flow;
       }
@@ -231,19 +244,32 @@ std::vector<double> CellProducts<dim>::conducted(std::span<const double> x) cons
 }
 
 template <int dim>
+std::vector<double> CellProducts<dim>::held_by_capacitors(std::span<const double> x) const {
+  if (capacitors_.empty())
+    return {};
+  std::vector<double> held(body_.n_nodes(), 0.);
+  parallel::together([&] { exchange(capacitors_, Fields<dim>::potential, x, held); });
+  parallel::sum(held);
+  return held;
+}
+
+template <int dim>
 void CellProducts<dim>::multiply(double step, std::span<const double> x,
                                  std::span<double> y) const {
   FieldProducts products;
-  std::vector<double> taken(body_.n_nodes(), 0.);
+  std::vector<double> taken(body_.n_nodes(), 0.), held(body_.n_nodes(), 0.);
   parallel::together([&] {
     storage(x, products);
     conduction(x, taken);
+    exchange(capacitors_, Fields<dim>::potential, x, held);
   });
   for (std::size_t i = 0; i < x.size(); ++i)
     y[i] = products.sum(i);
   for (Node node = 0; node < taken.size(); ++node)
     y[unknown<dim>(node, Fields<dim>::temperature)] -=
         step / composition_.reference_temperature() * taken[node];
+  for (Node node = 0; !capacitors_.empty() && node < held.size(); ++node)
+    y[unknown<dim>(node, Fields<dim>::potential)] -= held[node];
   parallel::sum(y);
 }
 

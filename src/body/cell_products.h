@@ -26,12 +26,15 @@ class CellProducts {
   /// As of `Operator`; `coefficient` outlives this object.
   void add_exchange(const std::vector<std::string> &boundaries,
                     const casefile::Formula &coefficient);
+  void add_capacitors(const std::vector<std::string> &boundaries,
+                      const casefile::Formula &coefficient, double factor = 1);
 
   /// As of `Operator`, all of them.
   void multiply(double step, std::span<const double> x, std::span<double> y) const;
   void add_history(std::span<const double> x, std::span<double> y) const;
   void multiply_by_field(std::span<const double> x, FieldProducts &products) const;
   std::vector<double> conducted(std::span<const double> x) const;
+  std::vector<double> held_by_capacitors(std::span<const double> x) const;
 
  private:
   /// What one cell or facet adds to the rows of its nodes.
@@ -39,6 +42,9 @@ class CellProducts {
 
   void storage(std::span<const double> x, FieldProducts &products) const;
   void conduction(std::span<const double> x, std::vector<double> &taken) const;
+  struct Exchange;
+  void exchange(const std::vector<Exchange> &exchanges, int component, std::span<const double> x,
+                std::vector<double> &taken) const;
 
   const Discretisation<dim> &body_;
   const material::Composition<dim> &composition_;
@@ -46,8 +52,9 @@ class CellProducts {
   struct Exchange {
     std::vector<std::string> boundaries;
     const casefile::Formula *coefficient;
+    double factor;
   };
-  std::vector<Exchange> exchanges_;
+  std::vector<Exchange> exchanges_, capacitors_;
 };
 
 }  // namespace tourmaline::body

@@ -86,14 +86,13 @@ void add_shares(const Quadrature<dim> &quadrature, const casefile::Formula &weig
 
 template <int dim>
 Loads<dim>::Loads(const Discretisation<dim> &body, const casefile::Case &asked, double step,
-                  double reference_temperature)
+                  double reference_temperature, const std::vector<SurfaceExchange> &exchanges)
     : heat_factor_(-step / reference_temperature) {
   add_volume_loads(body, asked.load);
   for (const casefile::BoundaryCase &boundary : asked.boundaries)
     add_surface_loads(body, boundary);
-  for (const casefile::ContactCase &contact : asked.contacts)
-    if (contact.heat.exchanges())
-      add_foundation_heat(body, contact);
+  for (const SurfaceExchange &exchange : exchanges)
+    add_exchange(body, exchange);
 }
 
 template <int dim>
@@ -146,11 +145,13 @@ void Loads<dim>::add_surface_loads(const Discretisation<dim> &body,
 }
 
 template <int dim>
-void Loads<dim>::add_foundation_heat(const Discretisation<dim> &body,
-                                     const casefile::ContactCase &contact) {
-  for (const std::string &name : contact.on)
-    add_over_facets(body, {LoadKind::foundation_heat, name}, contact.heat.foundation_temperature,
-                    contact.heat.coefficient, heat_factor_, Fields<dim>::temperature);
+void Loads<dim>::add_exchange(const Discretisation<dim> &body, const SurfaceExchange &exchange) {
+  const bool is_heat = exchange.field == SurfaceExchange::temperature;
+  for (const std::string &name : exchange.on)
+    add_over_facets(body, {is_heat ? LoadKind::foundation_heat : LoadKind::foundation_charge, name},
+                    exchange.outside, exchange.coefficient,
+                    is_heat ? heat_factor_ : -exchange.factor,
+                    is_heat ? Fields<dim>::temperature : Fields<dim>::potential);
 }
 
 template <int dim>

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "body/operator.h"
+#include "body/surface_exchange.h"
 #include "tourmaline/case/boundary_case.h"
-#include "tourmaline/case/contact_case.h"
 #include "tourmaline/case/load_case.h"
 
 namespace tourmaline::casefile {
@@ -16,7 +16,16 @@ namespace tourmaline::body {
 
 /// What a load is, and the boundary it acts on; none for volume loads.
 struct LoadKind {
-  enum Kind { force, charge, heat, traction, surface_charge, heat_flux, foundation_heat } kind;
+  enum Kind {
+    force,
+    charge,
+    heat,
+    traction,
+    surface_charge,
+    heat_flux,
+    foundation_heat,
+    foundation_charge
+  } kind;
   std::string boundary;
   int component = 0;  ///< of force and traction
 };
@@ -66,9 +75,9 @@ class Load {
 template <int dim>
 class Loads {
  public:
-  /// `step` is k [s].
+  /// `step` is k [s]; of the exchanges what the outside brings.
   Loads(const Discretisation<dim> &body, const casefile::Case &asked, double step,
-        double reference_temperature);
+        double reference_temperature, const std::vector<SurfaceExchange> &exchanges = {});
 
   /// Adds all loads at time t, of all ranks; one entry for each unknown of the body.
   void integrate(double t, std::vector<double> &right_side) const;
@@ -78,7 +87,7 @@ class Loads {
  private:
   void add_volume_loads(const Discretisation<dim> &body, const casefile::LoadCase &load);
   void add_surface_loads(const Discretisation<dim> &body, const casefile::BoundaryCase &boundary);
-  void add_foundation_heat(const Discretisation<dim> &body, const casefile::ContactCase &contact);
+  void add_exchange(const Discretisation<dim> &body, const SurfaceExchange &exchange);
   void add_over_facets(const Discretisation<dim> &body, LoadKind kind,
                        const casefile::Formula &density, const casefile::Formula &weight,
                        double factor, int component);

@@ -116,21 +116,37 @@ Energies Operator<dim>::energy_shift(std::span<const double> x) const {
 }
 
 template <int dim>
-void Operator<dim>::add_exchange(const Discretisation<dim> &body,
-                                 const std::vector<std::string> &boundaries,
-                                 const casefile::Formula &coefficient) {
+void Operator<dim>::add_facets(const Discretisation<dim> &body,
+                               const std::vector<std::string> &boundaries,
+                               const casefile::Formula &coefficient, double factor,
+                               const char *what, std::vector<double> &entries) {
   const auto add_facet = [&](const Quadrature<dim> &facet) {
     for (std::size_t q = 0; q < facet.jxw.size(); ++q) {
-      const double k_c = coefficient.value(facet.points[q], 0);
+      const double k_c = factor * coefficient.value(facet.points[q], 0);
       if (k_c < 0)
-        throw CaseError(coefficient.where() + ": the coefficient of heat exchange is negative");
+        throw CaseError(coefficient.where() + ": the coefficient of " + what + " is negative");
       for (std::size_t a = 0; a < facet.nodes.size(); ++a)
         for (std::size_t b = 0; b < facet.nodes.size(); ++b)
           if (const double v = facet.value(q, a) * facet.value(q, b); v != 0)
-            conduction_[entry_of(facet.nodes[a], facet.nodes[b])] += k_c * facet.jxw[q] * v;
+            entries[entry_of(facet.nodes[a], facet.nodes[b])] += k_c * facet.jxw[q] * v;
     }
   };
   parallel::together([&] { body.for_each_facet(boundaries, add_facet); });
+}
+
+template <int dim>
+void Operator<dim>::add_exchange(const Discretisation<dim> &body,
+                                 const std::vector<std::string> &boundaries,
+                                 const casefile::Formula &coefficient) {
+  add_facets(body, boundaries, coefficient, 1, "heat exchange", conduction_);
+}
+
+template <int dim>
+void Operator<dim>::add_capacitors(const Discretisation<dim> &body,
+                                   const std::vector<std::string> &boundaries,
+                                   const casefile::Formula &coefficient, double factor) {
+  capacitors_.resize(graph_.column.size(), 0.);
+  add_facets(body, boundaries, coefficient, factor, "charge exchange", capacitors_);
 }
 
 template <int dim>
@@ -145,6 +161,8 @@ typename Operator<dim>::Block Operator<dim>::step_block(std::size_t entry, doubl
   constexpr int theta = Fields<dim>::temperature;
   Block block = storage_[entry];
   block(theta, theta) -= step / reference_temperature_ * conduction_[entry];
+  if (!capacitors_.empty())
+    block(Fields<dim>::potential, Fields<dim>::potential) -= capacitors_[entry];
   return block;
 }
 
@@ -160,6 +178,9 @@ void Operator<dim>::multiply(double step, std::span<const double> x, std::span<d
       conducted += conduction_[e] * xj[Fields<dim>::temperature];
     }
     sum[Fields<dim>::temperature] -= step / reference_temperature_ * conducted;
+    for (std::size_t e = graph_.row[i]; !capacitors_.empty() && e < graph_.row[i + 1]; ++e)
+      sum[Fields<dim>::potential] -=
+          capacitors_[e] * x[unknown<dim>(graph_.column[e], Fields<dim>::potential)];
     std::copy(sum.begin(), sum.end(), &y[unknown<dim>(i, 0)]);
   }
   parallel::sum(y);
@@ -259,13 +280,26 @@ void Operator<dim>::multiply_by_field(std::span<const double> x, FieldProducts &
 }
 
 template <int dim>
-std::vector<double> Operator<dim>::conducted(std::span<const double> x) const {
+std::vector<double> Operator<dim>::times(const std::vector<double> &entries, int component,
+                                         std::span<const double> x) const {
   std::vector<double> taken(graph_.n_nodes(), 0.);
   for (Node i = 0; i < graph_.n_nodes(); ++i)
     for (std::size_t e = graph_.row[i]; e < graph_.row[i + 1]; ++e)
-      taken[i] += conduction_[e] * x[unknown<dim>(graph_.column[e], Fields<dim>::temperature)];
+      taken[i] += entries[e] * x[unknown<dim>(graph_.column[e], component)];
   parallel::sum(taken);
   return taken;
+}
+
+template <int dim>
+std::vector<double> Operator<dim>::conducted(std::span<const double> x) const {
+  return times(conduction_, Fields<dim>::temperature, x);
+}
+
+template <int dim>
+std::vector<double> Operator<dim>::held_by_capacitors(std::span<const double> x) const {
+  if (capacitors_.empty())
+    return {};
+  return times(capacitors_, Fields<dim>::potential, x);
 }
 
 template class Operator<2>;

@@ -29,9 +29,11 @@ struct FieldProducts {
 ///                [ -M^T   P^T   -H0 ]     E, M, P the couplings of (1), (2), (6)
 ///
 ///     conduction G = (K grad eta, grad eta) + (k_c eta, eta) on Gamma_C
+///     capacitors X = (c psi, psi) on Gamma_C
 ///
-/// G in rows and columns of theta only, so that the step of (31)-(33) has the operator storage - (k
-/// / theta_ref) G, and its heat rows see the state before through the heat rows of `storage`.
+/// G in rows and columns of theta only, X in those of phi, so that the step of (31)-(33) has the
+/// operator storage - (k / theta_ref) G - X, and its heat rows see the state before through the
+/// heat rows of `storage`. Where products with a step are meant below, X is in them.
 ///
 /// With `Modes::incompatible` the cells' modes (`CellModes`) are condensed out of `storage`, all
 /// fields at once: what is left is symmetric, as definite as before, and its heat rows are those of
@@ -55,6 +57,10 @@ class Operator {
   /// place.
   void add_exchange(const Discretisation<dim> &body, const std::vector<std::string> &boundaries,
                     const casefile::Formula &coefficient);
+  /// Adds (c phi, psi) on the named boundaries; c is `factor` times `coefficient`, by place
+  /// [F/m^2].
+  void add_capacitors(const Discretisation<dim> &body, const std::vector<std::string> &boundaries,
+                      const casefile::Formula &coefficient, double factor = 1);
 
   const NodeGraph &graph() const { return graph_; }
   double reference_temperature() const { return reference_temperature_; }
@@ -101,15 +107,23 @@ class Operator {
 
   /// G theta by node [W], what conduction and exchange take from each node.
   std::vector<double> conducted(std::span<const double> x) const;
+  /// X phi by node [C], what capacitors at the boundary hold; empty: there are none.
+  std::vector<double> held_by_capacitors(std::span<const double> x) const;
 
  private:
   void add_cell(const Quadrature<dim> &cell, const material::BodyConstants<dim> &material);
   void add_modes(const Quadrature<dim> &cell, const material::BodyConstants<dim> &material);
+  void add_facets(const Discretisation<dim> &body, const std::vector<std::string> &boundaries,
+                  const casefile::Formula &coefficient, double factor, const char *what,
+                  std::vector<double> &entries);
+  std::vector<double> times(const std::vector<double> &entries, int component,
+                            std::span<const double> x) const;
   std::size_t entry_of(Node row, Node column) const;
 
   NodeGraph graph_;
   std::vector<Block, Eigen::aligned_allocator<Block>> storage_;
   std::vector<double> conduction_;
+  std::vector<double> capacitors_;     // empty: there are none
   std::vector<CellModes<dim>> modes_;  // of this rank's cells
   double reference_temperature_;
 };

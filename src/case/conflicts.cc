@@ -110,6 +110,12 @@ void check_contact(const ContactCase &contact, const std::string &boundary, int 
       formula && contact.heat.exchanges())
     fail(contact, boundary, *formula,
          "heat.law = \"exchange\" says what heat flows there, but it is prescribed as well");
+  if (const Formula *formula = prescribed.find(boundary, electric);
+      formula && contact.electric.exchanges())
+    fail(contact, boundary, *formula,
+         fmt::format("electric.law = \"{}\" says what charge crosses there, but it is prescribed "
+                     "as well",
+                     contact.electric.law));
 }
 
 /// Part of the boundary -> the contact there, and its name for it.

@@ -12,6 +12,16 @@
 
 namespace tourmaline::casefile {
 
+std::string ContactCase::crosses_by_state() const {
+  if (heat.pressure)
+    return "heat.pressure";
+  if (heat.ramp)
+    return "heat.ramp";
+  if (heat.friction_share.value_or(0) > 0)
+    return "heat.friction_share";
+  return electric.ramp ? "electric.ramp" : "";
+}
+
 std::string ContactCase::called() const {
   return name ? *name : fmt::format("{}", fmt::join(on, "+"));
 }

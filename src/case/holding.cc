@@ -171,7 +171,10 @@ void check_holding(const Case &asked) {
       std::any_of(asked.electrodes.begin(), asked.electrodes.end(),
                   [](const ElectrodeCase &electrode) {
                     return electrode.is_driven() || (electrode.is_loaded() && !electrode.to);
-                  });
+                  }) ||
+      std::any_of(asked.contacts.begin(), asked.contacts.end(), [](const ContactCase &contact) {
+        return contact.electric.exchanges() && !contact.electric.ramp;
+      });
   if (!grounded)
     throw CaseError(asked.source +
                     (asked.electrodes.empty()

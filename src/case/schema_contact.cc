@@ -161,11 +161,43 @@ void declare(Visitor &v, FrictionCase &friction) {
   declare_coulomb(v, friction);
 }
 
+void declare(Visitor &v, PressureConductanceCase &pressure) {
+  v.key({.name = "coefficient",
+         .description = "coefficient of heat exchange at the pressure `reference`",
+         .unit = "W/(K m^2)",
+         .required = true,
+         .range = not_negative(sense::heat_exchange),
+         .constant_in_time = true},
+        &pressure.coefficient);
+  v.key({.name = "reference",
+         .description = "the pressure to which p is compared",
+         .unit = "N/m^2",
+         .required = true,
+         .range = positive(sense::traction),
+         .also = {"hardness"}},
+        &pressure.reference);
+  v.key({.name = "exponent",
+         .description = "by which the exchange grows with the pressure",
+         .range = positive(sense::contact_exponent)},
+        &pressure.exponent);
+}
+
+Key ramp_key(const std::string &what, const Use &used) {
+  return {.name = "ramp",
+          .description = what +
+                         " by clamp(1 - gap/ramp, 0, 1), gap being the opening at the end of "
+                         "the step, so that it ends where the opening reaches this",
+          .unit = "m",
+          .range = positive(sense::slip),
+          .default_words = "it does not fade",
+          .used = used};
+}
+
 void declare(Visitor &v, HeatExchangeCase &heat) {
   v.key({.name = "law",
-         .description = "insulated: no heat crosses; exchange: q.nu = k_c (theta - theta_f) (13)",
-         .choices = {"insulated", "exchange"},
-         .foreseen = {"pressure_dependent", "frictional_heating"}},
+         .description = "insulated: nothing but heat of friction crosses; exchange: q.nu = k_c "
+                        "(theta - theta_f) (13)",
+         .choices = {"insulated", "exchange"}},
         &heat.law);
   const Use exchange = with("law", heat.law, {"exchange"});
   v.key({.name = "coefficient",
@@ -186,6 +218,56 @@ void declare(Visitor &v, HeatExchangeCase &heat) {
          .used = exchange,
          .also = {"theta_f"}},
         &heat.foundation_temperature);
+  v.optional_table({.name = "pressure",
+                    .description = "Exchange that grows with the contact pressure p = -sigma_nu: "
+                                   "coefficient (p/reference)^exponent is added to k_c",
+                    .used = exchange,
+                    .also = {"pressure_dependent"}},
+                   heat.pressure,
+                   [](Visitor &inner, PressureConductanceCase &value) { declare(inner, value); });
+  v.optional(ramp_key("k_c fades as the contact opens,", exchange), heat.ramp);
+  v.optional({.name = "friction_share",
+              .description = "share of the power of friction that warms the body at the contact; "
+                             "the foundation has the rest",
+              .range = from_to(0., 1.),
+              .default_words = "friction makes no heat",
+              .also = {"frictional_heating", "share"}},
+             heat.friction_share);
+}
+
+std::string unit_of_charge_exchange(const std::string &law) {
+  if (law == "exchange")
+    return "F/m^2";
+  return law == "leak" ? "S/m^2" : "F/m^2 or S/m^2";
+}
+
+void declare(Visitor &v, ChargeExchangeCase &electric) {
+  v.key({.name = "law",
+         .description = "insulated: no charge crosses; exchange: a capacitor, D.nu = c (phi - "
+                        "phi_f); leak: a conductor, d(D.nu)/dt = c (phi - phi_f), D.nu being 0 at "
+                        "the time 0",
+         .choices = {"insulated", "exchange", "leak"},
+         .choices_also = {{"capacitor", "exchange"}, {"conducting", "leak"}}},
+        &electric.law);
+  const Use crosses = with("law", electric.law, {"exchange", "leak"});
+  v.key({.name = "coefficient",
+         .description = "c of the law: of exchange in F/m^2, of leak in S/m^2",
+         .unit = unit_of_charge_exchange(electric.law),
+         .required = true,
+         .range = not_negative(sense::charge_exchange),
+         .constant_in_time = true,
+         .used = crosses,
+         .also = {"k", "k_e", "c"}},
+        &electric.coefficient);
+  v.key({.name = "foundation_potential",
+         .description = "potential phi_f of the foundation",
+         .unit = "V",
+         .required = true,
+         .range = any(sense::potential),
+         .used = crosses,
+         .also = {"phi_f", "phi_0"}},
+        &electric.foundation_potential);
+  v.optional(ramp_key("c fades as the contact opens,", crosses), electric.ramp);
 }
 
 // Of the six shape functions on a facet those of the corners have the mean 0.
@@ -230,8 +312,7 @@ void declare(Visitor &v, ContactCase &contact, const MeshCase &mesh, int dimensi
                           "given as a text: normal = \"unilateral\"",
            .sole = "law"},
           [&](Visitor &inner) { declare(inner, contact.normal); });
-  v.refuse("charge", "not available in this version; no charge crosses the contact boundary");
-  v.refuse("electric", "not available in this version; no charge crosses the contact boundary");
+  v.refuse("charge", "what crosses of it is said by the table `electric`");
   v.table({.name = "friction",
            .description = "The tangential contact law. None may be given as a text: friction = "
                           "\"none\"",
@@ -242,6 +323,11 @@ void declare(Visitor &v, ContactCase &contact, const MeshCase &mesh, int dimensi
                           "heat = \"insulated\"",
            .sole = "law"},
           [&](Visitor &inner) { declare(inner, contact.heat); });
+  v.table({.name = "electric",
+           .description = "The charge that crosses between body and foundation. None may be given "
+                          "as a text: electric = \"insulated\"",
+           .sole = "law"},
+          [&](Visitor &inner) { declare(inner, contact.electric); });
 }
 
 }  // namespace
@@ -278,6 +364,16 @@ std::string multiplier_complaint(const std::vector<ContactCase> &contacts,
       "contact with {} is not available with solver.multiplier = \"{}\" in this version; take "
       "\"nodal\"",
       law, multiplier);
+}
+
+std::string exchange_complaint(const std::vector<ContactCase> &contacts, const std::string &way) {
+  for (const ContactCase &contact : contacts)
+    if (const std::string key = contact.crosses_by_state(); !key.empty())
+      return fmt::format(
+          "contact with {} is not available with {} in this version; take solver.method = "
+          "\"condensed\" and solver.body = \"direct\"",
+          key, way);
+  return "";
 }
 
 void declare_contacts(Visitor &v, std::vector<ContactCase> &contacts, const MeshCase &mesh,

@@ -31,6 +31,7 @@ void declare_electrodes(Visitor &v, std::vector<ElectrodeCase> &electrodes, cons
 void declare_contacts(Visitor &v, std::vector<ContactCase> &contacts, const MeshCase &mesh,
                       int dimension);
 /// Of contacts whose laws the way of solving cannot take; empty: it can.
+std::string exchange_complaint(const std::vector<ContactCase> &contacts, const std::string &way);
 std::string multiplier_complaint(const std::vector<ContactCase> &contacts,
                                  const std::string &multiplier);
 

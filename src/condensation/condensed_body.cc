@@ -21,9 +21,9 @@ using Eigen::VectorXd;
 template <int dim>
 CondensedBody<dim>::CondensedBody(const body::Operator<dim> &op, double step,
                                   const std::vector<body::Prescribed> &prescribed,
-                                  const std::vector<Node> &contact_nodes, int threads)
+                                  const std::vector<std::size_t> &contact, int threads)
     : operator_(op), step_(step), scale_(op.scales(step)) {
-  number(prescribed, contact_nodes);
+  number(prescribed, contact);
   std::vector<double> scales;
   for (const std::size_t i : unknown_of_)
     scales.push_back(scale(i));
@@ -34,18 +34,17 @@ CondensedBody<dim>::CondensedBody(const body::Operator<dim> &op, double step,
   stiffness_ = Eigen::Map<const Eigen::MatrixXd>(factorisation_->schur_complement().data(), n, n);
   for (Eigen::Index j = 0; j < n; ++j)
     for (Eigen::Index i = 0; i < n; ++i)
-      stiffness_(i, j) /= scale_[i % dim] * scale_[j % dim];
+      stiffness_(i, j) /= contact_scale(i) * contact_scale(j);
 }
 
 template <int dim>
 void CondensedBody<dim>::number(const std::vector<body::Prescribed> &prescribed,
-                                const std::vector<Node> &contact_nodes) {
+                                const std::vector<std::size_t> &contact) {
   const std::size_t n_unknowns = operator_.graph().n_nodes() * Fields<dim>::count;
   is_prescribed_ = body::mask_of(prescribed, n_unknowns);
   std::vector<bool> taken_out = is_prescribed_;
-  for (const Node node : contact_nodes)
-    for (int c = 0; c < dim; ++c)
-      taken_out[unknown<dim>(node, c)] = false;
+  for (const std::size_t i : contact)
+    taken_out[i] = false;
   variable_of_.assign(n_unknowns, -1);
   for (std::size_t i = 0; i < n_unknowns; ++i) {
     if (taken_out[i]) {
@@ -56,15 +55,17 @@ void CondensedBody<dim>::number(const std::vector<body::Prescribed> &prescribed,
     unknown_of_.push_back(i);
     n_electric_and_thermal_ += body::field_of<dim>(i) > 0;
   }
-  for (const Node node : contact_nodes)
-    for (int c = 0; c < dim; ++c)
-      contact_variables_.push_back(variable_of_[unknown<dim>(node, c)]);
+  n_electric_and_thermal_inside_ = n_electric_and_thermal_;
+  for (const std::size_t i : contact) {
+    contact_variables_.push_back(variable_of_[i]);
+    n_electric_and_thermal_inside_ -= body::field_of<dim>(i) > 0;
+  }
   is_contact_variable_.assign(unknown_of_.size(), false);
   for (const int v : contact_variables_)
     is_contact_variable_[v] = true;
 }
 
-// Nodes in the order of nested dissection, each with its unknowns; the contact displacements last.
+// Nodes in the order of nested dissection, each with its unknowns; those of the contact last.
 template <int dim>
 std::vector<int> CondensedBody<dim>::elimination_order() const {
   const std::size_t n_nodes = operator_.graph().n_nodes();
@@ -101,7 +102,7 @@ Eigen::VectorXd CondensedBody<dim>::reduce(std::span<const double> right_side,
   const std::vector<double> reduced = factorisation_->reduce(right_side_);
   Eigen::VectorXd s(static_cast<Eigen::Index>(reduced.size()));
   for (Eigen::Index i = 0; i < s.size(); ++i)
-    s[i] = reduced[i] / scale_[i % dim];
+    s[i] = reduced[i] / contact_scale(i);
   return s;
 }
 
@@ -116,7 +117,7 @@ void CondensedBody<dim>::expand(const Eigen::VectorXd &c, std::span<double> stat
   }
   std::vector<double> scaled(c.size());
   for (Eigen::Index i = 0; i < c.size(); ++i)
-    scaled[i] = c[i] / scale_[i % dim];
+    scaled[i] = c[i] / contact_scale(i);
   factorisation_->expand(scaled);
   for (std::size_t v = 0; v < unknown_of_.size(); ++v)
     state[unknown_of_[v]] = right_side_[v] * scale(unknown_of_[v]);
@@ -151,7 +152,7 @@ constexpr double enough = 1e-15;    // a correction that changes no digit
 
 }  // namespace
 
-// b - K x in scaled variables, 0 at the contact displacements.
+// b - K x in scaled variables, 0 at those of the contact.
 template <int dim>
 VectorXd CondensedBody<dim>::residual_inside(const body::CellProducts<dim> &cells,
                                              std::span<const double> right_side,
@@ -203,7 +204,7 @@ double CondensedBody<dim>::forward_error(const body::CellProducts<dim> &cells,
   return relative_size(solve_inside(residual_inside(cells, right_side, state)), state);
 }
 
-// Corrects what `state` has inside, for its contact displacements and prescribed values.
+// Corrects what `state` has inside, for its c and prescribed values.
 template <int dim>
 void CondensedBody<dim>::solve_refined(std::span<const double> right_side,
                                        std::span<double> state) {
@@ -231,7 +232,7 @@ void CondensedBody<dim>::impose(const VectorXd &c, std::span<double> state) cons
     state[unknown_of_[contact_variables_[i]]] = c[i];
 }
 
-// K x at the contact displacements [N].
+// K x in the rows of c.
 template <int dim>
 VectorXd CondensedBody<dim>::contact_rows(std::span<const double> state) const {
   std::vector<double> product(state.size());

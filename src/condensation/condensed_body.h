@@ -14,35 +14,36 @@
 
 namespace tourmaline::condensation {
 
-/// The body of one step size, factorised once and condensed onto the displacements c of the contact
-/// nodes: S c = s + q, with q the nodal forces of the contact on the body [N], S [N/m] symmetric
-/// and, once the body is held, positive definite.
+/// The body of one step size, factorised once and condensed onto some of its unknowns c, those that
+/// the contact acts on: S c = s + q, with q what the contact adds to the right side of their rows.
+/// Of displacements these are nodal forces on the body [N]. S is symmetric; in displacements alone
+/// it is positive definite once the body is held, with potentials or temperatures among c it is
+/// quasi-definite (docs/theory.md, section 4).
 ///
 /// Inside, the unknowns of each field are scaled by the square root of the field's largest diagonal
 /// entry, so that the factorised matrix is balanced in any units; all arguments here are SI.
 template <int dim>
 class CondensedBody {
  public:
-  /// `prescribed` unknowns are taken out of the matrix, but for those at contact nodes'
-  /// displacements: these stay in c and the interface prescribes them.
+  /// `prescribed` unknowns are taken out of the matrix, but for those among `contact`, the unknowns
+  /// c: these stay in c and the interface prescribes them.
   CondensedBody(const body::Operator<dim> &op, double step,
                 const std::vector<body::Prescribed> &prescribed,
-                const std::vector<body::Node> &contact_nodes, int threads);
+                const std::vector<std::size_t> &contact, int threads);
 
-  /// dim entries for each contact node, in the order of `contact_nodes`. Only on the first rank;
-  /// empty on the others.
+  /// In the order of `contact`. Only on the first rank; empty on the others.
   const Eigen::MatrixXd &stiffness() const { return stiffness_; }
 
-  /// s [N] from the right-hand side of a step, on every rank; `state` holds the values of
-  /// prescribed unknowns.
+  /// s from the right-hand side of a step, on every rank; `state` holds the values of prescribed
+  /// unknowns.
   Eigen::VectorXd reduce(std::span<const double> right_side, std::span<const double> state);
 
-  /// Fills the unknowns of `state` that are not prescribed, from the contact displacements c [m],
-  /// on every rank.
+  /// Fills the unknowns of `state` that are not prescribed, from c, on every
+  /// rank.
   void expand(const Eigen::VectorXd &c, std::span<double> state);
 
-  /// |b - K x| / (|K| |x| + |b|) over the free unknowns, scaled, in the maximum norm; q [N] are the
-  /// forces at the contact, of which those of supports at prescribed components do not count.
+  /// |b - K x| / (|K| |x| + |b|) over the free unknowns, scaled, in the maximum norm; of q what
+  /// supports bear at prescribed components does not count.
   double backward_error(std::span<const double> right_side, std::span<const double> state,
                         const Eigen::VectorXd &q) const;
 
@@ -58,7 +59,7 @@ class CondensedBody {
   /// GMRES with the factor for its preconditioner takes down the residual of `cells`, so an
   /// operator whose assembled entries determine no digit of x is solved as long as few of its
   /// directions are so weak. Every solution takes tens of substitutions, the stiffness one solution
-  /// for each contact displacement. `cells` outlives this object.
+  /// for each entry of c. `cells` outlives this object.
   void refine(const body::CellProducts<dim> &cells);
   bool is_refined() const { return cells_ != nullptr; }
   /// Of the refined solutions since the last call: size of the last correction, as `forward_error`.
@@ -66,12 +67,14 @@ class CondensedBody {
 
   const FactorisationStatistics &statistics() const { return factorisation_->statistics(); }
   std::size_t n_unknowns() const { return unknown_of_.size(); }
-  /// Free electric and thermal unknowns: as many negative pivots are right.
+  /// Free electric and thermal unknowns, and those of them that are not in c: as many negative
+  /// pivots are right.
   std::size_t n_electric_and_thermal() const { return n_electric_and_thermal_; }
+  std::size_t n_electric_and_thermal_inside() const { return n_electric_and_thermal_inside_; }
 
  private:
   void number(const std::vector<body::Prescribed> &prescribed,
-              const std::vector<body::Node> &contact_nodes);
+              const std::vector<std::size_t> &contact);
   std::vector<int> elimination_order() const;
   bool is_contact_variable(std::size_t v) const { return is_contact_variable_[v]; }
   Eigen::VectorXd residual_inside(const body::CellProducts<dim> &cells,
@@ -85,6 +88,7 @@ class CondensedBody {
   void impose(const Eigen::VectorXd &c, std::span<double> state) const;
   Eigen::VectorXd contact_rows(std::span<const double> state) const;
   double scale(std::size_t unknown) const { return scale_[unknown % body::Fields<dim>::count]; }
+  double contact_scale(Eigen::Index i) const { return scale(unknown_of_[contact_variables_[i]]); }
 
   const body::Operator<dim> &operator_;
   double step_;
@@ -95,7 +99,7 @@ class CondensedBody {
   std::vector<int> contact_variables_;
   std::vector<bool> is_contact_variable_;
   std::array<double, body::Fields<dim>::count> scale_;
-  std::size_t n_electric_and_thermal_ = 0;
+  std::size_t n_electric_and_thermal_ = 0, n_electric_and_thermal_inside_ = 0;
   std::optional<Factorisation> factorisation_;
   Eigen::MatrixXd stiffness_;
   const body::CellProducts<dim> *cells_ = nullptr;  // once refined

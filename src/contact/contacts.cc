@@ -9,6 +9,15 @@ Contacts::Contacts(const std::vector<casefile::ContactCase> &asked, double step)
     all_.emplace_back(contact, step);
 }
 
+std::vector<body::SurfaceExchange> Contacts::linear_exchanges() const {
+  std::vector<body::SurfaceExchange> exchanges;
+  for (const ContactLaws &laws : all_)
+    for (const Crossing what : {Crossing::heat, Crossing::charge})
+      if (const auto linear = laws.linear(what))
+        exchanges.push_back(*linear);
+  return exchanges;
+}
+
 bool Contacts::any(bool (ContactLaws::*is_so)() const) const {
   return std::any_of(all_.begin(), all_.end(),
                      [&](const ContactLaws &laws) { return (laws.*is_so)(); });
@@ -32,6 +41,19 @@ bool Contacts::friction_depends_on_pressure() const {
 
 bool Contacts::remembers_slip() const {
   return any(&ContactLaws::remembers_slip);
+}
+
+bool Contacts::is_warmed_by_friction() const {
+  return any(&ContactLaws::is_warmed_by_friction);
+}
+
+bool Contacts::remembers_charge() const {
+  return any(&ContactLaws::remembers_charge);
+}
+
+bool Contacts::crosses_by_state(Crossing what) const {
+  return std::any_of(all_.begin(), all_.end(),
+                     [&](const ContactLaws &laws) { return laws.crosses_by_state(what); });
 }
 
 FrictionAt Contacts::friction() const {

@@ -22,11 +22,18 @@ class Contacts {
     return all_[at.contact];
   }
 
+  std::size_t size() const { return all_.size(); }
+  /// What crosses by place alone, of all contacts.
+  std::vector<body::SurfaceExchange> linear_exchanges() const;
+
   bool has_moving_foundation() const;
   bool has_normal_unknowns() const;
   bool can_open() const;
   bool friction_depends_on_pressure() const;
   bool remembers_slip() const;
+  bool crosses_by_state(Crossing what) const;
+  bool is_warmed_by_friction() const;
+  bool remembers_charge() const;
 
   /// Of the contact that the place belongs to.
   FrictionAt friction() const;

@@ -4,6 +4,7 @@
 
 #include "contact/kinds.h"
 #include "contact/values.h"
+#include "printed_number.h"
 
 namespace tourmaline::contact {
 
@@ -22,10 +23,28 @@ void add_foundation(const casefile::ContactCase &asked, std::vector<std::string>
 }
 
 std::string heat_text(const casefile::HeatExchangeCase &heat) {
-  if (!heat.exchanges())
-    return "insulated, q·ν = 0";
-  return fmt::format("heat exchange, k = {} W/(K m²), with {} K", heat.coefficient.text(),
-                     heat.foundation_temperature.text());
+  std::string text = heat.exchanges()
+                         ? fmt::format("heat exchange, k = {} W/(K m²), with {} K",
+                                       heat.coefficient.text(), heat.foundation_temperature.text())
+                         : "insulated, q·ν = 0";
+  if (heat.pressure)
+    text += fmt::format(", and {} (p/({} N/m²))^{}", heat.pressure->coefficient.text(),
+                        number_text(heat.pressure->reference, 6), heat.pressure->exponent);
+  if (heat.ramp)
+    text += fmt::format(", k fading over {} m", number_text(*heat.ramp, 6));
+  if (heat.friction_share)
+    text += fmt::format(", {} of the heat of friction", *heat.friction_share);
+  return text;
+}
+
+std::string charge_text(const casefile::ChargeExchangeCase &electric) {
+  std::string text = fmt::format(
+      "{}, c = {} {}, with {} V", electric.law == "leak" ? "leaking charge" : "charge exchange",
+      text_of(electric.coefficient), electric.law == "leak" ? "S/m²" : "F/m²",
+      electric.foundation_potential.text());
+  if (electric.ramp)
+    text += fmt::format(", fading over {} m", number_text(*electric.ramp, 6));
+  return text;
 }
 
 }  // namespace
@@ -37,6 +56,8 @@ std::vector<std::string> in_words(const casefile::ContactCase &asked,
   words.push_back(friction_name.empty() ? kind_of(asked.friction).words(asked.friction)
                                         : "friction of a program: " + friction_name);
   words.push_back(heat_text(asked.heat));
+  if (asked.electric.exchanges())
+    words.push_back(charge_text(asked.electric));
   return words;
 }
 

@@ -1,6 +1,9 @@
 #include "contact/laws.h"
 
+#include "contact/charge_exchange.h"
+#include "contact/heat_exchange.h"
 #include "contact/kinds.h"
+#include "contact/values.h"
 
 namespace tourmaline::contact {
 
@@ -27,11 +30,11 @@ bool ContactLaws::can_open() const {
 }
 
 bool ContactLaws::has_normal_unknowns() const {
-  return can_open() || has_bound();
+  return can_open() || has_bound() || asked_.heat.pressure;
 }
 
 bool ContactLaws::friction_depends_on_pressure() const {
-  return has_bound() || (can_open() && (is_replaced_ || asked_.friction.resists()));
+  return has_bound() || (can_open() && resists());
 }
 
 void ContactLaws::replace_friction() {
@@ -59,6 +62,76 @@ std::shared_ptr<const FrictionBound> ContactLaws::bound(const Vector3 &point, do
                                                         double slipped) const {
   return has_bound() ? kind_of(asked_.friction).bound(asked_.friction, point, time, step_, slipped)
                      : nullptr;
+}
+
+bool ContactLaws::is_warmed_by_friction() const {
+  return resists() && asked_.heat.friction_share.value_or(0) > 0;
+}
+
+bool ContactLaws::remembers_charge() const {
+  return asked_.electric.law == "leak";
+}
+
+bool ContactLaws::lets_pass(Crossing what) const {
+  return what == Crossing::heat ? asked_.heat.exchanges() || is_warmed_by_friction()
+                                : asked_.electric.exchanges();
+}
+
+bool ContactLaws::crosses_by_state(Crossing what) const {
+  if (what == Crossing::heat)
+    return asked_.heat.pressure || asked_.heat.ramp || is_warmed_by_friction();
+  return asked_.electric.ramp.has_value();
+}
+
+std::optional<body::SurfaceExchange> ContactLaws::linear(Crossing what) const {
+  const casefile::HeatExchangeCase &heat = asked_.heat;
+  const casefile::ChargeExchangeCase &electric = asked_.electric;
+  if (what == Crossing::heat && heat.exchanges() && !heat.ramp)
+    return {{body::SurfaceExchange::temperature, asked_.on, heat.coefficient,
+             heat.foundation_temperature}};
+  if (what == Crossing::charge && electric.exchanges() && !crosses_by_state(what))
+    return {{body::SurfaceExchange::potential, asked_.on, electric.coefficient,
+             electric.foundation_potential, remembers_charge() ? step_ : 1., remembers_charge()}};
+  return std::nullopt;
+}
+
+std::shared_ptr<const Exchange> ContactLaws::exchange(Crossing what, const Vector3 &point,
+                                                      double time, double before) const {
+  if (!crosses_by_state(what))
+    return nullptr;
+  return what == Crossing::heat ? heat_exchange(point, time) : charge_exchange(point, time, before);
+}
+
+// k_c is here where it fades with the gap; elsewhere it is the operator's.
+std::shared_ptr<const Exchange> ContactLaws::heat_exchange(const Vector3 &point,
+                                                           double time) const {
+  const casefile::HeatExchangeCase &asked = asked_.heat;
+  HeatExchange::Parameters is;
+  is.ramp = Ramp(asked.ramp);
+  is.foundation = asked.foundation_temperature.value(point, time);
+  if (asked.ramp)
+    is.faded = not_negative(asked.coefficient, point, 0, "the coefficient of heat exchange");
+  if (const auto &pressure = asked.pressure)
+    is.by_pressure = {not_negative(pressure->coefficient, point, 0,
+                                   "the coefficient of heat exchange by the pressure"),
+                      pressure->reference, pressure->exponent};
+  if (is_warmed_by_friction())
+    is.friction_share = *asked.friction_share / step_;
+  return std::make_shared<HeatExchange>(is);
+}
+
+std::shared_ptr<const Exchange> ContactLaws::charge_exchange(const Vector3 &point, double time,
+                                                             double before) const {
+  const casefile::ChargeExchangeCase &asked = asked_.electric;
+  ChargeExchange::Parameters is;
+  is.coefficient = not_negative(asked.coefficient, point, 0, "the coefficient of charge exchange");
+  is.ramp = Ramp(asked.ramp);
+  is.foundation = asked.foundation_potential.value(point, time);
+  if (remembers_charge()) {
+    is.coefficient *= step_;
+    is.before = before;
+  }
+  return std::make_shared<ChargeExchange>(is);
 }
 
 }  // namespace tourmaline::contact

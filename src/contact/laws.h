@@ -2,7 +2,10 @@
 
 #include <Eigen/Dense>
 #include <memory>
+#include <optional>
 
+#include "body/surface_exchange.h"
+#include "contact/exchange.h"
 #include "contact/friction_bound.h"
 #include "contact/normal_law.h"
 #include "tourmaline/case/contact_case.h"
@@ -46,11 +49,29 @@ class ContactLaws {
   /// of the last step [m].
   std::shared_ptr<const FrictionBound> bound(const Vector3 &point, double time,
                                              double slipped) const;
+  /// Whether what crosses depends on the contact's state, and so on unknowns of the contact nodes;
+  /// and what crosses then, nothing where it does not. `before`: of charge, D.nu at the end of the
+  /// last step [C/m^2].
+  bool crosses_by_state(Crossing what) const;
+  /// What crosses by place alone, linearly: exactly integrated, not lumped. Nothing: none does.
+  std::optional<body::SurfaceExchange> linear(Crossing what) const;
+  std::shared_ptr<const Exchange> exchange(Crossing what, const Vector3 &point, double time,
+                                           double before) const;
+  /// Whether any crosses at all; of heat, whether friction makes some of it.
+  bool lets_pass(Crossing what) const;
+  bool is_warmed_by_friction() const;
+  /// Whether charge that has crossed in one step stays in the next one.
+  bool remembers_charge() const;
+
   /// A program's own friction takes the place of the case's.
   void replace_friction();
 
  private:
   bool has_bound() const;
+  bool resists() const { return is_replaced_ || asked_.friction.resists(); }
+  std::shared_ptr<const Exchange> heat_exchange(const Vector3 &point, double time) const;
+  std::shared_ptr<const Exchange> charge_exchange(const Vector3 &point, double time,
+                                                  double before) const;
 
   casefile::ContactCase asked_;
   double step_;

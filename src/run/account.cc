@@ -30,7 +30,7 @@ void Account::step(int n, const solve::StepOutcome &outcome, double seconds) {
   if (outcome.slip_jumped && ++slip_jumps_ == 1)
     first_slip_jump_ = n;
   in_steps_ += seconds;
-  if (outcome.friction_bound.size() > 0)
+  if (outcome.has_stages())
     ++stages_[static_cast<std::size_t>(outcome.stage)];
 }
 

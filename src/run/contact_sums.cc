@@ -58,11 +58,9 @@ void add_sums(const Sums &sums, const std::string &name, Quantities &quantities)
       quantities.emplace_back(column + name, sums.moment[c]);
 }
 
-// Through the boundaries of a contact that exchanges it.
+// Through the boundaries of a contact.
 void add_heat(const casefile::ContactCase &contact, const std::string &name,
               Quantities &quantities) {
-  if (!contact.heat.exchanges())
-    return;
   double heat = 0;
   for (const std::string &boundary : contact.on)
     if (const double *through = find(quantities, "heat_" + boundary))
@@ -84,7 +82,8 @@ void add_contact_sums(const solve::Model<dim> &model, const solve::StepOutcome &
   for (std::size_t i = 0; contacts.size() > 1 && i < contacts.size(); ++i) {
     const std::string name = "_" + contacts[i].called();
     add_sums<dim>(sums_of(model, outcome, i), name, quantities);
-    add_heat(contacts[i], name, quantities);
+    if (model.laws[i].lets_pass(contact::Crossing::heat))
+      add_heat(contacts[i], name, quantities);
   }
 }
 

@@ -38,7 +38,11 @@ Vector<dim> tangential(const Vector<dim> &v, const Vector<dim> &normal) {
 
 template <int dim>
 Recorder<dim>::Recorder(const solve::Model<dim> &model, output::ResultFolder &folder)
-    : model_(model), folder_(folder) {}
+    : model_(model), folder_(folder) {
+  for (std::size_t c = 0; c < model.laws.size(); ++c)
+    linear_.push_back({model.laws[c].linear(contact::Crossing::heat),
+                       model.laws[c].linear(contact::Crossing::charge)});
+}
 
 template <int dim>
 void Recorder<dim>::initial(std::span<const double> state) {
@@ -107,7 +111,7 @@ output::HistoryRow Recorder<dim>::step(int n, const solve::StepOutcome &outcome,
     rows = contact_rows(n, outcome, before, state);
   check.contact(rows);
   row.quantities = balance_->step(time, loads, outcome, state, route.is_refined());
-  if (outcome.friction_bound.size() > 0)
+  if (outcome.has_stages())
     row.quantities.emplace_back("contact_stage", static_cast<double>(outcome.stage));
   for (const output::Extreme &e : extremes(state)) {
     row.quantities.emplace_back("min_" + e.field, e.minimum);
@@ -205,12 +209,25 @@ output::PointFields Recorder<dim>::point_fields(std::span<const double> state,
   return fields;
 }
 
+// What crosses by place alone, and what does by the contact's state, `flow` by node.
 template <int dim>
-double Recorder<dim>::heat_flux(const contact::InterfaceNode<dim> &at, double theta,
-                                double time) const {
-  const casefile::HeatExchangeCase &heat = model_.asked.contacts[at.contact].heat;
-  const double k_c = heat.exchanges() ? heat.coefficient.value(at.point, 0) : 0;
-  return k_c == 0 ? 0 : k_c * (theta - heat.foundation_temperature.value(at.point, time));
+double Recorder<dim>::flux(contact::Crossing what, std::size_t i, double value, double time,
+                           const Eigen::VectorXd &flow) const {
+  const contact::InterfaceNode<dim> &at = model_.interface[i];
+  const double by_state = flow.size() > 0 ? flow[static_cast<Eigen::Index>(i)] / at.weight : 0;
+  const auto &linear = linear_[at.contact][what == contact::Crossing::heat ? 0 : 1];
+  const double coefficient = linear ? linear->factor * linear->coefficient.value(at.point, 0) : 0;
+  if (coefficient == 0)
+    return by_state;
+  return coefficient * (value - linear->outside.value(at.point, time)) + by_state;
+}
+
+template <int dim>
+double Recorder<dim>::charge_flux(const solve::StepOutcome &outcome, std::size_t i, double phi,
+                                  double time) const {
+  const double before =
+      outcome.leaked_flux.size() > 0 ? outcome.leaked_flux[static_cast<Eigen::Index>(i)] : 0;
+  return before + flux(contact::Crossing::charge, i, phi, time, outcome.charge_flow);
 }
 
 template <int dim>
@@ -229,7 +246,8 @@ std::vector<output::ContactRow> Recorder<dim>::contact_rows(int n,
     const Vector<dim> u = displacement<dim>(state, at.node);
     const Vector<dim> to_foundation = u - model_.foundation(at, model_.time(n));
     const Vector<dim> change = u - displacement<dim>(carried, at.node);
-    const double theta = state[body::unknown<dim>(at.node, body::Fields<dim>::temperature)];
+    const double theta = state[body::unknown<dim>(at.node, body::Fields<dim>::temperature)],
+                 phi = state[body::unknown<dim>(at.node, body::Fields<dim>::potential)];
     rows.push_back({at.point,
                     traction.dot(at.normal),
                     in_space<dim>(tangential<dim>(traction, at.normal)),
@@ -238,10 +256,10 @@ std::vector<output::ContactRow> Recorder<dim>::contact_rows(int n,
                     tangential<dim>(change, at.normal).norm() / model_.step,
                     outcome.status[i],
                     theta,
-                    state[body::unknown<dim>(at.node, body::Fields<dim>::potential)],
-                    heat_flux(at, theta, model_.time(n)),
+                    phi,
+                    flux(contact::Crossing::heat, i, theta, model_.time(n), outcome.heat_flow),
                     model_.laws.of(at).gap(at.point) - to_foundation.dot(at.normal),
-                    0.,
+                    charge_flux(outcome, i, phi, model_.time(n)),
                     {},
                     name_of_several(model_.asked.contacts, at.contact),
                     static_cast<std::int32_t>(at.contact)});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 
@@ -53,14 +54,19 @@ class Recorder {
   output::CellFields checked_fields(int n, std::span<const double> state);
   void put_fields(int n, std::span<const double> state, const output::CellFields &cells);
   bool has_contact() const { return !model_.asked.contacts.empty(); }
-  double heat_flux(const contact::InterfaceNode<dim> &at, double theta, double time) const;
+  double flux(contact::Crossing what, std::size_t i, double value, double time,
+              const Eigen::VectorXd &flow) const;
+  double charge_flux(const solve::StepOutcome &outcome, std::size_t i, double phi,
+                     double time) const;
 
   const solve::Model<dim> &model_;
   output::ResultFolder &folder_;
   // Of the field files, if any are written.
   std::optional<body::Recovery<dim>> recovery_;
-  output::Grid grid_;                     // this rank's cells and the nodes they use, by region
-  std::vector<std::uint32_t> nodes_;      // of the grid: regional nodes
+  output::Grid grid_;                 // this rank's cells and the nodes they use, by region
+  std::vector<std::uint32_t> nodes_;  // of the grid: regional nodes
+  // By contact, of heat and of charge: what crosses by place alone.
+  std::vector<std::array<std::optional<body::SurfaceExchange>, 2>> linear_;
   output::ContactFacets contact_facets_;  // on the first rank
   std::optional<solve::Balance<dim>> balance_;
   solve::Judgement judgement_;

@@ -61,6 +61,7 @@ TimeLoop<dim>::TimeLoop(const casefile::Case &asked, const std::filesystem::path
       iterative_(checkpoint_ ? ChosenRoute<dim>::was_iterative(checkpoint_->numbers)
                              : solves_iteratively(asked)),
       model_(announced<dim>(asked, progress_)),
+      leaked_(model_),
       most_strained_(model_.n_unknowns()) {
   state_ = body::initial_state(model_.body, asked.initial);
   std::vector<double> trial = state_;
@@ -128,13 +129,15 @@ void TimeLoop<dim>::step(int n) {
   sum_loads(model_.time(n));
   StepCheck(n, model_.time(n)).loads(dim, model_.body.points(), loads_);
   right_side_ = loads_;
+  leaked_.add_to(right_side_);
   if (route_->route().is_refined())
     model_.cells.add_history(state_, right_side_);
   else
     model_.op.add_history(state_, right_side_);
   next_ = state_;
   prescribe(model_.time(n), next_);
-  const solve::StepOutcome outcome = route_->advance(n, right_side_, state_, next_);
+  solve::StepOutcome outcome = route_->advance(n, right_side_, state_, next_);
+  leaked_.describe(outcome);
   account_.step(n, outcome, watch.lap());
   const output::HistoryRow row = record(n, outcome);
   highlights_.see(row);
@@ -142,6 +145,7 @@ void TimeLoop<dim>::step(int n) {
   temperature_.step(row);
   progress_.step(row);
   std::swap(state_, next_);
+  leaked_.end_step(model_.time(n), state_);
   done_ = n;
 }
 
@@ -280,6 +284,7 @@ void TimeLoop<dim>::save(int n) {
     checkpoint.step = n;
     output::SavedNumbers &numbers = checkpoint.numbers;
     numbers.put("state", state_);
+    leaked_.save(numbers);
     account_.save(numbers);
     route_->save(numbers);
     recorder_->save(numbers);
@@ -295,6 +300,7 @@ template <int dim>
 void TimeLoop<dim>::restore() {
   const output::SavedNumbers &numbers = checkpoint_->numbers;
   numbers.fill("state", state_);
+  leaked_.restore(numbers);
   account_.restore(numbers);
   route_->restore(numbers);
   recorder_->restore(state_, numbers);

@@ -19,6 +19,7 @@
 #include "run/recorder.h"
 #include "run/schedule.h"
 #include "run/temperatures.h"
+#include "solve/leaked_charge.h"
 #include "solve/model.h"
 #include "tourmaline/case/case.h"
 #include "tourmaline/run/simulation.h"
@@ -69,7 +70,8 @@ class TimeLoop {
   output::Progress progress_;
   bool iterative_;  // decided once: what is available changes with what is taken
   solve::Model<dim> model_;
-  std::vector<double> state_;  // of the last step that is done
+  solve::LeakedCharge<dim> leaked_;  // by the last step that is done
+  std::vector<double> state_;        // of that step
   std::vector<double> next_, loads_, right_side_;
   std::optional<output::ResultFolder> folder_;
   std::optional<Recorder<dim>> recorder_;

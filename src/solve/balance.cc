@@ -63,17 +63,44 @@ Balance<dim>::Balance(const Model<dim> &model, std::span<const double> initial)
       add_once(heat_boundaries_, load.kind().boundary);
     else if (load.kind().kind == LoadKind::surface_charge)
       add_once(charge_boundaries_, load.kind().boundary);
-  for (const casefile::ContactCase &contact : model.asked.contacts)
-    for (const std::string &name : contact.on)
-      if (contact.heat.exchanges()) {
-        add_once(heat_boundaries_, name);
-        exchange_[name] = exchange_weights(name, contact.heat.coefficient);
-      }
+  for (const body::SurfaceExchange &linear : model.linear_exchanges)
+    for (const std::string &name : linear.on) {
+      const bool is_heat = linear.field == body::SurfaceExchange::temperature;
+      add_once(is_heat ? heat_boundaries_ : charge_boundaries_, name);
+      (is_heat ? exchange_ : capacitors_)[name] =
+          exchange_weights(name, linear.coefficient, linear.factor);
+    }
+  for (const contact::Crossing what : {contact::Crossing::heat, contact::Crossing::charge})
+    find_crossings(what);
   if (!model.laws.can_open())
     return;
   can_open_.resize(model.body.n_nodes());
   for (const contact::InterfaceNode<dim> &at : model.interface)
     can_open_[at.node] = model.laws.of(at).can_open();
+}
+
+// What crosses by the contact's state crosses at nodes: each belongs to the first boundary of its
+// contact that it is on.
+template <int dim>
+void Balance<dim>::find_crossings(contact::Crossing what) {
+  const bool is_heat = what == contact::Crossing::heat;
+  std::vector<std::string> &boundary_of = is_heat ? heat_boundary_of_ : charge_boundary_of_;
+  const auto is_booked = [&](const contact::ContactLaws &laws) {
+    return laws.crosses_by_state(what) || (!is_heat && laws.remembers_charge());
+  };
+  for (std::size_t c = 0; c < model_.asked.contacts.size(); ++c) {
+    if (!is_booked(model_.laws[c]))
+      continue;
+    boundary_of.resize(model_.interface.size());
+    for (const std::string &name : model_.asked.contacts[c].on) {
+      add_once(is_heat ? heat_boundaries_ : charge_boundaries_, name);
+      const std::vector<body::Node> nodes = model_.body.nodes_on({name});
+      for (std::size_t i = 0; i < boundary_of.size(); ++i)
+        if (model_.interface[i].contact == c && boundary_of[i].empty() &&
+            std::find(nodes.begin(), nodes.end(), model_.interface[i].node) != nodes.end())
+          boundary_of[i] = name;
+    }
+  }
 }
 
 // Where nothing warms a body, its heats are round-off and do not balance. They are measured by what
@@ -92,17 +119,17 @@ double Balance<dim>::smallest_heat() const {
 
 // The integral of k_c times each node's shape function over a boundary.
 template <int dim>
-std::vector<std::pair<body::Node, double>> Balance<dim>::exchange_weights(
-    const std::string &boundary, const casefile::Formula &coefficient) const {
+typename Balance<dim>::NodeWeights Balance<dim>::exchange_weights(
+    const std::string &boundary, const casefile::Formula &coefficient, double factor) const {
   std::vector<double> by_node(model_.body.n_nodes(), 0.);
   model_.body.for_each_facet({boundary}, [&](const body::Quadrature<dim> &facet) {
     for (std::size_t q = 0; q < facet.jxw.size(); ++q)
       for (std::size_t a = 0; a < facet.nodes.size(); ++a)
         by_node[facet.nodes[a]] +=
-            coefficient.value(facet.points[q], 0) * facet.jxw[q] * facet.value(q, a);
+            factor * coefficient.value(facet.points[q], 0) * facet.jxw[q] * facet.value(q, a);
   });
   parallel::sum(by_node);
-  std::vector<std::pair<body::Node, double>> weights;
+  NodeWeights weights;
   for (const body::Node node : model_.body.nodes_on({boundary}))
     weights.emplace_back(node, by_node[node]);
   return weights;
@@ -129,7 +156,7 @@ typename Balance<dim>::Columns Balance<dim>::step(double time, std::span<const d
     columns = columns_of(step);
   }
   if (!model_.electrodes.empty())
-    electrode_charges_ = electrode_charges(model_, before_.charges, step.loads);
+    electrode_charges_ = electrode_charges(model_, before_.charges, step.known_charges());
   return columns;
 }
 
@@ -175,7 +202,8 @@ void Balance<dim>::add_energy(const Step &step, Columns &columns) {
       electric -= step.now.unknowns[i] * (step.now.charges[i] - step.before.charges[i]);
     } else {
       const std::size_t node = i / Fields<dim>::count;
-      thermal += step.now.unknowns[i] * (-step.loads[i] - per_watt * step.heat_supplied[node]);
+      const double supplied = step.heat_supplied[node] + step.heat_crossed[node];
+      thermal += step.now.unknowns[i] * (-step.loads[i] - per_watt * supplied);
       conduction -= per_watt * step.now.unknowns[i] * step.conducted[node];
     }
   }
@@ -299,16 +327,34 @@ void Balance<dim>::add_charges(const Step &step, Columns &columns) {
   Sum imbalance;
   for (const body::Prescribed &p : model_.prescribed)
     if (p.unknown % Fields<dim>::count == Fields<dim>::potential) {
-      const double charge = step.now.charges[p.unknown] - step.loads[p.unknown];
+      const double charge = step.now.charges[p.unknown] - step.known_charges()[p.unknown];
       (p.electrode < 0 ? through[p.boundary] : on_electrodes) += charge;
       imbalance.add(charge);
     }
+  for (std::size_t i = 0; i < charge_boundary_of_.size(); ++i) {
+    const std::size_t unknown =
+        body::unknown<dim>(model_.interface[i].node, Fields<dim>::potential);
+    if (charge_boundary_of_[i].empty())
+      continue;
+    double charge = step.leaked.size() > 0 ? step.leaked[static_cast<Eigen::Index>(i)] : 0;
+    if (!is_prescribed_[unknown])
+      charge += step.now.charges[unknown] - step.known_charges()[unknown];
+    through[charge_boundary_of_[i]] += charge;
+    imbalance.add(charge);
+  }
   double inside = 0;
   for (const body::Load &load : model_.loads.each())
     if (load.kind().kind == LoadKind::surface_charge)
       through[load.kind().boundary] += load.resultant(step.time);
+    else if (load.kind().kind == LoadKind::foundation_charge)
+      through[load.kind().boundary] -= load.resultant(step.time);
     else if (load.kind().kind == LoadKind::charge)
       inside += load.resultant(step.time);
+  for (const std::string &name : charge_boundaries_) {
+    const double held = exchanged(capacitors_, Fields<dim>::potential, name, step);
+    through[name] += held;
+    imbalance.size += std::abs(held);
+  }
   for (const std::string &name : charge_boundaries_)
     columns.emplace_back("charge_" + name, through[name]);
   double total = on_electrodes - inside;
@@ -323,7 +369,7 @@ void Balance<dim>::add_electrodes(const Step &step, Columns &columns) const {
   if (model_.electrodes.empty())
     return;
   const Eigen::VectorXd voltages = electrode_voltages(model_, step.now.unknowns);
-  const Eigen::VectorXd charges = electrode_charges(model_, step.now.charges, step.loads);
+  const Eigen::VectorXd charges = electrode_charges(model_, step.now.charges, step.known_charges());
   for (std::size_t e = 0; e < model_.electrodes.size(); ++e) {
     const auto i = static_cast<Eigen::Index>(e);
     const std::string name = "electrode_" + model_.asked.electrodes[e].name;
@@ -334,11 +380,12 @@ void Balance<dim>::add_electrodes(const Step &step, Columns &columns) const {
 }
 
 template <int dim>
-double Balance<dim>::exchanged(const std::string &boundary, const Step &step) const {
+double Balance<dim>::exchanged(const std::map<std::string, NodeWeights> &exchange, int component,
+                               const std::string &boundary, const Step &step) {
   double flow = 0;
-  if (const auto found = exchange_.find(boundary); found != exchange_.end())
+  if (const auto found = exchange.find(boundary); found != exchange.end())
     for (const auto &[node, weight] : found->second)
-      flow += weight * step.now.unknowns[body::unknown<dim>(node, Fields<dim>::temperature)];
+      flow += weight * step.now.unknowns[body::unknown<dim>(node, component)];
   return flow;
 }
 
@@ -353,6 +400,13 @@ void Balance<dim>::add_heat(const Step &step, Columns &columns) {
       out[p.boundary] -= supplied;
       imbalance.size += std::abs(supplied);
     }
+  for (std::size_t i = 0; i < heat_boundary_of_.size(); ++i) {
+    if (heat_boundary_of_[i].empty())
+      continue;
+    const double crossed = step.heat_crossed[model_.interface[i].node];
+    out[heat_boundary_of_[i]] -= crossed;
+    imbalance.size += std::abs(crossed);
+  }
   double source = 0;
   for (const body::Load &load : model_.loads.each())
     switch (const double resultant = load.resultant(step.time); load.kind().kind) {
@@ -369,7 +423,7 @@ void Balance<dim>::add_heat(const Step &step, Columns &columns) {
         break;
     }
   for (const std::string &name : heat_boundaries_) {
-    out[name] += exchanged(name, step);
+    out[name] += exchanged(exchange_, Fields<dim>::temperature, name, step);
     columns.emplace_back("heat_" + name, out[name]);
     imbalance.add(out[name]);
   }
@@ -383,7 +437,27 @@ void Balance<dim>::add_heat(const Step &step, Columns &columns) {
   imbalance.size += smallest_heat_;
   columns.emplace_back("stored_heat_rate", stored);
   columns.emplace_back("heat_source", source);
+  if (model_.laws.is_warmed_by_friction())
+    add_friction_heat(step, columns);
   put_imbalance("heat_imbalance", imbalance.value, imbalance.size, step.round_off.heat, columns);
+}
+
+// Of the power of friction what warms the body, and the rest.
+template <int dim>
+void Balance<dim>::add_friction_heat(const Step &step, Columns &columns) const {
+  double power = 0, warming = 0;
+  for (std::size_t i = 0; i < model_.interface.size(); ++i) {
+    const contact::InterfaceNode<dim> &at = model_.interface[i];
+    if (!model_.laws.of(at).is_warmed_by_friction())
+      continue;
+    warming += step.friction_heat[static_cast<Eigen::Index>(i)];
+    for (int c = 0; c < dim; ++c) {
+      const std::size_t u = body::unknown<dim>(at.node, c);
+      power -= step.friction[u] * (step.change(u) - step.carried_by(u)) / model_.step;
+    }
+  }
+  columns.insert(columns.end(),
+                 {{"friction_heat_body", warming}, {"friction_heat_foundation", power - warming}});
 }
 
 template <int dim>

@@ -60,18 +60,22 @@ class Balance {
   void add_charges(const Step &step, Columns &columns);
   void add_electrodes(const Step &step, Columns &columns) const;
   void add_heat(const Step &step, Columns &columns);
+  void add_friction_heat(const Step &step, Columns &columns) const;
+  void find_crossings(contact::Crossing what);
   void add_energy(const Step &step, Columns &columns);
   double lack_of_energy(const Step &step, double whole, const std::array<double, 3> &gained,
                         const std::array<double, 3> &lost,
                         const std::array<std::vector<double>, 3> &works) const;
-  std::vector<std::pair<body::Node, double>> exchange_weights(
-      const std::string &boundary, const casefile::Formula &coefficient) const;
+  using NodeWeights = std::vector<std::pair<body::Node, double>>;
+  NodeWeights exchange_weights(const std::string &boundary, const casefile::Formula &coefficient,
+                               double factor) const;
   /// Whether the foundation is more than the paper's.
   bool has_foundation_columns() const {
     return model_.laws.has_moving_foundation() || model_.laws.has_normal_unknowns();
   }
   double smallest_heat() const;
-  double exchanged(const std::string &boundary, const Step &step) const;
+  static double exchanged(const std::map<std::string, NodeWeights> &exchange, int component,
+                          const std::string &boundary, const Step &step);
 
   const Model<dim> &model_;
   std::vector<bool> is_prescribed_;    // by unknown
@@ -82,8 +86,9 @@ class Balance {
   CoupledFields coupled_;
   Columns judged_;
   std::vector<std::string> heat_boundaries_, charge_boundaries_;
-  std::map<std::string, std::vector<std::pair<body::Node, double>>>
-      exchange_;  // integral of k_c N_i
+  // by interface node: the boundary that what crosses there counts for; empty: nothing crosses so
+  std::vector<std::string> heat_boundary_of_, charge_boundary_of_;
+  std::map<std::string, NodeWeights> exchange_, capacitors_;  // integral of k_c N_i, of c N_i
 };
 
 }  // namespace tourmaline::solve

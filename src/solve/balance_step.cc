@@ -58,13 +58,39 @@ void multiply(const Model<dim> &model, bool cell_by_cell, BalancedState<dim> &st
   state.stored = stored_energy(state);
 }
 
-// Known charges are loads; what holds a prescribed potential is what the products say.
+// By node, from the entries of the interface nodes; empty: nothing.
 template <int dim>
-void find_charges(const std::vector<bool> &is_prescribed, bool cell_by_cell,
-                  BalanceStep<dim> &step) {
+std::vector<double> by_node(const Model<dim> &model, const Eigen::VectorXd &flows) {
+  std::vector<double> all(model.body.n_nodes(), 0.);
+  for (Eigen::Index i = 0; i < flows.size(); ++i)
+    all[model.interface[static_cast<std::size_t>(i)].node] = flows[i];
+  return all;
+}
+
+template <int dim>
+void add_capacitors(const Model<dim> &model, bool cell_by_cell, BalanceStep<dim> &step) {
+  const std::vector<double> held = cell_by_cell ? model.cells.held_by_capacitors(step.now.unknowns)
+                                                : model.op.held_by_capacitors(step.now.unknowns);
+  if (held.empty())
+    return;
+  step.with_capacitors.assign(step.loads.begin(), step.loads.end());
+  for (body::Node node = 0; node < held.size(); ++node)
+    step.with_capacitors[body::unknown<dim>(node, Fields<dim>::potential)] += held[node];
+  for (Eigen::Index i = 0; i < step.leaked.size(); ++i)
+    step.with_capacitors[body::unknown<dim>(model.interface[static_cast<std::size_t>(i)].node,
+                                            Fields<dim>::potential)] += step.leaked[i];
+}
+
+// Known charges are loads and what crosses the contact; what holds a prescribed potential is what
+// the products say.
+template <int dim>
+void find_charges(const std::vector<bool> &is_prescribed, const std::vector<double> &crossed,
+                  bool cell_by_cell, BalanceStep<dim> &step) {
   step.now.charges.assign(step.now.unknowns.size(), 0.);
   for (std::size_t i = Fields<dim>::potential; i < is_prescribed.size(); i += Fields<dim>::count) {
-    step.now.charges[i] = is_prescribed[i] ? step.now.products.sum(i) : step.loads[i];
+    step.now.charges[i] = is_prescribed[i]
+                              ? step.now.products.sum(i)
+                              : step.known_charges()[i] + crossed[i / Fields<dim>::count];
     if (cell_by_cell && is_prescribed[i])
       step.before.charges[i] = step.before.products.sum(i);
   }
@@ -269,7 +295,11 @@ BalanceStep<dim> balance_step(const Model<dim> &model, const std::vector<bool> &
   step.friction = by_unknown(model, outcome.friction_forces);
   step.carried = carried(model, time, step.before.unknowns);
   step.normal = normal_energy(model, step);
-  find_charges(is_prescribed, cell_by_cell, step);
+  step.leaked = outcome.leaked_charge;
+  add_capacitors(model, cell_by_cell, step);
+  find_charges(is_prescribed, by_node(model, outcome.charge_flow), cell_by_cell, step);
+  step.friction_heat = outcome.friction_heat;
+  step.heat_crossed = by_node(model, -outcome.heat_flow);
   step.heat_supplied = heat_supplied(model, is_prescribed, step);
   return step;
 }

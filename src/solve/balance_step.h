@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Dense>
 #include <array>
 #include <span>
 #include <vector>
@@ -45,15 +46,24 @@ template <int dim>
 struct BalanceStep {
   double time = 0;
   std::span<const double> loads;  ///< by unknown, without history
+  /// by unknown, with what capacitors at the contact hold; empty: there are none
+  std::vector<double> with_capacitors;
   BalancedState<dim> before, now;
   std::vector<double> conducted;      ///< by node [W]
   std::vector<double> heat_supplied;  ///< by node, at prescribed temperatures [W]
+  Eigen::VectorXd friction_heat;      ///< by interface node, into the body [W]; empty: none
+  Eigen::VectorXd leaked;             ///< by interface node, before this step [C]; empty: none
+  std::vector<double> heat_crossed;   ///< by node, at the contact by its state, inwards [W]
   std::vector<double> contact;        ///< by unknown [N]
   std::vector<double> friction;       ///< the part of it that opposes the slip [N]
   std::vector<double> carried;  ///< by unknown: how the foundation has moved [m]; empty: it rests
   NormalEnergy normal;          ///< of the foundation's response
   BalanceRoundOff round_off;
 
+  /// What a potential's row would have without reaction and what crosses by the contact's state.
+  std::span<const double> known_charges() const {
+    return with_capacitors.empty() ? loads : std::span<const double>(with_capacitors);
+  }
   double change(std::size_t i) const { return now.unknowns[i] - before.unknowns[i]; }
   double carried_by(std::size_t i) const { return carried.empty() ? 0 : carried[i]; }
   double product_change(int field, std::size_t i) const {

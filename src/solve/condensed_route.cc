@@ -14,6 +14,8 @@
 #include "solve/connected_body.h"
 #include "solve/contact_nodes.h"
 #include "solve/coupled_programme.h"
+#include "solve/exchange_nodes.h"
+#include "solve/exchange_programme.h"
 #include "solve/first_places.h"
 #include "solve/judgement.h"
 #include "solve/leaning.h"
@@ -38,8 +40,9 @@ void share(StepOutcome &outcome) {
                               static_cast<double>(outcome.slip_jumped)};
   for (const auto status : outcome.status)
     numbers.push_back(static_cast<double>(status));
-  for (const VectorXd &by_node : {outcome.contact_forces, outcome.friction_forces,
-                                  outcome.friction_bound, outcome.accumulated_slip})
+  for (const VectorXd &by_node :
+       {outcome.contact_forces, outcome.friction_forces, outcome.friction_bound,
+        outcome.accumulated_slip, outcome.heat_flow, outcome.friction_heat, outcome.charge_flow})
     numbers.insert(numbers.end(), by_node.begin(), by_node.end());
   parallel::from_first(std::span<double>(numbers));
   outcome.newton_iterations = static_cast<int>(numbers[0]);
@@ -50,7 +53,8 @@ void share(StepOutcome &outcome) {
   for (auto &status : outcome.status)
     status = static_cast<ContactStatus>(*next++);
   for (VectorXd *by_node : {&outcome.contact_forces, &outcome.friction_forces,
-                            &outcome.friction_bound, &outcome.accumulated_slip}) {
+                            &outcome.friction_bound, &outcome.accumulated_slip, &outcome.heat_flow,
+                            &outcome.friction_heat, &outcome.charge_flow}) {
     std::copy_n(next, by_node->size(), by_node->begin());
     next += by_node->size();
   }
@@ -80,10 +84,18 @@ class CondensedRoute : public Route {
                     std::span<double> state);
   void advance_contact(double time, const VectorXd &s, std::span<const double> before,
                        std::span<const double> state, VectorXd &c, StepOutcome &outcome);
-  CoupledSolution solve_contact(double time, const VectorXd &s);
-  CoupledSolution solve_programme(const InterfaceProgramme &programme);
-  CoupledSolution solve_leaning(const InterfaceProgramme &programme,
+  CoupledSolution solve_contact(double time, const VectorXd &s, std::span<const double> before);
+  void require_solved(double time, const InterfaceProgramme &programme,
+                      const InterfaceSolution &solution) const;
+  CoupledSolution solve_with_exchange(double time, const VectorXd &s,
+                                      std::span<const double> before);
+  CoupledSolution solve_programme(const InterfaceProgramme &programme, const VectorXd &start,
+                                  const InterfaceSettings &settings) const;
+  CoupledSolution solve_leaning(const InterfaceProgramme &programme, const VectorXd &first,
                                 const InterfaceSettings &settings) const;
+  InterfaceSettings settings(KeptFactors *factors) const;
+  void condense_exchanges();
+  bool exchanges() const { return exchange_ && exchange_->size() > 0; }
   bool is_carried_off(const InterfaceProgramme &programme, const InterfaceSolution &solution) const;
   [[noreturn]] void give_up(double time, const InterfaceSolution &solution) const;
 
@@ -100,7 +112,12 @@ class CondensedRoute : public Route {
   MatrixXd slip_stiffness_;  // T^T S T, T the directions of the contact's unknowns
   KeptFactors factors_;
   VectorXd last_increment_;
-  double error_of_slips_ = 0;  // the contact's own share of the forward error
+  // Where temperatures or potentials are unknowns of the contact, too: the matrix with their rows.
+  std::optional<ExchangeNodes<dim>> exchange_;
+  MatrixXd whole_stiffness_;
+  KeptFactors whole_factors_;
+  int negative_at_contact_ = 0;  // pivots in their rows
+  double error_of_slips_ = 0;    // the contact's own share of the forward error
 };
 
 template <int dim>
@@ -109,8 +126,10 @@ CondensedRoute<dim>::CondensedRoute(const Model<dim> &model)
       left_to_contact_(casefile::left_to_contact(model.asked)),
       is_prescribed_(body::mask_of(model.prescribed, model.n_unknowns())),
       condensed_(model) {
-  if (!model.interface.empty())
+  if (!model.interface.empty()) {
     contact_.emplace(model, is_prescribed_);
+    exchange_.emplace(model);
+  }
   Stopwatch watch;
   parallel::on_first([&] { condense_onto_slips(); });
   so_far_.condense_seconds = watch.lap();
@@ -148,31 +167,60 @@ template <int dim>
 void CondensedRoute<dim>::condense_onto_slips() {
   if (!contact_)
     return;
+  last_increment_ = VectorXd::Zero(contact_->n_unknowns());
+  if (exchanges())
+    return condense_exchanges();
   const Eigen::SparseMatrix<double> &directions = contact_->directions();
   slip_stiffness_ = directions.transpose() * (condensed_.stiffness() * directions);
   slip_stiffness_ = (slip_stiffness_ + slip_stiffness_.transpose()).eval() / 2;
-  last_increment_ = VectorXd::Zero(contact_->n_unknowns());
+}
+
+// Rows of S and T are displacements, then what is exchanged.
+template <int dim>
+void CondensedRoute<dim>::condense_exchanges() {
+  const MatrixXd &s = condensed_.stiffness();
+  const Eigen::SparseMatrix<double> &directions = contact_->directions();
+  const Index n = directions.cols(), m = exchange_->size();
+  const auto scale = exchange_->scale().asDiagonal();
+  whole_stiffness_.resize(n + m, n + m);
+  whole_stiffness_.topLeftCorner(n, n) =
+      directions.transpose() *
+      MatrixXd(s.topLeftCorner(directions.rows(), directions.rows()) * directions);
+  whole_stiffness_.topRightCorner(n, m) =
+      directions.transpose() * MatrixXd(s.topRightCorner(directions.rows(), m) * scale);
+  whole_stiffness_.bottomLeftCorner(m, n) = whole_stiffness_.topRightCorner(n, m).transpose();
+  whole_stiffness_.bottomRightCorner(m, m) = scale * s.bottomRightCorner(m, m) * scale;
+  whole_stiffness_ = (whole_stiffness_ + whole_stiffness_.transpose()).eval() / 2;
+  slip_stiffness_ = whole_stiffness_.topLeftCorner(n, n);
+  // All or none: not quasi-definite it would be of no use.
+  const Eigen::LLT<MatrixXd> factor(-whole_stiffness_.bottomRightCorner(m, m));
+  negative_at_contact_ = factor.info() == Eigen::Success ? static_cast<int>(m) : 0;
 }
 
 template <int dim>
-CoupledSolution CondensedRoute<dim>::solve_programme(const InterfaceProgramme &programme) {
-  const InterfaceSettings settings{model_.asked.solver.tolerance,
-                                   model_.asked.solver.max_iterations, left_to_contact_.empty(),
-                                   &factors_};
+InterfaceSettings CondensedRoute<dim>::settings(KeptFactors *factors) const {
+  return {model_.asked.solver.tolerance, model_.asked.solver.max_iterations,
+          left_to_contact_.empty(), factors};
+}
+
+template <int dim>
+CoupledSolution CondensedRoute<dim>::solve_programme(const InterfaceProgramme &programme,
+                                                     const VectorXd &start,
+                                                     const InterfaceSettings &settings) const {
   if (contact_->is_coupled() && !left_to_contact_.empty())
-    return solve_leaning(programme, settings);
-  return solve_coupled({programme, contact_->couplings()}, last_increment_, settings);
+    return solve_leaning(programme, start, settings);
+  return solve_coupled({programme, contact_->couplings()}, start, settings);
 }
 
 // Where only the contact holds the body, Newton's method may meet a singular matrix on its way.
 // Weak springs between contact and foundation lead it to where the contact holds.
 template <int dim>
 CoupledSolution CondensedRoute<dim>::solve_leaning(const InterfaceProgramme &programme,
+                                                   const VectorXd &first,
                                                    const InterfaceSettings &settings) const {
-  CoupledSolution solution =
-      solve_coupled({programme, contact_->couplings()}, last_increment_, settings);
+  CoupledSolution solution = solve_coupled({programme, contact_->couplings()}, first, settings);
   int iterations = solution.interface.iterations;
-  VectorXd start = VectorXd::Zero(last_increment_.size());
+  VectorXd start = VectorXd::Zero(first.size());
   for (const double weak : {1e-2, 1e-4, 1e-6}) {
     if (solution.interface.converged && !is_carried_off(programme, solution.interface))
       break;
@@ -190,20 +238,57 @@ CoupledSolution CondensedRoute<dim>::solve_leaning(const InterfaceProgramme &pro
   return solution;
 }
 
+// Of held exchanges each has a matrix of its own, of which nothing is kept.
 template <int dim>
-CoupledSolution CondensedRoute<dim>::solve_contact(double time, const VectorXd &s) {
+CoupledSolution CondensedRoute<dim>::solve_with_exchange(double time, const VectorXd &s,
+                                                         std::span<const double> before) {
+  exchange_->begin_step(time, *contact_);
+  const MatrixXd &all = condensed_.stiffness();
+  const Eigen::SparseMatrix<double> &directions = contact_->directions();
+  const Index n_rows = directions.rows(), n = directions.cols(), m = exchange_->size();
+  const VectorXd resisted = all.leftCols(n_rows) * contact_->stuck();
+  const VectorXd terms = s.cwiseAbs().cwiseMax(resisted.cwiseAbs());
+  VectorXd force(n + m), start(n + m);
+  force << directions.transpose() * (s - resisted).head(n_rows),
+      exchange_->scale().cwiseProduct((s - resisted).tail(m));
+  start << last_increment_, exchange_->entries(before);
+  const ExchangeProgramme programme{
+      {whole_stiffness_, force, contact_->points(), terms.head(n_rows).maxCoeff(),
+       exchange_->fields(exchange_->scale().cwiseProduct(terms.tail(m)))},
+      contact_->couplings(),
+      exchange_->points()};
+  const auto solve_held = [&](const InterfaceProgramme &held, const VectorXd &from) {
+    return solve_programme(held, from, settings(nullptr));
+  };
+  CoupledSolution solution =
+      solve_exchanging(programme, start, settings(&whole_factors_), solve_held);
+  require_solved(time, programme.whole, solution.interface);
+  return solution;
+}
+
+template <int dim>
+void CondensedRoute<dim>::require_solved(double time, const InterfaceProgramme &programme,
+                                         const InterfaceSolution &solution) const {
+  if (is_carried_off(programme, solution)) {
+    const std::string unheld = unheld_motions(model_, *contact_, solution.status);
+    let_go(time, unheld.empty() ? left_to_contact_ : unheld);
+  }
+  if (!solution.converged)
+    give_up(time, solution);
+}
+
+template <int dim>
+CoupledSolution CondensedRoute<dim>::solve_contact(double time, const VectorXd &s,
+                                                   std::span<const double> before) {
+  if (exchanges())
+    return solve_with_exchange(time, s, before);
   const VectorXd resisted = condensed_.stiffness() * contact_->stuck();
   const VectorXd force = contact_->directions().transpose() * (s - resisted);
   const double scale = larger(s.cwiseAbs().maxCoeff<Eigen::PropagateNaN>(),
                               resisted.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
   const InterfaceProgramme programme{slip_stiffness_, force, contact_->points(), scale};
-  CoupledSolution solution = solve_programme(programme);
-  if (is_carried_off(programme, solution.interface)) {
-    const std::string unheld = unheld_motions(model_, *contact_, solution.interface.status);
-    let_go(time, unheld.empty() ? left_to_contact_ : unheld);
-  }
-  if (!solution.interface.converged)
-    give_up(time, solution.interface);
+  CoupledSolution solution = solve_programme(programme, last_increment_, settings(&factors_));
+  require_solved(time, programme, solution.interface);
   return solution;
 }
 
@@ -253,12 +338,18 @@ void CondensedRoute<dim>::advance_contact(double time, const VectorXd &s,
                                           std::span<const double> state, VectorXd &c,
                                           StepOutcome &outcome) {
   contact_->begin_step(time, before, state);
-  const CoupledSolution solution = solve_contact(time, s);
+  CoupledSolution solution = solve_contact(time, s, before);
+  const VectorXd crossing = solution.interface.increment.tail(exchange_->size());
+  if (exchanges())
+    exchange_->end_step(*contact_, solution, outcome);
+  solution.interface.increment.conservativeResize(contact_->n_unknowns());
+  solution.interface.force.conservativeResize(contact_->n_unknowns());
   last_increment_ = solution.interface.increment;
   // Adding the increment to the very values of the last step keeps a sticking point in its place
   // exactly.
-  c = contact_->displacements(last_increment_);
-  outcome.contact_forces = condensed_.stiffness() * c - s;
+  c << contact_->displacements(last_increment_), exchange_->scale().cwiseProduct(crossing);
+  const VectorXd held = condensed_.stiffness() * c - s;
+  outcome.contact_forces = held.head(contact_->directions().rows());
   outcome.slip_jumped = solution.slip_jumped;
   contact_->end_step(solution, outcome);
 }
@@ -272,7 +363,9 @@ StepOutcome CondensedRoute<dim>::solve(double time, std::span<const double> righ
   StepOutcome outcome;
   VectorXd c = s;
   if (!model_.interface.empty()) {
-    outcome.contact_forces = outcome.friction_forces = VectorXd::Zero(s.size());
+    outcome.contact_forces = outcome.friction_forces =
+        VectorXd::Zero(contact_->directions().rows());
+    exchange_->prepare(outcome);
     outcome.status.resize(model_.interface.size());
     const auto n_nodes = static_cast<Index>(model_.interface.size());
     if (contact_->is_coupled())
@@ -302,8 +395,10 @@ StepOutcome CondensedRoute<dim>::advance(double time, std::span<const double> ri
       return outcome;
     refine();
     last_increment_ = start;
-    if (contact_)
+    if (contact_) {
       contact_->take_back();
+      exchange_->take_back();
+    }
     outcome = solve(time, right_side, before, state);
     forget_errors();
     measure(right_side, state, outcome);
@@ -325,8 +420,12 @@ Accuracy CondensedRoute<dim>::accuracy(std::span<const double> right_side,
   condensation::CondensedBody<dim> &body = condensed_.body();
   const double inside = body.is_refined() ? body.left_by_refinement()
                                           : body.forward_error(model_.cells, right_side, state);
-  return {body.backward_error(right_side, state, outcome.contact_forces),
-          larger(inside, error_of_slips_)};
+  VectorXd q = outcome.contact_forces;
+  if (exchanges()) {
+    q.conservativeResize(q.size() + exchange_->size());
+    q.tail(exchange_->size()) = exchange_->rows(outcome);
+  }
+  return {body.backward_error(right_side, state, q), larger(inside, error_of_slips_)};
 }
 
 template <int dim>
@@ -336,6 +435,8 @@ void CondensedRoute<dim>::describe(RouteReport &report) const {
   report.unknowns = condensed_.body().n_unknowns();
   report.electric_and_thermal_unknowns = condensed_.body().n_electric_and_thermal();
   report.negative_pivots = condensed_.body().statistics().negative_pivots;
+  if (exchanges())
+    report.negative_pivots += negative_at_contact_;
 }
 
 template <int dim>
@@ -344,8 +445,11 @@ void CondensedRoute<dim>::save_memory(output::SavedNumbers &numbers) const {
   numbers.put("last increment", last_increment_);
   factors_.convex.save("convex programme's factor", numbers);
   factors_.coupled.save("coupled programme's factor", numbers);
-  if (contact_)
+  if (contact_) {
     contact_->save(numbers);
+    exchange_->save(numbers);
+    whole_factors_.coupled.save("exchange programme's factor", numbers);
+  }
 }
 
 template <int dim>
@@ -356,8 +460,11 @@ void CondensedRoute<dim>::restore_memory(const output::SavedNumbers &numbers) {
     factors_.convex.restore("convex programme's factor", numbers, last_increment_.size());
     factors_.coupled.restore("coupled programme's factor", numbers, last_increment_.size());
   }
-  if (parallel::is_first() && contact_)
+  if (parallel::is_first() && contact_) {
     contact_->restore(numbers);
+    exchange_->restore(numbers);
+    whole_factors_.coupled.restore("exchange programme's factor", numbers, whole_stiffness_.rows());
+  }
 }
 
 }  // namespace

@@ -16,14 +16,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-template <int dim>
-std::vector<body::Node> contact_nodes(const Model<dim> &model) {
-  std::vector<body::Node> nodes;
-  for (const auto &node : model.interface)
-    nodes.push_back(node.node);
-  return nodes;
-}
-
 double dot(std::span<const double> a, std::span<const double> b) {
   return Eigen::Map<const VectorXd>(a.data(), static_cast<Index>(a.size()))
       .dot(Eigen::Map<const VectorXd>(b.data(), static_cast<Index>(b.size())));
@@ -34,15 +26,14 @@ double dot(std::span<const double> a, std::span<const double> b) {
 template <int dim>
 ConnectedBody<dim>::ConnectedBody(const Model<dim> &model)
     : model_(model),
-      body_(model.op, model.step, model.prescribed, contact_nodes(model),
-            model.asked.solver.threads),
+      contact_(contact_unknowns(model, exchange_sites(model))),
+      body_(model.op, model.step, model.prescribed, contact_, model.asked.solver.threads),
       circuit_(model.asked.electrodes, model.step) {
   if (circuit_.free().empty())
     return;
   std::vector<bool> in_contact(model.n_unknowns(), false);
-  for (const auto &node : model.interface)
-    for (int c = 0; c < dim; ++c)
-      in_contact[unknown<dim>(node.node, c)] = true;
+  for (const std::size_t i : contact_)
+    in_contact[i] = true;
   for (const body::Prescribed &p : model.prescribed)
     if (!in_contact[p.unknown])
       lifted_.push_back(p.unknown);
@@ -58,7 +49,7 @@ template <int dim>
 void ConnectedBody<dim>::add_responses() {
   const auto m = static_cast<Index>(circuit_.free().size());
   const std::vector<double> nothing(model_.n_unknowns(), 0.);
-  coupling_.resize(dim * static_cast<Index>(model_.interface.size()), m);
+  coupling_.resize(static_cast<Index>(contact_.size()), m);
   for (Index e = 0; e < m; ++e) {
     std::vector<double> psi = nothing;
     for (const body::Node node : model_.electrodes[circuit_.free()[e]])
@@ -66,10 +57,8 @@ void ConnectedBody<dim>::add_responses() {
     body_.reduce(nothing, psi);
     body_.expand(VectorXd::Zero(coupling_.rows()), psi);
     std::vector<double> reaction = product(psi);
-    for (std::size_t i = 0; i < model_.interface.size(); ++i)
-      for (int c = 0; c < dim; ++c)
-        coupling_(dim * static_cast<Index>(i) + c, e) =
-            -reaction[unknown<dim>(model_.interface[i].node, c)];
+    for (std::size_t i = 0; i < contact_.size(); ++i)
+      coupling_(static_cast<Index>(i), e) = -reaction[contact_[i]];
     response_.push_back(std::move(psi));
     reaction_.push_back(std::move(reaction));
   }

@@ -7,6 +7,7 @@
 #include "condensation/condensed_body.h"
 #include "output/checkpoint.h"
 #include "solve/circuit.h"
+#include "solve/exchange_nodes.h"
 #include "solve/model.h"
 
 namespace tourmaline::solve {
@@ -16,7 +17,7 @@ namespace tourmaline::solve {
 /// them, then enter by superposition: with the response psi_e of the body to the unit voltage of
 /// electrode e at c = 0, and x_p the prescribed values,
 ///
-///     S c - G V = s + q,         G_e  = -(K psi_e) at the contact displacements,
+///     S c - G V = s + q,         G_e  = -(K psi_e) in the rows of c,
 ///     Q = C V + G^T c + Q0,      C_ef = -psi_e.K psi_f, positive definite,
 ///                                Q0_e = psi_e.(b - K x_p),
 ///
@@ -55,9 +56,10 @@ class ConnectedBody {
                                   std::span<const double> state) const;
 
   const Model<dim> &model_;
+  std::vector<std::size_t> contact_;  // the unknowns c
   condensation::CondensedBody<dim> body_;
   Circuit circuit_;
-  std::vector<std::size_t> lifted_;  // prescribed unknowns that are not contact displacements
+  std::vector<std::size_t> lifted_;                       // prescribed unknowns that are not in c
   std::vector<std::vector<double>> response_, reaction_;  // psi and K psi, by free electrode
   Eigen::MatrixXd coupling_;                              // G [C/m]
   Eigen::LLT<Eigen::MatrixXd> admittance_;                // C + Y [F]

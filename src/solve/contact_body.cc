@@ -30,7 +30,8 @@ bool DenseBody::is_within(const VectorXd &d, double residual, double tolerance) 
 }
 
 double DenseBody::largest_force() const {
-  return programme_.force.size() > 0 ? programme_.force.cwiseAbs().maxCoeff() : 0;
+  const auto forces = programme_.force.head(programme_.n_forces());
+  return forces.size() > 0 ? forces.cwiseAbs().maxCoeff() : 0;
 }
 
 VectorXd DenseBody::without_contact() {
@@ -66,8 +67,28 @@ void DenseBody::fill(const ContactTangent::Point &at, Index row, Rows &rows) con
                                at.of_share);
 }
 
+namespace {
+
+TangentMatrix one(double value) {
+  return TangentMatrix::Constant(1, 1, value);
+}
+
+}  // namespace
+
+void DenseBody::fill(const ContactTangent::Exchange &at, Index row, Rows &rows) const {
+  rows.of_unknowns.add_of_force(row, at.entry, one(-1));
+  rows.of_unknowns.add_local(row, at.entry, one(at.of_own));
+  if (at.normal) {
+    const Index n = programme_.points[*at.normal].offset;
+    rows.of_unknowns.add_of_force(row, n, one(at.of_normal_force));
+    rows.of_unknowns.add_local(row, n, one(at.of_normal));
+  }
+  rows.of_unknowns.add_local(row, programme_.points[at.slip].offset, at.of_slip.transpose());
+  rows.right_side[row] = at.right_side;
+  rows.unknowns.push_back(at.entry);
+}
+
 void DenseBody::fill(const ContactTangent::Share &at, Index row, Rows &rows) const {
-  const auto one = [](double value) { return TangentMatrix::Constant(1, 1, value); };
   const Index n = programme_.points[at.normal].offset;
   const Index share = programme_.force.size() + static_cast<Index>(at.share);
   rows.of_unknowns.add_of_force(row, n, one(-1));
@@ -78,7 +99,7 @@ void DenseBody::fill(const ContactTangent::Share &at, Index row, Rows &rows) con
 }
 
 DenseBody::Rows DenseBody::rows(const ContactTangent &tangent) const {
-  auto n = static_cast<Index>(tangent.shares.size());
+  auto n = static_cast<Index>(tangent.shares.size() + tangent.exchanges.size());
   for (const ContactTangent::Point &at : tangent.points)
     n += programme_.points[at.point].size;
   Rows all;
@@ -88,6 +109,8 @@ DenseBody::Rows DenseBody::rows(const ContactTangent &tangent) const {
     fill(at, row, all);
     row += programme_.points[at.point].size;
   }
+  for (const ContactTangent::Exchange &at : tangent.exchanges)
+    fill(at, row++, all);
   for (const ContactTangent::Share &at : tangent.shares)
     fill(at, row++, all);
   return all;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -30,10 +31,23 @@ struct ContactTangent {
     double of_normal = 0, of_share = 0, right_side = 0;
   };
 
+  /// Of a temperature or potential, x_e behind those of points (`ExchangePoint`), with the points n
+  /// and s of the node's normal and slip: -(A x)_e + c_e x_e + b (A x)_n + c x_n + a.x_s = g
+  struct Exchange {
+    Eigen::Index entry = 0;                          ///< e
+    double of_own = 0;                               ///< c_e [N/m]
+    std::optional<std::size_t> normal;               ///< n; nothing: b = c = 0
+    double of_normal_force = 0, of_normal = 0;       ///< b, c [N/m]
+    std::size_t slip = 0;                            ///< s
+    contact::Tangent of_slip = contact::Tangent(0);  ///< a [N/m]
+    double right_side = 0;                           ///< g [N]
+  };
+
   Eigen::VectorXd known;        ///< x of held points, elsewhere 0 [m]
   Eigen::VectorXd known_share;  ///< s, 0 where it is asked for; may be empty
   std::vector<Point> points;
   std::vector<Share> shares;
+  std::vector<Exchange> exchanges;
 };
 
 /// The body as the contact sees it, in unknowns d of its points: slip increments and penetrations
@@ -46,12 +60,18 @@ class ContactBody {
   /// What a residual at the d that was asked for last is compared to: the largest of the terms of
   /// its forces [N]; not 0.
   virtual double size_of_forces(const Eigen::VectorXd &d) const = 0;
+  /// The same of the rows of a field that is exchanged; where there are any.
+  virtual double size_of_flows(const Eigen::VectorXd & /*d*/, std::size_t /*field*/) const {
+    return 1;
+  }
   /// Whether a residual [N] there is within `tolerance` of that.
   virtual bool is_within(const Eigen::VectorXd &d, double residual, double tolerance) const = 0;
   /// Size of f [N].
   virtual double largest_force() const = 0;
   /// About the largest eigenvalue of the point's own block of A [N/m].
   virtual double curvature(std::size_t point) const = 0;
+  /// The size of A's diagonal in an entry that is exchanged [N/m]; where there are any.
+  virtual double curvature_of_exchange(Eigen::Index /*entry*/) const { return 1; }
 
   struct Moved {
     Eigen::VectorXd x, resisted, share;  ///< resisted = A x; what is known is in it
@@ -80,9 +100,15 @@ class DenseBody : public ContactBody {
 
   Eigen::VectorXd force(const Eigen::VectorXd &d) override;
   double size_of_forces(const Eigen::VectorXd &d) const override;
+  double size_of_flows(const Eigen::VectorXd &d, std::size_t field) const override {
+    return solve::size_of_flows(programme_, d, field);
+  }
   bool is_within(const Eigen::VectorXd &d, double residual, double tolerance) const override;
   double largest_force() const override;
   double curvature(std::size_t point) const override { return curvature_[point]; }
+  double curvature_of_exchange(Eigen::Index entry) const override {
+    return std::abs(programme_.stiffness(entry, entry));
+  }
   std::optional<Moved> solve(const ContactTangent &tangent) override;
   std::optional<Eigen::MatrixXd> stiffness(
       const std::vector<Eigen::Index> &entries) const override {
@@ -93,13 +119,14 @@ class DenseBody : public ContactBody {
                              const InterfaceSettings &settings) override;
 
  private:
-  /// Columns of all d, then of the shares.
+  /// Columns of all d, those of exchanged fields among them, then of the shares.
   struct Rows {
     SystemRows of_unknowns;
     Eigen::VectorXd right_side;
     std::vector<Eigen::Index> unknowns;
   };
   void fill(const ContactTangent::Point &at, Eigen::Index row, Rows &rows) const;
+  void fill(const ContactTangent::Exchange &at, Eigen::Index row, Rows &rows) const;
   void fill(const ContactTangent::Share &at, Eigen::Index row, Rows &rows) const;
   Rows rows(const ContactTangent &tangent) const;
 

@@ -94,6 +94,7 @@ void ContactNodes<dim>::begin_step(double time, std::span<const double> before,
     if (node.normal != none)
       points_[node.normal].law =
           contact::NormalPoint(model_.laws.of(at).normal(at.point, penetration(i, time, before)));
+    node.penetration = node.admissible.base.dot(at.normal) - model_.reach(at, time);
     set_friction(i, time, displacement(carried, i));
     if (is_moved_along_normal(i))
       know_pressure(i, time, before);
@@ -129,13 +130,23 @@ template <int dim>
 void ContactNodes<dim>::know_pressure(std::size_t i, double time, std::span<const double> before) {
   const contact::InterfaceNode<dim> &at = model_.interface[i];
   Node &node = nodes_[i];
-  node.pressure = model_.laws.of(at).pressure_under_supports(
-      at.point, penetration(i, time, before),
-      node.admissible.base.dot(at.normal) - model_.reach(at, time));
+  node.pressure = model_.laws.of(at).pressure_under_supports(at.point, penetration(i, time, before),
+                                                             node.penetration);
   if (node.coupling == none)
     return;
   couplings_[node.coupling].pressure = node.pressure;
   couplings_[node.coupling].is_closed = node.pressure > 0;
+}
+
+template <int dim>
+ExchangePoint ContactNodes<dim>::seen_by_exchange(std::size_t node) const {
+  ExchangePoint seen;
+  seen.slip = nodes_[node].slip;
+  if (nodes_[node].normal != none)
+    seen.normal = nodes_[node].normal;
+  seen.known.pressure = nodes_[node].pressure;
+  seen.known.penetration = nodes_[node].penetration;
+  return seen;
 }
 
 template <int dim>

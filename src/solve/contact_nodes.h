@@ -9,6 +9,7 @@
 #include "contact/bilateral.h"
 #include "output/checkpoint.h"
 #include "solve/coupled_programme.h"
+#include "solve/exchange_point.h"
 #include "solve/model.h"
 #include "solve/route.h"
 
@@ -38,6 +39,8 @@ class ContactNodes {
   std::vector<Eigen::Index> movable() const;
   const std::vector<FrictionCoupling> &couplings() const { return couplings_; }
   std::size_t node_of(std::size_t point) const { return node_of_[point]; }
+  /// The points of a node, and what is known of it in the step at hand, as an exchange has them.
+  ExchangePoint seen_by_exchange(std::size_t node) const;
 
   /// The laws of the step that ends at `time`; `state` holds the prescribed values, `before` is the
   /// state of the last step.
@@ -72,6 +75,7 @@ class ContactNodes {
     std::size_t normal = none, slip = 0;
     std::size_t coupling = none;
     double pressure = 0;
+    double penetration = 0;  // where the normal's unknown is 0 [m]
   };
   bool is_moved_along_normal(std::size_t i) const {
     return nodes_[i].normal == none && model_.laws.of(model_.interface[i]).can_open();

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "solve/anderson.h"
+#include "solve/damped_newton.h"
 #include "solve/natural_map.h"
 
 namespace tourmaline::solve {
@@ -17,7 +18,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Place = NaturalMap::Place;
-using Direction = NaturalMap::Direction;
 
 namespace {
 
@@ -29,7 +29,6 @@ class Cascade {
   CoupledSolution solve(const VectorXd &start);
 
  private:
-  double damped(const NaturalMap &map, const Place &x, const Direction &direction) const;
   bool newton(const NaturalMap &map, Place &x, int most);
   bool find_by_newton(const VectorXd &start, Place &x);
   bool fixed_point(const NaturalMap &map, Place &x);
@@ -39,52 +38,16 @@ class Cascade {
   bool sets_in_unstable(const VectorXd &start, const CoupledSolution &found) const;
   CoupledSolution solve_convex(const VectorXd &start);
   InterfaceSolution convex(const std::vector<PointLaw> &friction, const VectorXd &start);
-  bool is_left() const { return iterations_ < last_; }
   // Every attempt may take as many iterations as are asked for.
-  void begin_attempt() { last_ = iterations_ + settings_.max_iterations; }
+  void begin_attempt() { count_.begin_attempt(settings_.max_iterations); }
 
   const CoupledContact programme_;
   const InterfaceSettings settings_;
-  int iterations_ = 0;  // linear systems
-  int last_ = 0;        // of the attempt
+  IterationCount count_;
 };
 
-// The length at which the merit is least, of the whole one, halved ones and those at which points
-// change their branch; 0 where it does not fall enough.
-double Cascade::damped(const NaturalMap &map, const Place &x, const Direction &direction) const {
-  constexpr double armijo = 1e-4;
-  const double merit = map.merit(x);
-  double best = 1, least = map.merit(map.along(x, direction, 1));
-  if (least <= (1 - 2 * armijo) * merit)
-    return 1;
-  std::vector<double> lengths = map.turns(x, direction);
-  constexpr int halvings = 13;
-  for (int k = 1; k <= halvings; ++k)
-    lengths.push_back(std::ldexp(1., -k));
-  for (const double t : lengths)
-    if (const double value = map.merit(map.along(x, direction, t)); value < least) {
-      least = value;
-      best = t;
-    }
-  return least <= (1 - 2 * armijo * best) * merit ? best : 0;
-}
-
 bool Cascade::newton(const NaturalMap &map, Place &x, int most) {
-  for (int k = 0; !map.is_zero(x, settings_.tolerance); ++k) {
-    if (k == most || !is_left())
-      return false;
-    const std::optional<Direction> direction = map.newton_direction(x);
-    ++iterations_;
-    if (!direction)
-      return false;
-    const double length = damped(map, x, *direction);
-    if (length == 0)
-      return false;
-    x = map.along(x, *direction, length);
-    x = map.at(x.d, x.share);
-  }
-  x = map.settled(x);
-  return map.is_zero(x, settings_.tolerance);
+  return damped_newton(map, x, settings_.tolerance, most, count_);
 }
 
 bool Cascade::find_by_newton(const VectorXd &start, Place &x) {
@@ -105,9 +68,9 @@ InterfaceSolution Cascade::convex(const std::vector<PointLaw> &friction, const V
   for (std::size_t j = 0; j < friction.size(); ++j)
     points[programme_.couplings[j].slip].law = friction[j];
   InterfaceSettings left = settings_;
-  left.max_iterations = std::max(1, last_ - iterations_);
+  left.max_iterations = std::max(1, count_.last - count_.made);
   InterfaceSolution found = programme_.body.minimise(points, start, left);
-  iterations_ += found.iterations;
+  count_.made += found.iterations;
   return found;
 }
 
@@ -119,7 +82,7 @@ bool Cascade::fixed_point(const NaturalMap &map, Place &x) {
   Anderson anderson;
   VectorXd bounds = map.bounds(x);
   double least = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < most && is_left(); ++k) {
+  for (int k = 0; k < most && count_.is_left(); ++k) {
     const InterfaceSolution found = convex(map.friction_at(x, bounds), x.d);
     x = map.at(found.increment);
     const double residual = map.residual(x);
@@ -232,7 +195,7 @@ CoupledSolution Cascade::solve_convex(const VectorXd &start) {
       break;
     }
   }
-  found.interface.iterations = iterations_;
+  found.interface.iterations = count_.made;
   return found;
 }
 
@@ -292,7 +255,7 @@ CoupledSolution Cascade::solve(const VectorXd &start) {
   x = map->at(x.d, x.share);
   CoupledSolution found = map->solution(x);
   found.stage = stage;
-  found.interface.iterations = iterations_;
+  found.interface.iterations = count_.made;
   found.interface.converged = converged;
   found.slip_jumped = converged && settings_.is_definite && sets_in_unstable(start, found);
   if (!converged)

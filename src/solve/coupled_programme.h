@@ -3,10 +3,12 @@
 #include <Eigen/Dense>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "contact/friction_bound.h"
 #include "solve/contact_body.h"
+#include "solve/exchange_point.h"
 #include "solve/interface_newton.h"
 #include "solve/route.h"
 
@@ -41,6 +43,7 @@ struct CoupledContact {
   ContactBody &body;
   const std::vector<ContactPoint> &points;
   const std::vector<FrictionCoupling> &couplings;
+  std::span<const ExchangePoint> exchanges = {};  ///< `solve_exchanging` is for them
 };
 
 struct CoupledSolution {

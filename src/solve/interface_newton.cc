@@ -387,7 +387,21 @@ double largest_curvature(const Eigen::MatrixXd &stiffness, const ContactPoint &p
              : Eigen::SelfAdjointEigenSolver<TangentMatrix>(block).eigenvalues()(p.size - 1);
 }
 
+namespace {
+
+double size_of_rows(const InterfaceProgramme &programme, const VectorXd &d, const FieldRows &rows) {
+  const auto of = Eigen::seqN(rows.begin, rows.size);
+  const double size = larger(
+      larger(rows.scale, largest_of(programme.force(of))),
+      largest_of(programme.stiffness.middleRows(rows.begin, rows.size).cwiseAbs() * d.cwiseAbs()));
+  return size == 0 ? 1 : size;
+}
+
+}  // namespace
+
 double size_of_forces(const InterfaceProgramme &programme, const VectorXd &d) {
+  if (!programme.fields.empty() && programme.n_forces() > 0)
+    return size_of_rows(programme, d, {0, programme.n_forces(), programme.force_scale});
   double size = programme.force_scale;
   if (d.size() > 0)
     size = larger(larger(size, largest_of(programme.force)),
@@ -395,15 +409,19 @@ double size_of_forces(const InterfaceProgramme &programme, const VectorXd &d) {
   return size == 0 ? 1 : size;
 }
 
+double size_of_flows(const InterfaceProgramme &programme, const VectorXd &d, std::size_t field) {
+  return size_of_rows(programme, d, programme.fields[field]);
+}
+
 // No entry of A is larger than the largest of its diagonal: where the residual is far too large
 // even for that, A is not read.
 bool is_within(const InterfaceProgramme &programme, const VectorXd &d, double residual,
                double tolerance) {
   double at_most = programme.force_scale;
-  if (d.size() > 0)
+  if (d.size() > 0 && programme.fields.empty())
     at_most = larger(at_most, largest_of(programme.force)) +
               largest_of(programme.stiffness.diagonal()) * d.lpNorm<1>();
-  if (at_most > 0 && residual > tolerance * at_most)
+  if (at_most > 0 && programme.fields.empty() && residual > tolerance * at_most)
     return false;
   return relative_to(residual, size_of_forces(programme, d)) <= tolerance;
 }

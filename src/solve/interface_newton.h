@@ -16,6 +16,12 @@ struct ContactPoint {
   contact::LocalLaw law;
 };
 
+/// Rows of another field, temperatures or potentials of contact nodes, behind those of points.
+struct FieldRows {
+  Eigen::Index begin = 0, size = 0;
+  double scale = 0;  ///< size of the terms that their f was summed from [N]
+};
+
 /// The contact problem of one step in the slip increments d:
 ///
 ///     minimise  d.A d / 2 - f.d + sum_i w_i j_i(d_i)
@@ -28,6 +34,11 @@ struct InterfaceProgramme {
   const Eigen::VectorXd &force;             ///< f [N]
   const std::vector<ContactPoint> &points;  ///< disjoint, all entries covered
   double force_scale = 0;  ///< size of the terms that f was summed from [N]: bounds its round-off
+  /// With these A is quasi-definite, and the programme is not one that can be minimised.
+  std::vector<FieldRows> fields = {};
+
+  /// Rows of points.
+  Eigen::Index n_forces() const { return fields.empty() ? force.size() : fields.front().begin; }
 };
 
 /// Of convex programmes and of coupled ones.
@@ -65,6 +76,9 @@ double largest_curvature(const Eigen::MatrixXd &stiffness, const ContactPoint &p
 /// What a residual of the programme at d is compared to: the largest of the terms of its forces
 /// [N].
 double size_of_forces(const InterfaceProgramme &programme, const Eigen::VectorXd &d);
+/// The same of the rows of another field.
+double size_of_flows(const InterfaceProgramme &programme, const Eigen::VectorXd &d,
+                     std::size_t field);
 /// Whether a residual [N] of the programme at d is within `tolerance` of that size.
 bool is_within(const InterfaceProgramme &programme, const Eigen::VectorXd &d, double residual,
                double tolerance);

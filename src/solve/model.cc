@@ -52,7 +52,9 @@ Model<dim>::Model(const casefile::Case &asked_for, Built built)
       cells(body, composition, op.modes()),
       prescribed(body::prescribed_unknowns(body, asked.boundaries, asked.electrodes)),
       electrodes(body::electrode_nodes<dim>(prescribed, asked.electrodes)),
-      loads(body, asked, step, composition.reference_temperature()),
+      laws(asked.contacts, step),
+      linear_exchanges(laws.linear_exchanges()),
+      loads(body, asked, step, composition.reference_temperature(), linear_exchanges),
       mesh_seconds(built.mesh_seconds) {
   body::check_conductors(body, composition, asked, prescribed);
   std::vector<std::vector<std::string>> boundaries;
@@ -61,13 +63,16 @@ Model<dim>::Model(const casefile::Case &asked_for, Built built)
   contact::Interface<dim> found = contact::interface_of(body, boundaries);
   interface = std::move(found.nodes);
   contact_edges = std::move(found.edges);
-  laws = contact::Contacts(asked.contacts, step);
   friction = laws.friction();
-  for (const casefile::ContactCase &contact : asked.contacts)
-    if (contact.heat.exchanges()) {
-      op.add_exchange(body, contact.on, contact.heat.coefficient);
-      cells.add_exchange(contact.on, contact.heat.coefficient);
+  for (const body::SurfaceExchange &exchange : linear_exchanges) {
+    if (exchange.field == body::SurfaceExchange::temperature) {
+      op.add_exchange(body, exchange.on, exchange.coefficient);
+      cells.add_exchange(exchange.on, exchange.coefficient);
+    } else {
+      op.add_capacitors(body, exchange.on, exchange.coefficient, exchange.factor);
+      cells.add_capacitors(exchange.on, exchange.coefficient, exchange.factor);
     }
+  }
   assemble_seconds = built.since_mesh.lap();
 }
 

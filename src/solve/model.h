@@ -31,11 +31,12 @@ struct Model {
   body::Operator<dim> op;
   body::CellProducts<dim> cells;  ///< the products of `op`, cell by cell
   std::vector<body::Prescribed> prescribed;
-  std::vector<std::vector<body::Node>> electrodes;  ///< nodes by electrode of the case
+  std::vector<std::vector<body::Node>> electrodes;      ///< nodes by electrode of the case
+  contact::Contacts laws;                               ///< the case's
+  std::vector<body::SurfaceExchange> linear_exchanges;  ///< in operator and loads
   body::Loads<dim> loads;
   std::vector<contact::InterfaceNode<dim>> interface;  ///< empty without contact
   std::vector<body::Node> contact_edges;  ///< where contacts meet with normals of their own
-  contact::Contacts laws;                 ///< the case's
   contact::FrictionAt friction;           ///< the case's, unless replaced
   double mesh_seconds = 0, assemble_seconds = 0;
 

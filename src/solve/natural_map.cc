@@ -18,11 +18,13 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 NaturalMap::NaturalMap(std::shared_ptr<ContactBody> body, const std::vector<ContactPoint> &points,
-                       const std::vector<FrictionCoupling> &couplings, double strength,
+                       const std::vector<FrictionCoupling> &couplings,
+                       std::span<const ExchangePoint> exchanges, double strength,
                        std::optional<double> ramp)
     : body_(std::move(body)),
       points_(points),
       couplings_(couplings),
+      exchanges_(exchanges),
       strength_(strength),
       coupling_of_(points.size(), -1),
       ramp_(ramp),
@@ -38,12 +40,12 @@ NaturalMap::NaturalMap(std::shared_ptr<ContactBody> body, const std::vector<Cont
 NaturalMap::NaturalMap(const CoupledProgramme &programme, double strength,
                        std::optional<double> ramp)
     : NaturalMap(std::make_shared<DenseBody>(programme.convex), programme.convex.points,
-                 programme.couplings, strength, ramp) {}
+                 programme.couplings, {}, strength, ramp) {}
 
 // The body belongs to somebody else.
 NaturalMap::NaturalMap(const CoupledContact &contact, double strength, std::optional<double> ramp)
     : NaturalMap(std::shared_ptr<ContactBody>(std::shared_ptr<void>(), &contact.body),
-                 contact.points, contact.couplings, strength, ramp) {}
+                 contact.points, contact.couplings, contact.exchanges, strength, ramp) {}
 
 // None where the pressure is known, and where the contact cannot open.
 double NaturalMap::size_of_jump(const FrictionCoupling &coupling) const {
@@ -94,9 +96,12 @@ NaturalMap::Pressure NaturalMap::pressure(const FrictionCoupling &coupling, cons
   if (!coupling.normal)
     return {coupling.pressure, coupling.is_closed};
   const std::size_t n = *coupling.normal;
-  const contact::NormalLaw &law = *point(n).law.normal();
-  const double y = trial(n, x)[0];
-  return {law.pressure(y, curvature_[n] / point(n).weight), law.is_closed(y)};
+  return {pressure(n, x), point(n).law.normal()->is_closed(trial(n, x)[0])};
+}
+
+double NaturalMap::pressure(std::size_t normal, const Place &x) const {
+  return point(normal).law.normal()->pressure(trial(normal, x)[0],
+                                              curvature_[normal] / point(normal).weight);
 }
 
 double NaturalMap::normal_force(std::size_t j, const Place &x) const {
@@ -164,10 +169,49 @@ Tangent NaturalMap::point_value(std::size_t i, const Place &x) const {
          p.weight * law(i, x).traction(trial(i, x), curvature_[i] / p.weight);
 }
 
+// Where a point sticks nothing is rubbed, and as its slip is held there the slope does not count.
+NaturalMap::Sight NaturalMap::sight(const ExchangePoint &at, const Place &x) const {
+  const ContactPoint &p = point(at.slip);
+  const Tangent slip = x.d.segment(p.offset, p.size);
+  Sight seen;
+  seen.state = at.known;
+  if (at.normal) {
+    const ContactPoint &n = point(*at.normal);
+    seen.state.pressure = pressure(*at.normal, x);
+    seen.state.penetration += x.d[n.offset];
+    seen.by_trial = n.law.normal()->pressure_derivative(trial(*at.normal, x)[0],
+                                                        curvature_[*at.normal] / n.weight);
+  }
+  const LocalLaw law = this->law(at.slip, x);
+  seen.state.friction = law.potential(slip);
+  seen.friction_by_slip = Tangent::Zero(p.size);
+  if (law.is_smooth_at(slip))
+    seen.friction_by_slip = law.gradient(slip);
+  const FrictionCoupling *coupling = this->coupling(at.slip);
+  const double size = slip_size(at.slip, x);
+  if (coupling == nullptr || !coupling->bound || size == 0)
+    return seen;
+  const FrictionBound::Value by = bound(*coupling, x);
+  const double s = share(static_cast<std::size_t>(coupling_of_[at.slip]), x);
+  seen.friction_by_slip += s * by.by_slip * slip;
+  seen.friction_by_pressure = s * by.by_pressure * size;
+  return seen;
+}
+
+contact::Exchange::Value NaturalMap::flow(const ExchangePoint &at, const Place &x) const {
+  return at.law->at(at.of_value * x.d[at.entry], sight(at, x).state);
+}
+
+double NaturalMap::exchange_value(const ExchangePoint &at, const Place &x) const {
+  return x.force[at.entry] + at.of_flow * flow(at, x).flow;
+}
+
 VectorXd NaturalMap::value(const Place &x) const {
   VectorXd all(x.d.size());
   for (std::size_t i = 0; i < points_.size(); ++i)
     all.segment(point(i).offset, point(i).size) = point_value(i, x);
+  for (const ExchangePoint &at : exchanges_)
+    all[at.entry] = exchange_value(at, x);
   return all;
 }
 
@@ -180,6 +224,8 @@ double NaturalMap::merit(const Place &x) const {
   for (Index j = 0; j < shares.size(); ++j)
     if (shares[j] != 0)
       sum += std::pow(shares[j] / curvature_[*couplings_[static_cast<std::size_t>(j)].normal], 2);
+  for (const ExchangePoint &at : exchanges_)
+    sum += std::pow(exchange_value(at, x) / body_->curvature_of_exchange(at.entry), 2);
   return sum;
 }
 
@@ -193,11 +239,32 @@ double NaturalMap::largest_value(const Place &x) const {
 }
 
 double NaturalMap::residual(const Place &x) const {
-  return relative_to(largest_value(x), body_->size_of_forces(x.d));
+  const double of_forces = relative_to(largest_value(x), body_->size_of_forces(x.d));
+  return exchanges_.empty() ? of_forces : larger(of_forces, residual_of_exchanges(x));
 }
 
 bool NaturalMap::is_zero(const Place &x, double tolerance) const {
-  return body_->is_within(x.d, largest_value(x), tolerance);
+  return body_->is_within(x.d, largest_value(x), tolerance) &&
+         (exchanges_.empty() || residual_of_exchanges(x) <= tolerance);
+}
+
+// By field.
+double NaturalMap::residual_of_exchanges(const Place &x) const {
+  std::vector<double> lack, size;
+  for (const ExchangePoint &at : exchanges_) {
+    for (std::size_t field = size.size(); field <= at.field; ++field) {
+      lack.push_back(0);
+      size.push_back(body_->size_of_flows(x.d, field));
+    }
+    const contact::Exchange::Value q = flow(at, x);
+    lack[at.field] = larger(lack[at.field], std::abs(x.force[at.entry] + at.of_flow * q.flow));
+    size[at.field] =
+        larger(size[at.field], std::abs(at.of_flow * q.by_value * at.of_value * x.d[at.entry]));
+  }
+  double worst = 0;
+  for (std::size_t field = 0; field < size.size(); ++field)
+    worst = larger(worst, relative_to(lack[field], size[field]));
+  return worst;
 }
 
 std::vector<std::size_t> NaturalMap::unsettled(const Place &x, double tolerance) const {
@@ -291,6 +358,29 @@ ContactTangent::Point NaturalMap::tangent_at(std::size_t i, const Place &x,
   return row;
 }
 
+// F' = lambda' + f (q_theta theta' + q_delta delta' + q_p p' + q_w w'), f `of_flow`, w the work of
+// friction; p' = D (lambda' + c delta') / weight at the normal's point.
+ContactTangent::Exchange NaturalMap::tangent_at(const ExchangePoint &at, const Place &x) const {
+  const Sight seen = sight(at, x);
+  const contact::Exchange::Value q = at.law->at(at.of_value * x.d[at.entry], seen.state);
+  ContactTangent::Exchange row;
+  row.entry = at.entry;
+  row.of_own = at.of_flow * q.by_value * at.of_value;
+  row.normal = at.normal;
+  if (at.normal) {
+    const std::size_t n = *at.normal;
+    const double by_force = at.of_flow *
+                            (q.by_pressure + q.by_friction * seen.friction_by_pressure) *
+                            seen.by_trial / point(n).weight;
+    row.of_normal_force = -by_force;
+    row.of_normal = curvature_[n] * by_force + at.of_flow * q.by_penetration;
+  }
+  row.slip = at.slip;
+  row.of_slip = at.of_flow * q.by_friction * seen.friction_by_slip;
+  row.right_side = -(x.force[at.entry] + at.of_flow * q.flow);
+  return row;
+}
+
 // Of a share y - e s = 0, y' = lambda' + c delta'.
 ContactTangent NaturalMap::tangent(const Place &x, const Unknowns &u) const {
   ContactTangent all;
@@ -303,6 +393,8 @@ ContactTangent NaturalMap::tangent(const Place &x, const Unknowns &u) const {
     const std::size_t n = *couplings_[j].normal;
     all.shares.push_back({j, n, curvature_[n], -*ramp_, *ramp_ * share(j, x) - normal_force(j, x)});
   }
+  for (const ExchangePoint &at : exchanges_)
+    all.exchanges.push_back(tangent_at(at, x));
   return all;
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "solve/contact_body.h"
@@ -24,6 +25,9 @@ namespace tourmaline::solve {
 /// shares are unknowns of their own, with the trial force y along the normal
 ///
 ///     s = 0 and y <= 0,   or   y = e s,   or   s = 1 and y >= e.
+///
+/// Where temperatures or potentials are exchanged, their entries of d stand behind those of points,
+/// and F has for each what its row lacks (`ExchangePoint`).
 class NaturalMap {
  public:
   NaturalMap(const CoupledProgramme &programme, double strength, std::optional<double> ramp = {});
@@ -41,11 +45,14 @@ class NaturalMap {
   bool has_jumps() const;
 
   Eigen::VectorXd value(const Place &x) const;  ///< F [N]
+  /// What crosses at an exchange.
+  contact::Exchange::Value flow(const ExchangePoint &at, const Place &x) const;
   /// What the shares lack of the relation above [N].
   Eigen::VectorXd share_value(const Place &x) const;
   /// |F|^2, each point's part over its curvature [m^2].
   double merit(const Place &x) const;
-  /// The largest |F_i| over the size of the forces.
+  /// The largest |F_i| over the size of the forces; of what is exchanged, over the size of its
+  /// field's.
   double residual(const Place &x) const;
   bool is_zero(const Place &x, double tolerance) const;  ///< whether the residual is within it
   std::vector<std::size_t> unsettled(const Place &x, double tolerance) const;
@@ -95,15 +102,28 @@ class NaturalMap {
   };
 
   NaturalMap(std::shared_ptr<ContactBody> body, const std::vector<ContactPoint> &points,
-             const std::vector<FrictionCoupling> &couplings, double strength,
-             std::optional<double> ramp);
+             const std::vector<FrictionCoupling> &couplings,
+             std::span<const ExchangePoint> exchanges, double strength, std::optional<double> ramp);
   const ContactPoint &point(std::size_t i) const { return points_[i]; }
   const FrictionCoupling *coupling(std::size_t i) const;
   double largest_value(const Place &x) const;
+  double residual_of_exchanges(const Place &x) const;
   double size_of_jump(const FrictionCoupling &coupling) const;
   contact::Tangent trial(std::size_t i, const Place &x) const;
   double normal_force(std::size_t j, const Place &x) const;
   Pressure pressure(const FrictionCoupling &coupling, const Place &x) const;
+  double pressure(std::size_t normal, const Place &x) const;
+  /// What an exchange sees of its node, and how that changes: the pressure by the trial value, the
+  /// work of friction by the slip and the pressure.
+  struct Sight {
+    contact::ContactState state;
+    double by_trial = 0;
+    contact::Tangent friction_by_slip;
+    double friction_by_pressure = 0;
+  };
+  Sight sight(const ExchangePoint &at, const Place &x) const;
+  double exchange_value(const ExchangePoint &at, const Place &x) const;
+  ContactTangent::Exchange tangent_at(const ExchangePoint &at, const Place &x) const;
   double share(std::size_t j, const Place &x) const;
   double share_wanted(std::size_t j, const Place &x) const;
   contact::LocalLaw law(std::size_t i, const Place &x) const;
@@ -123,6 +143,7 @@ class NaturalMap {
   std::shared_ptr<ContactBody> body_;
   const std::vector<ContactPoint> &points_;
   const std::vector<FrictionCoupling> &couplings_;
+  std::span<const ExchangePoint> exchanges_;
   double strength_;
   std::vector<double> curvature_;  // by point [N/m]
   std::vector<int> coupling_of_;   // by point; -1: none

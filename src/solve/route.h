@@ -36,10 +36,23 @@ struct StepOutcome {
   /// by interface node, where friction depends on the pressure; else empty
   Eigen::VectorXd friction_bound;    ///< [N/m^2]
   Eigen::VectorXd accumulated_slip;  ///< over all steps [m]; empty, too, where no law depends on it
+  /// by interface node, where what crosses depends on the contact's state; else empty. Without what
+  /// the operator has of it.
+  Eigen::VectorXd heat_flow;      ///< out of the body, that of friction in it [W]
+  Eigen::VectorXd friction_heat;  ///< of it what friction brings into the body [W]
+  Eigen::VectorXd charge_flow;    ///< D.nu times the weight [C]
+  /// by interface node, what crossed leaks in the steps before, where these are in the operator
+  Eigen::VectorXd leaked_charge;  ///< integrated against the shape functions [C]
+  Eigen::VectorXd leaked_flux;    ///< [C/m^2]
   /// Whether friction fell faster with the slip of this step, where it began, than the body
   /// unloads: then the slip is a jump. Looked for in the condensed route, on contacts of less than
   /// a thousand slipping unknowns.
   bool slip_jumped = false;
+
+  /// Whether the step had more than a convex programme to solve.
+  bool has_stages() const {
+    return friction_bound.size() > 0 || heat_flow.size() > 0 || charge_flow.size() > 0;
+  }
 };
 
 /// What a route did to get ready, and how well it solves.

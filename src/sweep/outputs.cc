@@ -67,9 +67,15 @@ void add_flows(const casefile::Case &asked, List &list) {
     if (boundary.temperature || boundary.heat_flux)
       list.add_each("heat_", boundary.on, heat);
   }
-  for (const casefile::ContactCase &contact : asked.contacts)
-    if (contact.heat.exchanges())
-      list.add_each("heat_", contact.on, heat);
+  const contact::Contacts laws(asked.contacts, asked.time.end / asked.time.steps);
+  for (std::size_t i = 0; i < asked.contacts.size(); ++i) {
+    if (laws[i].lets_pass(contact::Crossing::heat))
+      list.add_each("heat_", asked.contacts[i].on, heat);
+    if (laws[i].lets_pass(contact::Crossing::charge))
+      list.add_each("charge_", asked.contacts[i].on, charge);
+  }
+  if (laws.is_warmed_by_friction())
+    list.add(heat, {"friction_heat_body", "friction_heat_foundation"});
   for (const casefile::ElectrodeCase &electrode : asked.electrodes) {
     const std::string name = "electrode_" + electrode.name;
     list.add("V", {name + "_voltage"});
@@ -90,7 +96,8 @@ void add_contact(const casefile::Case &asked, List &list) {
     list.add(whole("J", asked.dimension), {"contact_energy"});
     list.add(whole("W", asked.dimension), {"contact_dissipation"});
   }
-  if (laws.friction_depends_on_pressure())
+  if (laws.friction_depends_on_pressure() || laws.crosses_by_state(contact::Crossing::heat) ||
+      laws.crosses_by_state(contact::Crossing::charge))
     list.add("", {"contact_stage"});
 }
 
@@ -118,7 +125,7 @@ void add_each_contact(const casefile::Case &asked, List &list) {
     if (laws.has_moving_foundation() || laws.has_normal_unknowns())
       for (int c = asked.dimension == 2 ? 2 : 0; c < 3; ++c)
         list.add(whole("N m", asked.dimension), {std::string("contact_moment_") + axes[c] + name});
-    if (asked.contacts[i].heat.exchanges())
+    if (laws[i].lets_pass(contact::Crossing::heat))
       list.add(whole("W", asked.dimension), {"contact_heat" + name});
   }
 }

@@ -35,6 +35,9 @@ struct Block {
     clamp.potential = casefile::Formula(0.);
     prescribed = body::prescribed_unknowns(body, {clamp});
     contact = body.nodes_on({"left"});
+    for (const body::Node node : contact)
+      for (int c = 0; c < dim; ++c)
+        kept.push_back(unknown<dim>(node, c));
   }
 
   static casefile::Case box(CellShape shape, int n, double size) {
@@ -46,10 +49,8 @@ struct Block {
     return asked;
   }
 
-  std::size_t contact_unknown(Eigen::Index i) const {
-    return unknown<dim>(contact[i / dim], static_cast<int>(i % dim));
-  }
-  CondensedBody<dim> condense() const { return {op, step, prescribed, contact, 1}; }
+  std::size_t contact_unknown(Eigen::Index i) const { return kept[static_cast<std::size_t>(i)]; }
+  CondensedBody<dim> condense() const { return {op, step, prescribed, kept, 1}; }
 
   casefile::Case asked;
   material::Composition<dim> composition;
@@ -58,6 +59,7 @@ struct Block {
   body::CellProducts<dim> cells;
   std::vector<body::Prescribed> prescribed;
   std::vector<body::Node> contact;
+  std::vector<std::size_t> kept;  // what the body is condensed onto
 };
 
 // Column by column: the forces at the contact of a body in which one contact displacement is 1 m,
@@ -102,9 +104,9 @@ TEST(CondensedBody,
   expect_inertia_and_definiteness<3>(CellShape::hexahedron, 3);
 }
 
-// The same Schur complement by dense algebra in the unscaled unknowns.
-TEST(CondensedBody, IsTheSchurComplementOfTheOperator) {
-  const Block<2> block(CellShape::triangle, 3);
+// By dense algebra in the unscaled unknowns; entries of different fields are compared in units in
+// which the diagonal is one.
+void expect_schur_complement(const Block<2> &block) {
   const CondensedBody<2> condensed = block.condense();
   const std::size_t n = block.body.n_nodes() * 4;
   MatrixXd k(n, n);
@@ -118,19 +120,67 @@ TEST(CondensedBody, IsTheSchurComplementOfTheOperator) {
   for (const auto &p : block.prescribed)
     taken[p.unknown] = true;
   std::vector<int> interface, interior;
-  for (const body::Node node : block.contact)
-    for (int c = 0; c < 2; ++c) {
-      interface.push_back(static_cast<int>(unknown<2>(node, c)));
-      taken[interface.back()] = true;
-    }
+  for (const std::size_t unknown : block.kept) {
+    interface.push_back(static_cast<int>(unknown));
+    taken[unknown] = true;
+  }
   for (std::size_t i = 0; i < n; ++i)
     if (!taken[i])
       interior.push_back(static_cast<int>(i));
   const MatrixXd kii = k(interior, interior), kic = k(interior, interface);
   const MatrixXd schur =
       MatrixXd(k(interface, interface)) - kic.transpose() * kii.partialPivLu().solve(kic);
-  EXPECT_LT((schur - condensed.stiffness()).cwiseAbs().maxCoeff(),
-            1e-8 * schur.cwiseAbs().maxCoeff());
+  const auto scale = schur.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse().asDiagonal();
+  EXPECT_LT((scale * (schur - condensed.stiffness()) * scale).cwiseAbs().maxCoeff(), 1e-8);
+}
+
+TEST(CondensedBody, IsTheSchurComplementOfTheOperator) {
+  expect_schur_complement(Block<2>(CellShape::triangle, 3));
+}
+
+// All potentials of the contact and the temperatures of some of its nodes.
+void keep_more(Block<2> &block) {
+  for (std::size_t i = 0; i < block.contact.size(); ++i) {
+    block.kept.push_back(unknown<2>(block.contact[i], Fields<2>::potential));
+    if (i % 2 == 0)
+      block.kept.push_back(unknown<2>(block.contact[i], Fields<2>::temperature));
+  }
+}
+
+TEST(CondensedBody, OntoAnySubsetOfFieldsItIsTheSchurComplementAndQuasiDefinite) {
+  Block<2> block(CellShape::triangle, 4);
+  const auto n_u = static_cast<Eigen::Index>(block.kept.size());
+  keep_more(block);
+  expect_schur_complement(block);
+  const CondensedBody<2> condensed = block.condense();
+  const Eigen::Index n_x = condensed.stiffness().rows() - n_u;
+  EXPECT_EQ(n_x, 5 + 3);
+  EXPECT_EQ(condensed.n_electric_and_thermal_inside() + static_cast<std::size_t>(n_x),
+            condensed.n_electric_and_thermal());
+  EXPECT_EQ(condensed.statistics().negative_pivots,
+            static_cast<int>(condensed.n_electric_and_thermal_inside()));
+  const MatrixXd &s = condensed.stiffness();
+  EXPECT_EQ(MatrixXd(s.topLeftCorner(n_u, n_u)).llt().info(), Eigen::Success);
+  EXPECT_EQ(MatrixXd(-s.bottomRightCorner(n_x, n_x)).llt().info(), Eigen::Success);
+}
+
+TEST(CondensedBody, OntoAnySubsetOfFieldsStatesSolveTheSystemRefinedOrNot) {
+  Block<2> block(CellShape::quadrilateral, 6);
+  keep_more(block);
+  CondensedBody<2> condensed = block.condense();
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  std::vector<double> b(block.body.n_nodes() * 4), x(b.size(), 0.);
+  for (std::size_t i = 0; i < b.size(); ++i)
+    b[i] = normal(random) * (i % 4 < 2 ? 1 : 1e-9);
+  for (const bool refined : {false, true}) {
+    if (refined)
+      condensed.refine(block.cells);
+    const VectorXd s = condensed.reduce(b, x);
+    const VectorXd c = condensed.stiffness().partialPivLu().solve(s);
+    condensed.expand(c, x);
+    EXPECT_LT(condensed.backward_error(b, x, VectorXd::Zero(c.size())), 1e-12) << refined;
+  }
 }
 
 TEST(CondensedBody, ReducedAndExpandedStatesSolveTheWholeSystemToRoundOff) {

@@ -37,10 +37,30 @@ struct FrictionCase {
   bool resists() const { return law != "none"; }
 };
 
+/// coefficient (p/reference)^exponent, added to k_c.
+struct PressureConductanceCase {
+  Formula coefficient = 0;  ///< [W/(K m^2)], no dependence on t
+  double reference = 0;     ///< > 0 [N/m^2]
+  double exponent = 1;      ///< > 0
+};
+
 struct HeatExchangeCase {
   std::string law = "insulated";       ///< insulated | exchange
   Formula coefficient = 0;             ///< k_c [W/(K m^2)], no dependence on t
   Formula foundation_temperature = 0;  ///< theta_f [K], difference to the reference temperature
+  std::optional<PressureConductanceCase> pressure = {};
+  std::optional<double> ramp = {};  ///< opening over which k_c fades [m]
+  /// of the power of friction that enters the body, 0 to 1; not given: friction makes no heat
+  std::optional<double> friction_share = {};
+
+  bool exchanges() const { return law != "insulated"; }
+};
+
+struct ChargeExchangeCase {
+  std::string law = "insulated";     ///< insulated | exchange | leak
+  Formula coefficient = 0;           ///< [F/m^2] of exchange, [S/m^2] of leak, no dependence on t
+  Formula foundation_potential = 0;  ///< phi_f [V]
+  std::optional<double> ramp = {};   ///< opening over which the coefficient fades [m]
 
   bool exchanges() const { return law != "insulated"; }
 };
@@ -58,6 +78,10 @@ struct ContactCase {
   NormalCase normal;
   FrictionCase friction;
   HeatExchangeCase heat;
+  ChargeExchangeCase electric;
+
+  /// The key by which what crosses of heat or charge depends on the contact's state; empty: none.
+  std::string crosses_by_state() const;
 
   /// The contact in files and texts: its name, or else those of its boundaries, "left+right".
   std::string called() const;

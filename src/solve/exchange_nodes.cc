@@ -1,0 +1,178 @@
+#include "solve/exchange_nodes.h"
+
+#include <algorithm>
+
+#include "larger.h"
+
+namespace tourmaline::solve {
+
+using body::Fields;
+using contact::Crossing;
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr Crossing all_crossings[] = {Crossing::heat, Crossing::charge};
+
+template <int dim>
+constexpr int component_of(Crossing what) {
+  return what == Crossing::heat ? Fields<dim>::temperature : Fields<dim>::potential;
+}
+
+}  // namespace
+
+template <int dim>
+std::vector<ExchangeSite> exchange_sites(const Model<dim> &model) {
+  std::vector<ExchangeSite> sites;
+  const std::vector<bool> is_prescribed = body::mask_of(model.prescribed, model.n_unknowns());
+  for (const Crossing what : all_crossings)
+    for (std::size_t i = 0; i < model.interface.size(); ++i) {
+      const contact::InterfaceNode<dim> &at = model.interface[i];
+      const std::size_t unknown = body::unknown<dim>(at.node, component_of<dim>(what));
+      if (!is_prescribed[unknown] && model.laws.of(at).crosses_by_state(what))
+        sites.push_back({i, what, unknown});
+    }
+  return sites;
+}
+
+template <int dim>
+std::vector<std::size_t> contact_unknowns(const Model<dim> &model,
+                                          const std::vector<ExchangeSite> &sites) {
+  std::vector<std::size_t> unknowns;
+  for (const contact::InterfaceNode<dim> &at : model.interface)
+    for (int c = 0; c < dim; ++c)
+      unknowns.push_back(body::unknown<dim>(at.node, c));
+  for (const ExchangeSite &site : sites)
+    unknowns.push_back(site.unknown);
+  return unknowns;
+}
+
+// Entries in which the field's block of the operator is of the size of that of u.
+template <int dim>
+ExchangeNodes<dim>::ExchangeNodes(const Model<dim> &model)
+    : model_(model), sites_(exchange_sites(model)) {
+  scale_.resize(size());
+  crossed_ = crossed_before_ = VectorXd::Zero(size());
+  if (sites_.empty())
+    return;
+  const auto scales = model.op.scales(model.step);
+  for (std::size_t k = 0; k < sites_.size(); ++k)
+    scale_[static_cast<Index>(k)] =
+        scales[static_cast<std::size_t>(component_of<dim>(sites_[k].what))] / scales[0];
+}
+
+template <int dim>
+VectorXd ExchangeNodes<dim>::entries(std::span<const double> state) const {
+  VectorXd entries(size());
+  for (std::size_t k = 0; k < sites_.size(); ++k)
+    entries[static_cast<Index>(k)] = state[sites_[k].unknown] / scale_[static_cast<Index>(k)];
+  return entries;
+}
+
+// The heat rows are scaled by -k / theta_ref, the electric rows by -1: what leaves the body stands
+// on their right side with a plus.
+template <int dim>
+double ExchangeNodes<dim>::of_flow(std::size_t k) const {
+  const double weight = model_.interface[sites_[k].node].weight;
+  return sites_[k].what == Crossing::heat ? model_.step / model_.op.reference_temperature() * weight
+                                          : weight;
+}
+
+template <int dim>
+void ExchangeNodes<dim>::begin_step(double time, const ContactNodes<dim> &contact) {
+  points_.clear();
+  for (std::size_t k = 0; k < sites_.size(); ++k) {
+    const auto entry = static_cast<Index>(k);
+    const contact::InterfaceNode<dim> &at = model_.interface[sites_[k].node];
+    ExchangePoint &point = points_.emplace_back(contact.seen_by_exchange(sites_[k].node));
+    point.entry = contact.n_unknowns() + entry;
+    point.field = sites_[k].what == sites_[0].what ? 0 : 1;
+    point.of_value = scale_[entry];
+    point.of_flow = scale_[entry] * of_flow(k);
+    point.law = model_.laws.of(at).exchange(sites_[k].what, at.point, time, crossed_[entry]);
+  }
+}
+
+template <int dim>
+std::vector<FieldRows> ExchangeNodes<dim>::fields(const VectorXd &terms) const {
+  std::vector<FieldRows> fields;
+  for (const ExchangePoint &point : points_) {
+    if (fields.size() == point.field)
+      fields.push_back({point.entry, 0, 0});
+    FieldRows &rows = fields.back();
+    const Index k = point.entry - points_.front().entry;
+    rows.scale = larger(rows.scale, terms[k]);
+    ++rows.size;
+  }
+  return fields;
+}
+
+template <int dim>
+void ExchangeNodes<dim>::prepare(StepOutcome &outcome) const {
+  const VectorXd zero = VectorXd::Zero(static_cast<Index>(model_.interface.size()));
+  if (model_.laws.crosses_by_state(Crossing::heat))
+    outcome.heat_flow = zero;
+  if (model_.laws.is_warmed_by_friction())
+    outcome.friction_heat = zero;
+  if (model_.laws.crosses_by_state(Crossing::charge))
+    outcome.charge_flow = zero;
+}
+
+template <int dim>
+void ExchangeNodes<dim>::end_step(const ContactNodes<dim> &contact, const CoupledSolution &solution,
+                                  StepOutcome &outcome) {
+  crossed_before_ = crossed_;
+  for (std::size_t k = 0; k < sites_.size(); ++k) {
+    const ExchangePoint &at = points_[k];
+    const contact::ContactState state =
+        state_at(at, contact.points(), solution, contact.couplings());
+    const contact::Exchange::Value q =
+        at.law->at(at.of_value * solution.interface.increment[at.entry], state);
+    const auto node = static_cast<Index>(sites_[k].node);
+    const double weight = model_.interface[sites_[k].node].weight;
+    if (sites_[k].what == Crossing::charge) {
+      outcome.charge_flow[node] = weight * q.flow;
+      crossed_[static_cast<Index>(k)] = q.flow;
+      continue;
+    }
+    outcome.heat_flow[node] = weight * q.flow;
+    if (q.by_friction != 0)
+      outcome.friction_heat[node] = -weight * q.by_friction * state.friction;
+  }
+}
+
+template <int dim>
+VectorXd ExchangeNodes<dim>::rows(const StepOutcome &outcome) const {
+  VectorXd rows(size());
+  for (std::size_t k = 0; k < sites_.size(); ++k) {
+    const auto node = static_cast<Index>(sites_[k].node);
+    const VectorXd &flow =
+        sites_[k].what == Crossing::heat ? outcome.heat_flow : outcome.charge_flow;
+    rows[static_cast<Index>(k)] = of_flow(k) * flow[node] / model_.interface[sites_[k].node].weight;
+  }
+  return rows;
+}
+
+template <int dim>
+void ExchangeNodes<dim>::save(output::SavedNumbers &numbers) const {
+  if (model_.laws.remembers_charge())
+    numbers.put("charge that has crossed", crossed_);
+}
+
+template <int dim>
+void ExchangeNodes<dim>::restore(const output::SavedNumbers &numbers) {
+  if (model_.laws.remembers_charge())
+    numbers.fill("charge that has crossed", crossed_);
+}
+
+template std::vector<ExchangeSite> exchange_sites<2>(const Model<2> &);
+template std::vector<ExchangeSite> exchange_sites<3>(const Model<3> &);
+template std::vector<std::size_t> contact_unknowns<2>(const Model<2> &,
+                                                      const std::vector<ExchangeSite> &);
+template std::vector<std::size_t> contact_unknowns<3>(const Model<3> &,
+                                                      const std::vector<ExchangeSite> &);
+template class ExchangeNodes<2>;
+template class ExchangeNodes<3>;
+
+}  // namespace tourmaline::solve

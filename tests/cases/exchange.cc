@@ -1,0 +1,198 @@
+// Label: analytic. Heat and charge that cross the contact by its state, against the closed forms of
+// docs/exact-solutions.md, section 7, and against one another.
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "run_case.h"
+#include "tourmaline/error.h"
+
+namespace tourmaline::testing {
+namespace {
+
+using Overrides = std::vector<std::string>;
+
+RunCase verification(const std::string &name, const Overrides &overrides = {}) {
+  return RunCase("cases/verification/" + name + ".toml", overrides);
+}
+
+void expect_balances(const Table &history, double tolerance = 1e-10) {
+  for (const char *column :
+       {"energy_imbalance", "force_imbalance", "charge_imbalance", "heat_imbalance"})
+    EXPECT_LT(largest(history, column), tolerance) << column;
+}
+
+void expect_all(const std::vector<double> &values, double expected, double tolerance = 1e-9) {
+  for (const double value : values)
+    EXPECT_NEAR(value, expected, tolerance * std::abs(expected));
+}
+
+std::vector<double> last_step(const Table &contact, const std::string &column) {
+  const std::vector<double> values = contact.numbers(column), steps = contact.numbers("step");
+  std::vector<double> last;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (steps[i] == steps.back())
+      last.push_back(values[i]);
+  return last;
+}
+
+// 1. Heat of friction.
+
+constexpr double pressed = 1e7, mu = 0.3, speed = 1e-4, k33 = 75, height = 0.01, width = 0.02;
+constexpr double made = mu * pressed * speed;  // W/m^2
+
+double warmed(double share, double k_c, double theta_f) {
+  return (share * made + k_c * theta_f) / (k33 / height + k_c);
+}
+
+TEST(FrictionHeat, WarmsASlidingLayerAsConductionAndExchangeTakeIt) {
+  const RunCase run = verification("friction-heat");
+  const double theta = warmed(0.5, 2e4, -2);
+  expect_all(last_step(run.contact(), "temperature"), theta);
+  expect_all(last_step(run.contact(), "heat_flux"), 2e4 * (theta + 2) - 0.5 * made);
+  expect_balances(run.history());
+}
+
+TEST(FrictionHeat, OnAnInsulatingFoundationAllOfTheShareGoesThroughTheLayer) {
+  const RunCase run =
+      verification("friction-heat", {"contact.heat={law='insulated',friction_share=0.25}"});
+  expect_all(last_step(run.contact(), "temperature"), warmed(0.25, 0, 0));
+  expect_all(run.history().numbers("friction_heat_body"), 0.25 * made * width);
+  expect_all(run.history().numbers("friction_heat_foundation"), 0.75 * made * width);
+  expect_balances(run.history());
+}
+
+TEST(FrictionHeat, IsThatOfTrescasBoundOnBilateralContact) {
+  const RunCase run = verification(
+      "friction-heat", {"contact.normal='bilateral'", "contact.friction={law='tresca',bound=3e6}"});
+  expect_all(last_step(run.contact(), "temperature"), warmed(0.5, 2e4, -2));
+  expect_balances(run.history());
+}
+
+TEST(FrictionHeat, OfNothingIsTheExchangeAlone) {
+  const RunCase run = verification("friction-heat", {"contact.heat.friction_share=0"});
+  expect_all(last_step(run.contact(), "temperature"), warmed(0, 2e4, -2));
+}
+
+// Of a body with all couplings, in which heat, pressure and slip depend on one another.
+const Overrides coupled{"material={library='BaTiO3-Liu2014'}", "time={end=2,steps=8}",
+                        "contact.friction.coefficient={static=0.4,kinetic=0.25,speed=5e-5}",
+                        "contact.gap='-2e-7*x/0.02'"};
+
+TEST(FrictionHeat, IsThePowerOfFrictionInACoupledBodyToo) {
+  const RunCase run = verification("friction-heat", coupled);
+  const Table history = run.history();
+  expect_balances(history);
+  const std::vector<double> power = history.numbers("friction_dissipation"),
+                            body = history.numbers("friction_heat_body"),
+                            foundation = history.numbers("friction_heat_foundation");
+  for (std::size_t n = 0; n < power.size(); ++n) {
+    EXPECT_GT(power[n], 0);
+    EXPECT_NEAR(body[n], 0.5 * power[n], 1e-10 * power[n]);
+    EXPECT_NEAR(body[n] + foundation[n], power[n], 1e-10 * power[n]);
+  }
+}
+
+// 2. Exchange by pressure and gap: Barber's rod.
+
+double end_of_rod(const std::string &initial, const Overrides &more = {}) {
+  Overrides overrides{"initial.temperature='" + initial + "'"};
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  const RunCase run = verification("barber-rod", overrides);
+  expect_balances(run.history());
+  return run.contact().numbers("temperature").back();
+}
+
+constexpr double cold = 24.33981132056604, between = 41.55506063346715, hot = 91.44493936653284;
+
+TEST(BarbersRod, HasThreeSteadyStates) {
+  EXPECT_NEAR(end_of_rod("0"), cold, 1e-8);
+  EXPECT_NEAR(end_of_rod("100*x/0.1"), hot, 1e-8);
+  // Left alone as long as nothing disturbs it.
+  EXPECT_NEAR(end_of_rod("41.55506063346715*x/0.1", {"time={end=5,steps=5}"}), between, 1e-8);
+}
+
+// theta ~ sinh(q x) exp(a t), a = k q^2/(rho c): 1 % where steps and cells are small.
+TEST(BarbersRod, LeavesTheMiddleOneByEitherSideAtTheRateOfItsMode) {
+  for (const int side : {-1, 1}) {
+    const RunCase run = verification(
+        "barber-rod",
+        {fmt::format("initial.temperature='41.55506063346715*x/0.1 + {}*1e-6*sinh(44.352305*x)/{}'",
+                     side, std::sinh(4.4352305)),
+         "time={end=60,steps=300}"});
+    const Table contact = run.contact();
+    const std::vector<double> theta = contact.numbers("temperature"),
+                              time = contact.numbers("time");
+    const auto at = [&](double t) {
+      for (std::size_t i = 0; i < time.size(); ++i)
+        if (std::abs(time[i] - t) < 1e-6)
+          return theta[i] - between;
+      return 0.;
+    };
+    EXPECT_GT(side * at(60), 0);
+    EXPECT_NEAR(std::log(at(60) / at(20)) / 40, 0.042578505729, 0.01 * 0.0426) << side;
+  }
+  EXPECT_NEAR(end_of_rod("41.55506*x/0.1 - 0.1*x/0.1"), cold, 1e-6);
+  EXPECT_NEAR(end_of_rod("41.55506*x/0.1 + 0.1*x/0.1"), hot, 1e-6);
+}
+
+// 3. Charge.
+
+constexpr double c33 = 162e9, e33 = 18.6, beta33 = 12.6e-9, column = 0.1;
+constexpr double capacity = (beta33 + e33 * e33 / c33) / column;  // F/m^2
+
+double charged(double c, double phi_f = 0) {
+  return (c * phi_f + e33 * 1e6 / c33) / (c + capacity);
+}
+
+TEST(ChargeExchange, DividesTheVoltageOfAColumnAsCapacitorsDo) {
+  EXPECT_NEAR(charged(1e-7), 464.169137244, 1e-8);
+  for (const char *more : {"contact.electric.foundation_potential=0", "contact.electric.ramp=1e-6",
+                           "solver.method=monolithic"}) {
+    const RunCase run = verification("charge-exchange", {more});
+    expect_all(run.contact().numbers("potential"), charged(1e-7));
+    expect_all(run.contact().numbers("charge_flux"), 1e-7 * charged(1e-7));
+    expect_all(run.history().numbers("charge_bottom"), 1e-7 * charged(1e-7) * 0.01);
+    expect_balances(run.history());
+  }
+  const RunCase other = verification(
+      "charge-exchange",
+      {"contact.electric.coefficient=1e-6", "contact.electric.foundation_potential=50"});
+  expect_all(other.contact().numbers("potential"), charged(1e-6, 50));
+  expect_balances(other.history());
+}
+
+TEST(ChargeExchange, OfALeakGoesOnUntilThePotentialIsThatOfTheFoundation) {
+  const RunCase run = verification(
+      "charge-exchange", {"contact.electric.law=leak", "contact.electric.coefficient=5e-7"});
+  const Table contact = run.contact();
+  const std::vector<double> phi = contact.numbers("potential"), step = contact.numbers("step");
+  for (std::size_t i = 0; i < phi.size(); ++i) {
+    const double expected = charged(0) * std::pow(capacity / (capacity + 0.25 * 5e-7), step[i]);
+    EXPECT_NEAR(phi[i], expected, 1e-9 * charged(0));
+  }
+  expect_balances(run.history());
+}
+
+// 4. Where it may fail.
+
+void expect_refused(const std::string &name, const Overrides &overrides, const std::string &words) {
+  try {
+    verification(name, overrides);
+    ADD_FAILURE() << "was not refused: " << words;
+  } catch (const CaseError &error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr(words));
+  }
+}
+
+TEST(Exchange, IsRefusedByRoutesThatDoNotHaveIt) {
+  expect_refused("friction-heat", {"solver.method=monolithic"},
+                 "contact with heat.friction_share is not available with \"monolithic\"");
+  expect_refused("barber-rod", {"solver.body=iterative"},
+                 "contact with heat.pressure is not available with \"iterative\"");
+}
+
+}  // namespace
+}  // namespace tourmaline::testing
