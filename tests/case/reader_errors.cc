@@ -6,6 +6,7 @@
 
 #include "error_in.h"
 #include "example.h"
+#include "mistake.h"
 #include "tourmaline/case/reader.h"
 #include "tourmaline/error.h"
 
@@ -14,25 +15,6 @@ namespace {
 
 using testing::HasSubstr;
 using testing::Not;
-
-// The example with one piece of its text replaced.
-std::string changed(const std::string &from, const std::string &to) {
-  std::string text = example;
-  const auto place = text.find(from);
-  EXPECT_NE(place, std::string::npos) << from;
-  return text.replace(place, from.size(), to);
-}
-
-struct Mistake {
-  std::string from, to;
-  std::vector<std::string> pieces;  ///< of the error text
-};
-
-void PrintTo(const Mistake &mistake, std::ostream *out) {
-  *out << mistake.to;
-}
-
-class MistakeInAFile : public testing::TestWithParam<Mistake> {};
 
 TEST_P(MistakeInAFile, IsNamedWithItsPlaceAndWhatIsAllowed) {
   const std::string error = error_in(changed(GetParam().from, GetParam().to));
@@ -222,136 +204,6 @@ const Mistake choices[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Choices, MistakeInAFile, testing::ValuesIn(choices));
 
-const std::string tresca = "law = \"tresca\", bound = 15", bilateral = "\"bilateral\"";
-
-std::string coulomb(const std::string &coefficient) {
-  return "law = \"coulomb\", coefficient = " + coefficient;
-}
-
-const Mistake contact_laws[] = {
-    {bilateral,
-     "3",
-     {"case.toml:30:10 [contact] normal = 3", "must be a text, one of \"bilateral\"",
-      "or a table, [contact.normal]"}},
-    {bilateral,
-     "\"compliance\"",
-     {"case.toml:30:10 [contact.normal] coefficient: missing", "[N/m^(2+m)]",
-      "write normal = { law = \"compliance\", coefficient = ... }"}},
-    {bilateral, "\"damped\"", {"[contact.normal] coefficient: missing", "[N s/m^3]"}},
-    {bilateral, "{ law = \"damped\" }", {"[contact.normal] coefficient: missing"}},
-    {bilateral,
-     "{ law = \"damped\", coefficient = 1e9, exponent = 2 }",
-     {"exponent = 2", "only used with law = \"compliance\""}},
-    {bilateral,
-     "{ law = \"compliance\", coefficient = 0 }",
-     {"[contact.normal] coefficient = 0", "must be > 0 N/m^(2+m)"}},
-    {bilateral, "{ law = \"compliance\", coefficient = \"1e13*t\" }", {"must not depend on"}},
-    {bilateral, "{ law = \"compliance\", coefficient = nan }", {"is not a finite number"}},
-    {bilateral,
-     "{ law = \"compliance\", coefficient = 1e13, exponent = 0.5 }",
-     {"[contact.normal] exponent = 0.5", "must be >= 1"}},
-    {bilateral,
-     "{ coefficient = 1e13 }",
-     {"coefficient = ", "only used with law = \"compliance\" or \"damped\""}},
-    {bilateral,
-     "{ law = \"unilateral\", coefficient = 1e13 }",
-     {"coefficient = ", "only used with law = \"compliance\" or \"damped\""}},
-    {bilateral, "{ law = \"damped\", coeficient = 1 }", {"did you mean \"coefficient\"?"}},
-    {"normal = \"bilateral\"", "gap = nan", {"[contact] gap = nan", "is not a finite number"}},
-    {"normal = \"bilateral\"", "gap = \"1/0\"", {"gap = \"1/0\"", "is not a finite number"}},
-    {"normal = \"bilateral\"", "gap = \"t\"", {"gap = \"t\"", "must not depend on the time t"}},
-    {"normal = \"bilateral\"",
-     "foundation_displacement = [0, 0, 0]",
-     {"[contact] foundation_displacement = [0, 0, 0]", "has 3 entries, but needs 2"}},
-    {"normal = \"bilateral\"",
-     "foundation_displacement = 1e-6",
-     {"must be a list of numbers or formulas"}},
-    {"normal = \"bilateral\"",
-     "foundation_displacement = [\"z\", 0]",
-     {"foundation_displacement[0] = \"z\"", "has no z"}},
-    {tresca,
-     "law = \"coulomb\"",
-     {"case.toml:31:12 [contact.friction] coefficient: missing", "coefficient mu"}},
-    {"bound = 15", "bound = 15, mu = 1", {"did you mean \"coefficient\"?"}},
-    {"bound = 15",
-     "bound = 15, coefficient = 0.3",
-     {"[contact.friction] coefficient = 0.3", "only used with law = \"coulomb\""}},
-    {"bound = 15", "bound = 15, limit = 30", {"limit = 30", "only used with law = \"coulomb\""}},
-    {tresca,
-     coulomb("-0.3"),
-     {"case.toml:31:45 [contact.friction] coefficient = -0.3", "must be >= 0"}},
-    {tresca, coulomb("nan"), {"coefficient = nan", "is not a finite number"}},
-    {tresca, coulomb("\"1/0\""), {"coefficient = \"1/0\"", "is not a finite number"}},
-    {tresca, coulomb("[0.3]"), {"is a list", "or a table, [contact.friction.coefficient]"}},
-    {tresca,
-     coulomb("{}"),
-     {"[contact.friction.coefficient]: has no coefficient", "write coefficient = 0.3"}},
-    {tresca,
-     coulomb("{ kinetic = 0.2, speed = 1e-3 }"),
-     {"[contact.friction.coefficient]: has `kinetic` but not `static`"}},
-    {tresca, coulomb("{ static = 0.2, speed = 1e-3 }"), {"has `static` but not `kinetic`"}},
-    {tresca, coulomb("{ static = 0.4, kinetic = 0.2 }"), {"neither `speed` nor `distance`"}},
-    {tresca,
-     coulomb("{ static = 0.4, kinetic = 0.2, speed = 1, distance = 1 }"),
-     {"both `speed` and `distance`"}},
-    {tresca, coulomb("{ value = 0.4, kinetic = 0.2 }"), {"`value` is the whole coefficient"}},
-    {tresca, coulomb("{ static = 0.4, kinetic = 0.2, speed = 0 }"), {"must be > 0 m/s"}},
-    {tresca, coulomb("{ static = 0.4, kinetic = 0.2, distance = -1 }"), {"must be > 0 m"}},
-    {tresca, coulomb("{ static = 0.4, kinetic = -0.2, speed = 1 }"), {"kinetic = -0.2", ">= 0"}},
-    {tresca, coulomb("{ static = 0.4, kinetc = 0.2, speed = 1 }"), {"did you mean \"kinetic\"?"}},
-    {tresca,
-     coulomb("0.3, cohesion = 20, limit = 15"),
-     {"[contact.friction] limit = 15", "at least the cohesion, which is 20 N/m^2"}},
-    {"[contact]",
-     "[[contact]]\non = \"top\"\n[[contact]]",
-     {"[contact[0]] on = \"top\": the traction on a contact boundary is the law's"}},
-};
-INSTANTIATE_TEST_SUITE_P(ContactLaws, MistakeInAFile, testing::ValuesIn(contact_laws));
-
-struct Unavailable {
-  std::vector<std::string> overrides;
-  std::string law;
-};
-
-void PrintTo(const Unavailable &unavailable, std::ostream *out) {
-  *out << unavailable.law;
-}
-
-class LawOfTheState : public testing::TestWithParam<Unavailable> {};
-
-TEST_P(LawOfTheState, IsRefusedWithMultipliersOfFacets) {
-  const auto error_with = [](const std::string &solver) {
-    std::vector<std::string> overrides = GetParam().overrides;
-    overrides.push_back(solver);
-    return error_in(example, overrides);
-  };
-  const std::string law = "contact with " + GetParam().law + " is not available with ";
-  EXPECT_THAT(error_with("solver={method='monolithic', multiplier='piecewise-constant'}"),
-              HasSubstr(law + "solver.multiplier = \"piecewise-constant\" in this version; take "
-                              "\"nodal\""));
-  EXPECT_EQ(error_with("solver.method=monolithic"), "no error");
-  for (const char *body : {"direct", "iterative", "automatic"})
-    EXPECT_EQ(error_with(std::string("solver.body=") + body), "no error") << body;
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    All, LawOfTheState,
-    testing::Values(Unavailable{{"contact.normal=unilateral"}, "normal = \"unilateral\""},
-                    Unavailable{{"contact.normal={law='compliance', coefficient=1e13}"},
-                                "normal = \"compliance\""},
-                    Unavailable{{"contact.normal={law='damped', coefficient=1e9}"},
-                                "normal = \"damped\""},
-                    Unavailable{{"contact.friction={law='coulomb', coefficient=0.3}"},
-                                "friction.law = \"coulomb\""}));
-
-TEST(Errors, AGapAndAMovingFoundationAreAvailableInAllSolvers) {
-  for (const char *solver : {"solver={method='monolithic'}", "solver={body='iterative'}",
-                             "solver={method='monolithic', multiplier='piecewise-constant'}"})
-    EXPECT_EQ(error_in(example, {"contact.gap=1e-6", "contact.foundation_displacement=[0,'1e-6*t']",
-                                 solver}),
-              "no error");
-}
-
 const Mistake formulas[] = {
     {"\"-0.5*t\"",
      "\"-0.5*\"",
@@ -407,125 +259,10 @@ TEST(Errors, FilesThatCannotBeReadSayWhy) {
   EXPECT_THAT(error_of_file("/dev/zero"), HasSubstr("larger than 16 MiB"));
 }
 
-struct BadOverride {
-  std::string text;
-  std::string piece;
-};
-
-void PrintTo(const BadOverride &bad, std::ostream *out) {
-  *out << bad.text;
-}
-
-class BadOverrides : public testing::TestWithParam<BadOverride> {};
-
-TEST_P(BadOverrides, AreNamedAsTheirPlace) {
-  const std::string error = error_in(example, {GetParam().text});
-  EXPECT_THAT(error, testing::StartsWith("--set " + GetParam().text));
-  EXPECT_THAT(error, HasSubstr(GetParam().piece));
-}
-
-const BadOverride bad_overrides[] = {
-    {"contact.friction.bound=-3", "must be >= 0 N/m^2"},
-    {"contact.friction.bund=3", "did you mean \"bound\"?"},
-    {"solver.method=monolitic", "did you mean \"monolithic\"?"},
-    {"time.steps=abc", "is a text, but must be an integer"},
-    {"time.steps", "has no \"=\""},
-    {"time.steps=", "has no value"},
-    {"boundary[0.potential=7", "counted from 0"},
-    {"boundary[].potential=7", "empty part"},
-    {"boundary0].potential=7", "counted from 0"},
-    {"=3", "empty part"},
-    {"time..steps=3", "empty part"},
-    {"time.steps.x=3", "time.steps is a value"},
-    {"boundary[9].on=left", "boundary has 3 entries"},
-    {"boundary.first.on=left", "boundary is a list"},
-    {"mesh.box.cells=[1,", "not one of TOML's"},
-    {"time.end=1\nsteps = 3", "there are several"},
-    {"mesh.box.cells[5]=3", "has 2 entries"},
-    {"iterations=3", "unknown key"},
-    {"steps=3", "one of that name in [time]"},
-    {"time=3", "must be a table: [time]"},
-    {"output={evry=3}", "did you mean \"every\"?"},
-    {"boundary[1].on[0]=lft", "did you mean \"left\"?"},
-    {"boundary[3].potential=1", "on: missing"},
-    {"contact.normal=compliance", "[contact.normal] coefficient: missing"},
-    {"contact.normal=bilaterl", "did you mean \"bilateral\"?"},
-    {"contact.normal.coefficient=1e13", "only used with law = \"compliance\" or \"damped\""},
-    {"contact.normal.coefficent=1e13", "did you mean \"coefficient\"?"},
-    {"contact.friction.bound.x=1", "contact.friction.bound is a value"},
-    {"contact[0].on=left", "contact is a table and no list"},
-    {"time.end=1e400", "the number 1e400 is too large: double precision ends at 1.8e+308"},
-    {"time.end=-1.5e999", "the number -1.5e999 is too large"},
-    {"time.end=1_000e307", "the number 1000e307 is too large"},
-    {"time.steps=99999999999999999999", "the integer 99999999999999999999 is too large: at most"},
-    {"mesh.box.max=[1e400,1]", "the number 1e400 is too large"},
-    {"boundary[0].potential=\"2*1e400*t\"", "the number 1e400 is too large"},
-};
-INSTANTIATE_TEST_SUITE_P(All, BadOverrides, testing::ValuesIn(bad_overrides));
-
 TEST(Errors, ANumberThatIsTooLargeIsNamedInAFileToo) {
   const std::string error = error_in(changed("end = 0.2", "end = 1e400"));
   EXPECT_THAT(error, testing::StartsWith("case.toml:11:"));
   EXPECT_THAT(error, HasSubstr("the number 1e400 is too large"));
-}
-
-// The example with several mistakes in its keys, in the order of the file.
-std::string misspelt() {
-  std::string text = example;
-  for (const auto &[right, wrong] : std::initializer_list<std::pair<const char *, const char *>>{
-           {"cells = ", "ceells = "},
-           {"steps = 20", "stps = 20"},
-           {"potential = 0", "potental = 0"},
-           {"bound = 15", "bonud = 15"},
-           {"[output]", "[ouptut]"}})
-    text.replace(text.find(right), std::string(right).size(), wrong);
-  return text;
-}
-
-TEST(UnknownKeys, AreAllNamedAtOnceWithPlaceAndNearestName) {
-  const std::string error = error_in(misspelt());
-  std::size_t last = 0;
-  for (const char *piece :
-       {"case.toml:4:41 [mesh.box] ceells = [64, 64]: unknown key", "did you mean \"cells\"?",
-        "case.toml:12:1 [time] stps = 20: unknown key", "did you mean \"steps\"?",
-        "case.toml:17:1 [boundary[0]] potental = 0", "did you mean \"potential\"?",
-        "case.toml:31:30 [contact.friction] bonud = 15", "did you mean \"bound\"?",
-        "case.toml:37:2 ouptut", "did you mean \"output\"?"}) {
-    const std::size_t place = error.find(piece, last);
-    ASSERT_NE(place, std::string::npos) << piece << " in\n" << error;
-    last = place;
-  }
-  EXPECT_THAT(error, Not(HasSubstr("\n")));
-}
-
-TEST(UnknownKeys, OfTheCommandLineStandBehindThoseOfTheFile) {
-  const std::string error = error_in(changed("steps = 20", "steps = 20\nstpes = 3"),
-                                     {"solver.methud=condensed", "tittle=x"});
-  EXPECT_THAT(error, testing::StartsWith("case.toml:13:1 [time] stpes = 3: unknown key"));
-  EXPECT_THAT(error, HasSubstr("; and --set solver.methud=condensed [solver] methud"));
-  EXPECT_THAT(error, HasSubstr("; and --set tittle=x tittle"));
-}
-
-TEST(UnknownKeys, AreNamedBesideValuesThatAreWrong) {
-  const std::string error =
-      error_in(changed("steps = 20", "stpes = 20"),
-               {"boundary[0].displacement=3", "contact.friction.law=tresco", "contact.haet=1"});
-  EXPECT_THAT(error, HasSubstr("did you mean \"steps\"?"));
-  EXPECT_THAT(error, HasSubstr("did you mean \"heat\"?"));
-  // Nobody knows what keys that law has.
-  EXPECT_THAT(error, Not(HasSubstr("bound =")));
-}
-
-TEST(UnknownKeys, OfAFileThatIsNoCaseAreCounted) {
-  std::string text = example;
-  for (int i = 0; i < 300; ++i)
-    text += "nonsense" + std::to_string(i) + " = 1\n";
-  EXPECT_THAT(error_in(text), testing::EndsWith("; and 280 more unknown keys"));
-  EXPECT_LT(error_in(text).size(), 5000u);
-}
-
-TEST(Errors, AVeryLongOverrideIsNotRepeatedInFull) {
-  EXPECT_LT(error_in(example, {"title=[" + std::string(50000, '1') + "]"}).size(), 500u);
 }
 
 TEST(Annulus, MistakesAreNamed) {

@@ -1,3 +1,4 @@
+#include "closed_balances.h"
 #include "run_case.h"
 
 namespace tourmaline::testing {
@@ -20,9 +21,7 @@ class Balances : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Balances, OfEnergyForcesChargeAndHeatCloseInEveryStep) {
   const Table history = RunCase(GetParam(), {}).history();
-  for (const char *column :
-       {"energy_imbalance", "force_imbalance", "charge_imbalance", "heat_imbalance"})
-    EXPECT_LT(largest(history.numbers(column)), 1e-9) << column;
+  expect_closed_balances(history, 1e-9);
 }
 
 TEST_P(Balances, FrictionAndTheEulerStepOnlyTakeEnergy) {

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "closed_balances.h"
 #include "run_case.h"
 
 namespace tourmaline::testing {
@@ -155,9 +156,7 @@ TEST_P(ContactLaws, AgreeWithTheIndependentProgramInsideTheBody) {
 
 TEST_P(ContactLaws, BalancesOfEnergyForcesChargeAndHeatCloseInEveryStep) {
   const Table history = run_.history();
-  for (const char *column :
-       {"energy_imbalance", "force_imbalance", "charge_imbalance", "heat_imbalance"})
-    EXPECT_LT(largest(history, column), 1e-10) << column;
+  expect_closed_balances(history);
 }
 
 /// A column of history.csv, zero where the case has none.

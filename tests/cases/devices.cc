@@ -1,4 +1,5 @@
 // The cases of cases/devices: closed forms where there are any, facts of mechanics otherwise.
+#include "closed_balances.h"
 #include "run_case.h"
 #include "tourmaline/case/case.h"
 
@@ -70,9 +71,7 @@ TEST(Washers, WithoutFrictionTheirChargeIsThatOfTheForceAndProportionalToIt) {
 // fault.
 TEST(FrictionSensor, WithoutHeatItsBalancesCloseToo) {
   const RunCase run = device("friction-sensor-loaded");
-  for (const char *balance :
-       {"energy_imbalance", "force_imbalance", "charge_imbalance", "heat_imbalance"})
-    EXPECT_LT(largest(run.history(), balance), 1e-9) << balance;
+  expect_closed_balances(run.history(), 1e-9);
 }
 
 // Pure shear: gamma h = top - slip, |c44 gamma| <= S, D = e15 gamma on both faces.

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "closed_balances.h"
 #include "run_case.h"
 #include "tourmaline/case/case.h"
 
@@ -200,9 +201,7 @@ output = { fields = false }
 
 TEST(Device, EnergyForcesChargeAndHeatBalanceAndTheElectrodesBringTheElectricPower) {
   const Table h = history(device);
-  for (const char *balance :
-       {"energy_imbalance", "force_imbalance", "charge_imbalance", "heat_imbalance"})
-    EXPECT_LT(largest(h.numbers(balance)), 1e-11) << balance;
+  expect_closed_balances(h, 1e-11);
   const std::vector<double> power = h.numbers("electric_power");
   const double size = largest(power);
   EXPECT_GT(size, 0);

@@ -206,9 +206,10 @@ TEST(Iterative, APadShearedToAndFroBetweenElectrodesIsThatOfTheFactorisation) {
   expect_equal_runs(RunCase(asked.with("direct")), RunCase(asked.with("iterative")));
 }
 
-// n24-sin-7 of tests/reference/third as a solid between planes of symmetry.
+// n24-sin-7 of tests/reference/third as a solid between planes of symmetry, as coarse as a mesh may
+// be on which Newton's method still fails in one step.
 constexpr const char *extruded = R"toml(
-mesh.box = { min = [0, 0, 0], max = [0.1, 0.025, 0.1], cells = [16, 4, 16], cell = "hexahedron" }
+mesh.box = { min = [0, 0, 0], max = [0.1, 0.025, 0.1], cells = [12, 2, 12], cell = "hexahedron" }
 material = { library = "BaTiO3-Liu2014", pyroelectric = [0, 0, 1e-4] }
 time = { end = 0.2, steps = 7 }
 boundary = [
@@ -222,7 +223,9 @@ output = { fields = false, report = false }
 
 TEST(Iterative, ASolidBetweenPlanesOfSymmetryThatSlipsToAndFroIsThatOfTheFactorisation) {
   const Asked asked{"extruded", {}, extruded};
-  expect_equal_runs(RunCase(asked.with("direct")), RunCase(asked.with("iterative")));
+  const RunCase found(asked.with("iterative"));
+  EXPECT_GT(safe_steps(found), 0);
+  expect_equal_runs(RunCase(asked.with("direct")), found);
 }
 
 // A cantilever without contact.

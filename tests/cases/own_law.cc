@@ -109,6 +109,24 @@ INSTANTIATE_TEST_SUITE_P(Routes, OwnLaw,
                          ::testing::Values("solver.body=direct", "solver.body=iterative",
                                            "solver.method=monolithic"));
 
+TEST(SeveralContacts, AProgramsLawIsToldWhichContactItIsAskedFor) {
+  const output::TemporaryFolder own, shipped;
+  const casefile::Case asked =
+      asked_for("cases/clamped-block/block.toml",
+                {"contact[1].normal=bilateral", "contact[1].friction={law='tresca', bound=1e5}",
+                 "output={fields=false, report=false}", "time.steps=5"});
+  run::simulate(asked, shipped.path(), {.quiet = true});
+  run::simulate(
+      asked, own.path(),
+      {.quiet = true,
+       .friction =
+           [](const contact::ContactPlace &place) {
+             return contact::OwnLaw{std::make_shared<Borrowed>(place.contact == 0 ? 2e5 : 1e5)};
+           },
+       .friction_name = "Tresca's, 2e5 and 1e5 N/m^2"});
+  EXPECT_EQ(output::content_of(own / "contact.csv"), output::content_of(shipped / "contact.csv"));
+}
+
 TEST(OwnLaws, NeedANameOfOneLineAndAContact) {
   using ::testing::HasSubstr;
   using ::testing::ThrowsMessage;

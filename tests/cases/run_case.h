@@ -35,4 +35,11 @@ class RunCase {
   output::TemporaryFolder folder_;
 };
 
+/// A case that writes tables only; its files stand in `folder`.
+inline RunCase run_text(const std::string &text, const std::vector<std::string> &overrides = {},
+                        const std::filesystem::path &folder = ".") {
+  return RunCase(casefile::read_text("output = { fields = false, report = false }\n" + text,
+                                     folder / "case.toml", overrides, mesh::read_mesh_file));
+}
+
 }  // namespace tourmaline::testing

@@ -6,8 +6,10 @@
 #include <functional>
 #include <set>
 
+#include "closed_balances.h"
+#include "contact_status.h"
+#include "equal_quantities.h"
 #include "run_case.h"
-#include "tourmaline/contact/friction.h"
 
 namespace tourmaline::testing {
 namespace {
@@ -65,44 +67,14 @@ class Squares {
   std::set<std::pair<int, int>> cells_;
 };
 
-RunCase run_text(const std::string &text, const std::vector<std::string> &overrides = {},
-                 const std::filesystem::path &folder = ".") {
-  return RunCase(casefile::read_text("output = { fields = false, report = false }\n" + text,
-                                     folder / "case.toml", overrides, mesh::read_mesh_file));
-}
-
-void expect_balances(const RunCase &run) {
-  const Table history = run.history();
-  for (const char *column :
-       {"energy_imbalance", "force_imbalance", "charge_imbalance", "heat_imbalance"})
-    EXPECT_LT(largest(history, column), 1e-10) << column;
-}
-
-bool has_status(const Table &contact, const std::string &status) {
-  const std::vector<std::string> &all = contact.columns.at("status");
-  return std::find(all.begin(), all.end(), status) != all.end();
-}
-
-/// Columns that are measured by the largest of them.
-using Quantities = std::vector<std::vector<std::string>>;
-const Quantities of_nodes{{"u_x", "u_y"}, {"potential"}, {"temperature"}};
-const Quantities of_contact{{"normal_traction", "tangential_traction_x", "tangential_traction_y"},
-                            {"slip_x", "slip_y", "normal_displacement", "gap"},
-                            {"slip_rate"},
-                            {"temperature"},
-                            {"potential"},
-                            {"heat_flux"}};
-
-void expect_same(const Table &one, const Table &other, const Quantities &quantities,
-                 double tolerance = 1e-9) {
-  for (const auto &columns : quantities) {
-    double size = 0;
-    for (const std::string &column : columns)
-      size = std::max(size, largest(other, column));
-    for (const std::string &column : columns)
-      EXPECT_LE(difference(one, other, column, size), tolerance) << column;
-  }
-}
+const std::vector<Quantity> of_nodes{{"u_x", "u_y"}, {"potential"}, {"temperature"}};
+const std::vector<Quantity> of_contact{
+    {"normal_traction", "tangential_traction_x", "tangential_traction_y"},
+    {"slip_x", "slip_y", "normal_displacement", "gap"},
+    {"slip_rate"},
+    {"temperature"},
+    {"potential"},
+    {"heat_flux"}};
 
 /// The rows of which a column has that value.
 Table rows_with(const Table &table, const std::string &column, const std::string &value) {
@@ -118,7 +90,7 @@ Table rows_with(const Table &table, const std::string &column, const std::string
 
 void expect_same_contact(const Table &one, const Table &other, double tolerance = 1e-9) {
   ASSERT_EQ(one.n_rows(), other.n_rows());
-  expect_same(one, other, of_contact, tolerance);
+  expect_equal_quantities(one, other, of_contact, tolerance);
   EXPECT_EQ(one.columns.at("status"), other.columns.at("status"));
 }
 
@@ -137,6 +109,15 @@ gap = "3e-3*(x - 0.008)^2"
 normal = "unilateral"
 friction = { law = "coulomb", coefficient = { static = 0.35, kinetic = 0.3, distance = 1e-6 } }
 )toml";
+/// Each law on each route.
+std::vector<Laws> on_every_route(const std::vector<std::string> &laws) {
+  std::vector<Laws> all;
+  for (const std::string &words : laws)
+    for (const char *solver :
+         {"solver.body=direct", "solver.method=monolithic", "solver.body=iterative"})
+      all.push_back({words, solver});
+  return all;
+}
 const std::string exchange =
     "heat = { law = \"exchange\", coefficient = \"2e4*(1 + 20*x)\", foundation_temperature = "
     "\"20*t\" }\n";
@@ -159,10 +140,10 @@ void expect_parts_are_the_contact(const std::string &body, const std::string &wo
   const RunCase whole = run("[contact]\non = [\"near\", \"far\"]\n" + law),
                 parts = run("[[contact]]\non = \"near\"\n" + law + "[[contact]]\nname = \"b\"\n" +
                             "on = \"far\"\n" + law);
-  expect_same(parts.nodes(), whole.nodes(), of_nodes);
+  expect_equal_quantities(parts.nodes(), whole.nodes(), of_nodes);
   expect_same_contact(parts.contact(), whole.contact());
   EXPECT_TRUE(has_status(whole.contact(), "slip"));
-  expect_balances(parts);
+  expect_closed_balances(parts.history());
   const Table one = whole.history(), two = parts.history();
   for (const char *column :
        {"contact_force_x", "contact_force_y", "friction_dissipation", "foundation_power",
@@ -209,11 +190,7 @@ electrode = [ { name = "plate", on = "top", voltage = "10*t")toml") +
 }
 
 INSTANTIATE_TEST_SUITE_P(Routes, OneContactInParts,
-                         ::testing::Values(Laws{tresca, "solver.body=direct"},
-                                           Laws{tresca, "solver.method=monolithic"},
-                                           Laws{tresca, "solver.body=iterative"},
-                                           Laws{coulomb, "solver.body=direct"},
-                                           Laws{coulomb, "solver.method=monolithic"}));
+                         ::testing::ValuesIn(on_every_route({tresca, coulomb})));
 
 // 2. Contacts that do not know of each other.
 
@@ -260,7 +237,7 @@ heat = { law = "exchange", coefficient = 5e3, foundation_temperature = -3 }
   for (const char *status : {"stick", "slip", "open"})
     EXPECT_TRUE(has_status(b.contact(), status)) << status;
   EXPECT_TRUE(has_status(a.contact(), "slip"));
-  expect_balances(together);
+  expect_closed_balances(together.history());
   const Table history = together.history();
   const auto expect_same_column = [&](const std::string &column, const RunCase &alone,
                                       const std::string &column_alone) {
@@ -312,18 +289,18 @@ boundary = [ { on = "bottom", displacement = ["free", 0, 0], potential = 0 },
       {solver});
   const Table left = rows_with(run.contact(), "contact", "left"),
               right = rows_with(run.contact(), "contact", "right");
-  Quantities same{{"normal_traction", "tangential_traction_y"},
-                  {"slip_y", "normal_displacement", "gap"},
-                  {"slip_rate"},
-                  {"temperature"},
-                  {"potential"},
-                  {"heat_flux"}};
+  std::vector<Quantity> same{{"normal_traction", "tangential_traction_y"},
+                             {"slip_y", "normal_displacement", "gap"},
+                             {"slip_rate"},
+                             {"temperature"},
+                             {"potential"},
+                             {"heat_flux"}};
   if (dim == 3) {
     same.front().push_back("tangential_traction_z");
     same[1].push_back("slip_z");
   }
   ASSERT_EQ(left.n_rows(), right.n_rows());
-  expect_same(left, right, same);
+  expect_equal_quantities(left, right, same);
   EXPECT_EQ(left.columns.at("status"), right.columns.at("status"));
   EXPECT_TRUE(has_status(left, "slip"));
   EXPECT_TRUE(has_status(left, "stick"));
@@ -333,7 +310,7 @@ boundary = [ { on = "bottom", displacement = ["free", 0, 0], potential = 0 },
   EXPECT_GT(push.back(), 0);
   for (std::size_t i = 0; i < push.size(); ++i)
     EXPECT_NEAR(push[i], -back[i], 1e-9 * largest(push));
-  expect_balances(run);
+  expect_closed_balances(run.history());
 }
 
 TEST_P(Mirrored, DoTheMirroredThingInThePlane) {
@@ -349,11 +326,7 @@ const std::string plain_coulomb =
 const std::string plain_tresca = "friction = { law = \"tresca\", bound = 3e5 }\n";
 
 INSTANTIATE_TEST_SUITE_P(Routes, Mirrored,
-                         ::testing::Values(Laws{plain_coulomb, "solver.body=direct"},
-                                           Laws{plain_coulomb, "solver.method=monolithic"},
-                                           Laws{plain_tresca, "solver.body=direct"},
-                                           Laws{plain_tresca, "solver.method=monolithic"},
-                                           Laws{plain_tresca, "solver.body=iterative"}));
+                         ::testing::ValuesIn(on_every_route({plain_coulomb, plain_tresca})));
 
 // 4. Heat.
 
@@ -394,11 +367,11 @@ contact = [ {{ on = "left", heat = {{ law = "exchange", coefficient = {}, founda
 TEST(SeveralContacts, OfDifferentLawsAreTheSameOnBothRoutes) {
   const std::string file = "cases/clamped-block/block.toml";
   const RunCase condensed(file), monolithic(file, {"solver.method=monolithic"});
-  expect_same(condensed.nodes(), monolithic.nodes(), of_nodes, 1e-8);
+  expect_equal_quantities(condensed.nodes(), monolithic.nodes(), of_nodes, 1e-8);
   expect_same_contact(condensed.contact(), monolithic.contact(), 1e-8);
-  expect_same(condensed.contact(), monolithic.contact(), {{"friction_bound"}}, 1e-8);
-  expect_balances(condensed);
-  expect_balances(monolithic);
+  expect_equal_quantities(condensed.contact(), monolithic.contact(), {{"friction_bound"}}, 1e-8);
+  expect_closed_balances(condensed.history());
+  expect_closed_balances(monolithic.history());
   const Table wall = rows_with(condensed.contact(), "contact", "wall"),
               jaw = rows_with(condensed.contact(), "contact", "jaw");
   for (const Table &contact : {wall, jaw}) {
@@ -421,7 +394,7 @@ TEST(SeveralContacts, WithTrescasLawEachAreTheSameOnTheIterativeRoute) {
   const RunCase direct(file, overrides);
   overrides.push_back("solver.body=iterative");
   const RunCase iterative(file, overrides);
-  expect_same(iterative.nodes(), direct.nodes(), of_nodes, 1e-8);
+  expect_equal_quantities(iterative.nodes(), direct.nodes(), of_nodes, 1e-8);
   expect_same_contact(iterative.contact(), direct.contact(), 1e-8);
   EXPECT_TRUE(has_status(rows_with(direct.contact(), "contact", "jaw"), "slip"));
 }
@@ -452,7 +425,7 @@ friction = { law = "tresca", bound = 1e4 }
     for (std::size_t i = 0; i < x.size(); ++i)
       EXPECT_EQ(contact.columns.at("contact")[i], y[i] == 0 ? "bottom" : "left");
     EXPECT_EQ(contact.numbers("tangential_traction_y").front(), 0);
-    expect_balances(run);
+    expect_closed_balances(run.history());
     ASSERT_EQ(run.summary().at("warnings").size(), 1u);
     EXPECT_NE(run.summary()
                   .at("warnings")
@@ -461,47 +434,6 @@ friction = { law = "tresca", bound = 1e4 }
                   .find("contacts meet at an edge, at (0, 0, 0)"),
               std::string::npos);
   }
-}
-
-// 7. A program's own law.
-
-class Ball : public contact::FrictionLaw {
- public:
-  explicit Ball(double bound) : law_{bound} {}
-  double dissipation(const contact::Tangent &d) const override { return law_.dissipation(d); }
-  contact::Tangent traction(const contact::Tangent &trial) const override {
-    return law_.traction(trial);
-  }
-  contact::TangentMatrix traction_derivative(const contact::Tangent &trial) const override {
-    return law_.traction_derivative(trial);
-  }
-  bool is_smooth_at(const contact::Tangent &d) const override { return law_.is_smooth_at(d); }
-  contact::Tangent gradient(const contact::Tangent &d) const override { return law_.gradient(d); }
-  contact::TangentMatrix hessian(const contact::Tangent &d) const override {
-    return law_.hessian(d);
-  }
-  ContactStatus status(const contact::Tangent &trial) const override { return law_.status(trial); }
-
- private:
-  contact::Tresca law_;
-};
-
-TEST(SeveralContacts, AProgramsLawIsToldWhichContactItIsAskedFor) {
-  const output::TemporaryFolder own, shipped;
-  const casefile::Case asked = casefile::read_file(
-      std::filesystem::path(TOURMALINE_SOURCE_DIR) / "cases/clamped-block/block.toml",
-      {"contact[1].normal=bilateral", "contact[1].friction={law='tresca', bound=1e5}",
-       "output={fields=false, report=false}", "time.steps=5"});
-  run::simulate(asked, shipped.path(), {.quiet = true});
-  run::simulate(
-      asked, own.path(),
-      {.quiet = true,
-       .friction =
-           [](const contact::ContactPlace &place) {
-             return contact::OwnLaw{std::make_shared<Ball>(place.contact == 0 ? 2e5 : 1e5)};
-           },
-       .friction_name = "Tresca's, 2e5 and 1e5 N/m^2"});
-  EXPECT_EQ(output::content_of(own / "contact.csv"), output::content_of(shipped / "contact.csv"));
 }
 
 }  // namespace

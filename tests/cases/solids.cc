@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "closed_balances.h"
 #include "run_case.h"
 
 namespace tourmaline::testing {
@@ -63,9 +64,7 @@ TEST(TwistedBlock, TractionOpposesTheSlipAtEverySlippingNodeInEveryStep) {
   const Table history = run.history();
   // Newton's method with the exact tangent of the disc, though all directions turn: seen 4.
   EXPECT_LE(largest(history, "newton_iterations"), 6);
-  for (const char *balance :
-       {"energy_imbalance", "force_imbalance", "charge_imbalance", "heat_imbalance"})
-    EXPECT_LT(largest(history, balance), 1e-10) << balance;
+  expect_closed_balances(history);
 }
 
 TEST(TwistedBlock, InTheMonolithicRouteNewtonTakesFewStepsAsWell) {

@@ -6,12 +6,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "../cases/slipping_block.h"
 #include "process.h"
 
 /// Runs that are killed, stopped or refused, and go on with --resume.
 class Interrupted : public Program {
  protected:
-  Interrupted() { std::ofstream(here() / "block.toml") << block; }
+  Interrupted() { std::ofstream(here() / "block.toml") << tourmaline::testing::slipping_block; }
 
   /// Summary of a run but for what every run has of its own.
   static nlohmann::json without_times(const std::filesystem::path &file) {
@@ -86,30 +87,6 @@ class Interrupted : public Program {
     ASSERT_TRUE(kill_behind_a_checkpoint(slow + " -q -o ", "results"));
     std::filesystem::remove(here() / "results/run.lock");
   }
-
-  // A case whose contact slips in different directions.
-  static constexpr const char *block = R"toml(
-[mesh]
-box = { min = [0, 0, 0], max = [0.1, 0.1, 0.1], cells = [4, 4, 4], cell = "tetrahedron" }
-[material]
-library = "BaTiO3-Liu2014"
-pyroelectric = [0, 0, 1e-4]
-[time]
-end = 0.2
-steps = 8
-[[boundary]]
-on = "right"
-displacement = [0, 0, 0]
-potential = "1e-3*t"
-temperature = 0
-[[boundary]]
-on = "top"
-traction = [0, "-3*t*(1+x*10)", "-50*t*y"]
-[contact]
-on = "left"
-friction = { law = "tresca", bound = 0.05 }
-heat = { law = "exchange", coefficient = 1, foundation_temperature = -27 }
-)toml";
 
   const std::string paper = std::string(TOURMALINE_SOURCE_DIR) +
                             "/cases/ouafik-2020/conductive.toml --set mesh.box.cells=[12,12]";

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "ellipse.h"
+#include "tangents.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::contact {
@@ -44,12 +45,6 @@ struct Spoilt : FrictionLaw {
   std::function<TangentMatrix(const Tangent &)> matrix;
   std::optional<ContactStatus> said;
 };
-
-Tangent plane(double x, double y) {
-  Tangent t(2);
-  t << x, y;
-  return t;
-}
 
 OwnLaw checked_as(Friction law) {
   const ContactPlace place{{1, 2, 3}, 0.5, {}};

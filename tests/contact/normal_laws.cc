@@ -9,13 +9,10 @@
 #include "contact/held_normal.h"
 #include "contact/local_law.h"
 #include "contact/unilateral.h"
+#include "tangents.h"
 
 namespace tourmaline::contact {
 namespace {
-
-Tangent along(double x) {
-  return Tangent::Constant(1, x);
-}
 
 /// A point of a law's graph.
 struct Answer {

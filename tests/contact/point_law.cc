@@ -6,18 +6,10 @@
 #include <random>
 
 #include "ellipse.h"
+#include "tangents.h"
 
 namespace tourmaline::contact {
 namespace {
-
-Tangent along(double x) {
-  return Tangent::Constant(1, x);
-}
-Tangent plane(double x, double y) {
-  Tangent t(2);
-  t << x, y;
-  return t;
-}
 
 Friction tresca(double bound) {
   return Tresca{bound};

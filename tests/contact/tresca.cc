@@ -4,17 +4,10 @@
 
 #include <random>
 
+#include "tangents.h"
+
 namespace tourmaline::contact {
 namespace {
-
-Tangent along(double x) {
-  return Tangent::Constant(1, x);
-}
-Tangent plane(double x, double y) {
-  Tangent t(2);
-  t << x, y;
-  return t;
-}
 
 TEST(Tresca, BelowTheBoundAPointSticksAndCarriesTheTrialValue) {
   const Tresca law{15};

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "complaint.h"
 #include "material/composition.h"
 #include "material/constants.h"
 #include "material/description.h"
@@ -51,15 +52,6 @@ casefile::MaterialCase film_without(const Names &constants) {
   for (const std::string &constant : constants)
     EXPECT_EQ(asked.constants.erase(constant), 1u) << constant;
   return asked;
-}
-
-std::string complaint(const casefile::MaterialCase &asked) {
-  try {
-    constants_of(asked);
-  } catch (const CaseError &error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST(Completeness, AMaterialWithAllConstantsOfItsClassLacksNone) {
@@ -119,7 +111,7 @@ casefile::Case in_regions(const std::vector<casefile::MaterialCase> &materials) 
   return asked;
 }
 
-std::string complaint(const casefile::Case &asked) {
+std::string complaint_of_all(const casefile::Case &asked) {
   try {
     Composition<2>{asked};
   } catch (const CaseError &error) {
@@ -131,8 +123,8 @@ std::string complaint(const casefile::Case &asked) {
 TEST(Completeness, AllThatIsMissingOfAllRegionsIsSaidAtOnce) {
   const casefile::MaterialCase entry = named("BaTiO3-Liu2014", {{"d31", -4e-11}});
   const std::string said =
-      complaint(in_regions({film_without({"density"}), film(), entry, film_without({"density"}),
-                            film_without({"d31", "k11"})}));
+      complaint_of_all(in_regions({film_without({"density"}), film(), entry,
+                                   film_without({"density"}), film_without({"d31", "k11"})}));
   EXPECT_THAT(said, testing::StartsWith("case.toml:1:1 [region.material], case.toml:4:1 "
                                         "[region.material] the material, class 6mm, lacks: "
                                         "density"));

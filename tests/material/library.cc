@@ -10,6 +10,7 @@
 
 #include "case/given.h"
 #include "case/symmetry.h"
+#include "complaint.h"
 #include "material/composition.h"
 #include "material/constants.h"
 #include "material/description.h"
@@ -39,15 +40,6 @@ casefile::MaterialCase completed(casefile::MaterialCase asked) {
 
 Constants electric(const std::string &name) {
   return electromechanical(with_entry(named(name)));
-}
-
-std::string complaint(const casefile::MaterialCase &asked) {
-  try {
-    constants_of(asked);
-  } catch (const CaseError &error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST(Library, EveryEntryHasASourceAndAPositiveEnergyOnceItsThermalConstantsAreGiven) {

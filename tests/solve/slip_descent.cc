@@ -65,6 +65,18 @@ InterfaceSolution descended(const Problem &p, const VectorXd &start, Dense &resp
   return minimise({p.points, curvature}, response, start, {1e-12, max_iterations});
 }
 
+// By turns at rest and anywhere.
+template <class Problems>
+VectorXd start_of(int k, const Problem &p, Problems &problems) {
+  return k % 2 ? problems.vector(p.force.size()) : VectorXd(VectorXd::Zero(p.force.size()));
+}
+
+template <class Programme>
+void expect_minimiser(const InterfaceSolution &found, const Programme &programme) {
+  ASSERT_TRUE(found.converged) << "residual " << found.residual;
+  ASSERT_LT(violation(programme, found.increment), 1e-9);
+}
+
 TEST(SlipDescent, FindsTheOnlyMinimiserOfAThousandRandomProgrammesFromAnyStart) {
   RandomProblems problems(20260102);
   int most = 0, most_forces = 0;
@@ -72,12 +84,10 @@ TEST(SlipDescent, FindsTheOnlyMinimiserOfAThousandRandomProgrammesFromAnyStart) 
     const Problem p = problems.next();
     if (p.force.size() == 0)
       continue;
-    const VectorXd start =
-        k % 2 ? problems.vector(p.force.size()) : VectorXd(VectorXd::Zero(p.force.size()));
+    const VectorXd start = start_of(k, p, problems);
     Dense response(p, 0);
     const InterfaceSolution s = descended(p, start, response, 1000);
-    ASSERT_TRUE(s.converged) << "programme " << k << ", residual " << s.residual;
-    ASSERT_LT(violation(p, s.increment), 1e-9) << "programme " << k;
+    ASSERT_NO_FATAL_FAILURE(expect_minimiser(s, p)) << "programme " << k;
     ASSERT_EQ(response.asked_for, s.increment) << "programme " << k;
     most = std::max(most, s.iterations);
     most_forces = std::max(most_forces, response.forces);
@@ -94,8 +104,7 @@ TEST(SlipDescent, InexactDirectionsLeadThereToo) {
       continue;
     Dense response(p, 1e-4);
     const InterfaceSolution s = descended(p, problems.vector(p.force.size()), response, 1000);
-    ASSERT_TRUE(s.converged) << "programme " << k << ", residual " << s.residual;
-    ASSERT_LT(violation(p, s.increment), 1e-9) << "programme " << k;
+    ASSERT_NO_FATAL_FAILURE(expect_minimiser(s, p)) << "programme " << k;
   }
 }
 
@@ -107,12 +116,10 @@ void expect_all_found(NormalKind normal, FrictionKind friction) {
     for (int k = 0; k < n_programmes; ++k) {
       const ContactProblem contact = problems.next(dim);
       const Problem p{contact.stiffness, contact.force, contact.points, {}};
-      const VectorXd start =
-          k % 2 ? problems.vector(p.force.size()) : VectorXd(VectorXd::Zero(p.force.size()));
+      const VectorXd start = start_of(k, p, problems);
       Dense response(p, 0);
       const InterfaceSolution s = descended(p, start, response, 4000);
-      ASSERT_TRUE(s.converged) << "programme " << k << ", residual " << s.residual;
-      ASSERT_LT(violation(contact, s.increment), 1e-9) << "programme " << k;
+      ASSERT_NO_FATAL_FAILURE(expect_minimiser(s, contact)) << "programme " << k;
       most = std::max(most, s.iterations);
     }
     ::testing::Test::RecordProperty("largest_number_of_iterations_" + std::to_string(dim) + "D",

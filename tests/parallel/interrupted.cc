@@ -1,0 +1,100 @@
+// Runs on several ranks that are stopped or killed, and go on with --resume.
+
+#include <chrono>
+#include <csignal>
+#include <future>
+#include <thread>
+
+#include "../cases/slipping_block.h"
+#include "ranks.h"
+
+namespace tourmaline::testing {
+namespace {
+
+using output::content_of;
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+// The first rank's number stands in the lock of the folder.
+bool send_behind_a_checkpoint(int signal, const fs::path &folder) {
+  for (int tries = 0; tries < 20000; ++tries) {
+    if (fs::exists(folder / "checkpoint.bin"))
+      return kill(std::stoi(content_of(folder / "run.lock")), signal) == 0;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return false;
+}
+
+class Interrupted : public Ranks {
+ protected:
+  // Ends with the signal behind its first checkpoint, and goes on.
+  void interrupt(const std::string &arguments, int signal) {
+    auto interrupted = std::async(std::launch::async,
+                                  [&] { return run_on(GetParam(), arguments, folder_ / "other"); });
+    ASSERT_TRUE(send_behind_a_checkpoint(signal, folder_ / "other"));
+    before_ = interrupted.get();
+    ASSERT_NE(before_.status, 0) << "too fast to be interrupted";
+    const Outcome resumed = run_on(GetParam(), arguments + " --resume", folder_ / "other");
+    ASSERT_EQ(resumed.status, 0) << resumed.said;
+    const Outcome whole = run_on(GetParam(), arguments, folder_ / "one");
+    ASSERT_EQ(whole.status, 0) << whole.said;
+  }
+  // But for the page and the summary, which hold times.
+  void expect_same_bytes() const {
+    for (const auto &entry : fs::directory_iterator(folder_ / "one")) {
+      const std::string name = entry.path().filename().string();
+      if (name != "summary.json" && name != "report.html") {
+        EXPECT_TRUE(content_of(entry.path()) == content_of(folder_ / "other" / name)) << name;
+      }
+    }
+  }
+  void expect_same_numbers() const {
+    expect_equal_results(results_in(folder_ / "one"), results_in(folder_ / "other"));
+  }
+
+  Outcome before_{};
+};
+
+TEST_P(Interrupted, KilledItGoesOnToTheSameBytesWhereTheSolutionIsIterative) {
+  interrupt(file_of(slipping_block) +
+                " --set time.steps=12 --set output.every=5 --set solver.body=iterative "
+                "--set output.checkpoint=2steps",
+            SIGKILL);
+  expect_same_bytes();
+}
+
+// MUMPS on several ranks adds in the order in which messages arrive: no two runs have the same last
+// bits.
+TEST_P(Interrupted, KilledItGoesOnToTheSameNumbersWithAFactorisation) {
+  interrupt(paper_ + "--set time.steps=20 --set output.every=10 --set output.checkpoint=2steps",
+            SIGKILL);
+  expect_same_numbers();
+}
+
+TEST_P(Interrupted, StoppedItSaysSoOnceAndGoesOn) {
+  interrupt(
+      paper_ + "--set solver.method=monolithic --set time.steps=20 --set output.checkpoint=2steps",
+      SIGTERM);
+  EXPECT_EQ(before_.status, 128 + SIGTERM) << before_.said;
+  EXPECT_EQ(count(before_.said, "tourmaline: stopped by SIGTERM after step "), 1) << before_.said;
+  EXPECT_EQ(count(before_.said, "mpirun -np " + std::to_string(GetParam())), 1) << before_.said;
+  expect_same_numbers();
+}
+
+TEST_P(Interrupted, AnotherNumberOfRanksIsRefused) {
+  const std::string arguments =
+      paper_ + "--set time.steps=1000 --set output.fields=false --set output.checkpoint=2steps";
+  auto stopped = std::async(std::launch::async,
+                            [&] { return run_on(GetParam(), arguments, folder_ / "other"); });
+  ASSERT_TRUE(send_behind_a_checkpoint(SIGTERM, folder_ / "other"));
+  ASSERT_EQ(stopped.get().status, 128 + SIGTERM);
+  const Outcome alone = run_on(1, arguments + " --resume", folder_ / "other");
+  EXPECT_EQ(alone.status, 2);
+  EXPECT_THAT(alone.said, HasSubstr("mpirun -np " + std::to_string(GetParam())));
+  EXPECT_TRUE(fs::exists(folder_ / "other" / "checkpoint.bin"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Two, Interrupted, ::testing::Values(2));
+
+}  // namespace
+}  // namespace tourmaline::testing
