@@ -26,8 +26,7 @@ void for_each_temperature(Asked &asked, const See &see) {
     if (boundary.temperature)
       see(*boundary.temperature);
   for (auto &contact : asked.contacts)
-    if (contact.heat.exchanges())
-      see(contact.heat.foundation_temperature);
+    see(contact.heat.foundation_temperature);
   see(asked.initial.temperature);
 }
 

@@ -38,6 +38,16 @@ bool add_once(std::vector<std::string> &names, const std::string &name) {
 // body through states of little energy.
 constexpr double unquestioned = 1e-6, unquestioned_beside_it = 1e-10;
 
+// How many times an exchange of charge counts there.
+template <int dim>
+double charge_factor(const Model<dim> &model, const std::string &boundary) {
+  for (const body::SurfaceExchange &exchange : model.linear_exchanges)
+    if (exchange.field == body::SurfaceExchange::potential &&
+        std::find(exchange.on.begin(), exchange.on.end(), boundary) != exchange.on.end())
+      return exchange.factor;
+  return 1;
+}
+
 const char *const axes[] = {"x", "y", "z"};
 
 }  // namespace
@@ -347,7 +357,8 @@ void Balance<dim>::add_charges(const Step &step, Columns &columns) {
     if (load.kind().kind == LoadKind::surface_charge)
       through[load.kind().boundary] += load.resultant(step.time);
     else if (load.kind().kind == LoadKind::foundation_charge)
-      through[load.kind().boundary] -= load.resultant(step.time);
+      through[load.kind().boundary] -=
+          charge_factor(model_, load.kind().boundary) * load.resultant(step.time);
     else if (load.kind().kind == LoadKind::charge)
       inside += load.resultant(step.time);
   for (const std::string &name : charge_boundaries_) {

@@ -35,7 +35,6 @@ class Cascade {
   bool filled(Place &x);
   bool filled_from_any(const VectorXd &start, Place &x);
   bool continuation(Index n_entries, Place &x);
-  bool sets_in_unstable(const VectorXd &start, const CoupledSolution &found) const;
   CoupledSolution solve_convex(const VectorXd &start);
   InterfaceSolution convex(const std::vector<PointLaw> &friction, const VectorXd &start);
   // Every attempt may take as many iterations as are asked for.
@@ -199,35 +198,6 @@ CoupledSolution Cascade::solve_convex(const VectorXd &start) {
   return found;
 }
 
-// Whether the body, held by friction that falls from the state of the last step on (of the slip
-// rate: from the one then), is softer along the slips of this step than friction falls.
-bool Cascade::sets_in_unstable(const VectorXd &start, const CoupledSolution &found) const {
-  std::vector<Index> entries;
-  std::vector<std::pair<Index, MatrixXd>> falls;  // from that row and column on
-  for (std::size_t j = 0; j < programme_.couplings.size(); ++j) {
-    const FrictionCoupling &coupling = programme_.couplings[j];
-    const ContactPoint &p = programme_.points[coupling.slip];
-    const VectorXd slip = found.interface.increment.segment(p.offset, p.size);
-    if (!coupling.bound || slip.isZero(0))
-      continue;
-    const double fall =
-        coupling.bound->at(found.pressure[j], start.segment(p.offset, p.size).norm()).by_slip;
-    if (fall < 0)
-      falls.emplace_back(static_cast<Index>(entries.size()),
-                         p.weight * fall * slip * slip.transpose() / slip.squaredNorm());
-    for (Index c = 0; c < p.size; ++c)
-      entries.push_back(p.offset + c);
-  }
-  if (falls.empty() || is_large(static_cast<Index>(entries.size())))
-    return false;
-  std::optional<MatrixXd> stiffness = programme_.body.stiffness(entries);
-  if (!stiffness)
-    return false;
-  for (const auto &[row, fall] : falls)
-    stiffness->block(row, row, fall.rows(), fall.cols()) += fall;
-  return Eigen::LLT<MatrixXd>(*stiffness).info() != Eigen::Success;
-}
-
 CoupledSolution Cascade::solve(const VectorXd &start) {
   if (programme_.couplings.empty())
     return solve_convex(start);
@@ -257,13 +227,42 @@ CoupledSolution Cascade::solve(const VectorXd &start) {
   found.stage = stage;
   found.interface.iterations = count_.made;
   found.interface.converged = converged;
-  found.slip_jumped = converged && settings_.is_definite && sets_in_unstable(start, found);
+  found.slip_jumped =
+      converged && settings_.is_definite && slip_sets_in_unstable(programme_, start, found);
   if (!converged)
     found.interface.unsettled = map->unsettled(x, settings_.tolerance);
   return found;
 }
 
 }  // namespace
+
+bool slip_sets_in_unstable(const CoupledContact &contact, const VectorXd &start,
+                           const CoupledSolution &found) {
+  std::vector<Index> entries;
+  std::vector<std::pair<Index, MatrixXd>> falls;  // from that row and column on
+  for (std::size_t j = 0; j < contact.couplings.size(); ++j) {
+    const FrictionCoupling &coupling = contact.couplings[j];
+    const ContactPoint &p = contact.points[coupling.slip];
+    const VectorXd slip = found.interface.increment.segment(p.offset, p.size);
+    if (!coupling.bound || slip.isZero(0))
+      continue;
+    const double fall =
+        coupling.bound->at(found.pressure[j], start.segment(p.offset, p.size).norm()).by_slip;
+    if (fall < 0)
+      falls.emplace_back(static_cast<Index>(entries.size()),
+                         p.weight * fall * slip * slip.transpose() / slip.squaredNorm());
+    for (Index c = 0; c < p.size; ++c)
+      entries.push_back(p.offset + c);
+  }
+  if (falls.empty() || is_large(static_cast<Index>(entries.size())))
+    return false;
+  std::optional<MatrixXd> stiffness = contact.body.stiffness(entries);
+  if (!stiffness)
+    return false;
+  for (const auto &[row, fall] : falls)
+    stiffness->block(row, row, fall.rows(), fall.cols()) += fall;
+  return Eigen::LLT<MatrixXd>(*stiffness).info() != Eigen::Success;
+}
 
 CoupledSolution solve_coupled(const CoupledProgramme &programme, const VectorXd &start,
                               const InterfaceSettings &settings) {

@@ -66,4 +66,10 @@ CoupledSolution solve_coupled(const CoupledProgramme &programme, const Eigen::Ve
 CoupledSolution solve_coupled(const CoupledContact &contact, const Eigen::VectorXd &start,
                               const InterfaceSettings &settings);
 
+/// Whether the body, held by friction that falls from the state of the last step on (of the slip
+/// rate: from the one then), is softer along the slips of this step than friction falls. `start`:
+/// the increments of the last step.
+bool slip_sets_in_unstable(const CoupledContact &contact, const Eigen::VectorXd &start,
+                           const CoupledSolution &found);
+
 }  // namespace tourmaline::solve

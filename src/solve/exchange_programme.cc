@@ -201,20 +201,21 @@ CoupledSolution solve_exchanging(const ExchangeProgramme &programme, const Vecto
   const CoupledContact contact{body, programme.whole.points, programme.couplings,
                                programme.exchanges};
   IterationCount count;
-  if (newton) {
-    const NaturalMap map(contact, 1);
-    count.begin_attempt(settings.max_iterations);
-    if (Place x = map.at(start); damped_newton(map, x, settings.tolerance, most, count)) {
-      CoupledSolution found = map.solution(x);
-      found.interface.iterations = count.made;
-      found.interface.converged = true;
-      return found;
-    }
+  CoupledSolution found;
+  const NaturalMap map(contact, 1);
+  count.begin_attempt(settings.max_iterations);
+  if (Place x = map.at(start); newton && damped_newton(map, x, settings.tolerance, most, count)) {
+    found = map.solution(x);
+    found.interface.converged = true;
+    found.interface.iterations = count.made;
+  } else {
+    Fixed fixed(programme, settings, solve_held);
+    found = fixed.solve(start, newton ? &contact : nullptr);
+    found.stage = ContactStage::fixed_point;
+    found.interface.iterations = count.made + fixed.iterations();
   }
-  Fixed fixed(programme, settings, solve_held);
-  CoupledSolution found = fixed.solve(start, newton ? &contact : nullptr);
-  found.stage = ContactStage::fixed_point;
-  found.interface.iterations = count.made + fixed.iterations();
+  found.slip_jumped = found.interface.converged && settings.is_definite &&
+                      slip_sets_in_unstable(contact, start, found);
   return found;
 }
 

@@ -7,6 +7,7 @@
 #include "contact/coulomb.h"
 #include "contact/heat_exchange.h"
 #include "contact/unilateral.h"
+#include "solve/natural_map.h"
 
 namespace tourmaline::solve {
 namespace {
@@ -127,7 +128,7 @@ TEST(ExchangeProgramme, NewtonsMethodConvergesQuadratically) {
     VectorXd aside = found.interface.increment;
     for (Index i = 0; i < aside.size(); ++i)
       if (aside[i] != 0)
-        aside[i] *= 1 + 1e-4 * (i % 3 - 1);
+        aside[i] *= 1 + 1e-4 * static_cast<double>(i % 3 - 1);
     const auto x = map.at(aside);
     const auto direction = map.newton_direction(x);
     ASSERT_TRUE(direction);
