@@ -143,6 +143,23 @@ void check_contact_once(const ContactCase &contact, const Prescribed &prescribed
         fail_twice(contact, name, *entry->second.first, entry->second.second);
 }
 
+// Its potential is the electrode's: nothing of it follows from what crosses.
+void check_electrode(const ElectrodeCase &electrode, const Touched &touched,
+                     const Prescribed &prescribed) {
+  for (const std::string &name : electrode.on)
+    for (const std::string &part : prescribed.parts(name))
+      if (const auto found = touched.find(part);
+          found != touched.end() && found->second.first->electric.exchanges())
+        throw CaseError(fmt::format(
+            "{} = \"{}\": the electrode says what the potential on this boundary is, but it is in "
+            "a "
+            "contact with electric.law = \"{}\", {}, as well; give the electrode a resistor or "
+            "capacitor instead",
+            place_of_key(electrode.places, electrode.where, "on"), name,
+            found->second.first->electric.law,
+            place_of_key(found->second.first->places, found->second.first->where, "electric")));
+}
+
 }  // namespace
 
 void check_conflicts(const Case &asked) {
@@ -164,6 +181,8 @@ void check_conflicts(const Case &asked) {
     for (const std::string &name : contact.on)
       check_contact(contact, name, asked.dimension, prescribed);
   }
+  for (const ElectrodeCase &electrode : asked.electrodes)
+    check_electrode(electrode, touched, prescribed);
 }
 
 }  // namespace tourmaline::casefile

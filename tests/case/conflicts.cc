@@ -65,6 +65,27 @@ TEST(Conflicts, ContactOnAClampedBoundaryIsAnError) {
   EXPECT_THAT(error, HasSubstr("[boundary[3]] displacement[1] = 0"));
 }
 
+TEST(Conflicts, WhereChargeCrossesTheContactNothingPrescribesIt) {
+  const std::string electric =
+      "contact.electric={law='exchange', coefficient=1e-9, foundation_potential=0}";
+  EXPECT_EQ(error_of({electric}), "no error");
+  EXPECT_THAT(error_of({electric, "boundary[3]={on='left', surface_charge=1}"}),
+              HasSubstr("electric.law = \"exchange\" says what charge crosses there"));
+  EXPECT_THAT(error_of({electric, "electrode=[{name='plate', on='left', voltage=1}]"}),
+              HasSubstr("it is in a contact with electric.law = \"exchange\""));
+}
+
+TEST(Conflicts, HeatThatCrossesByTheContactsStateIsNotForEveryRoute) {
+  const std::string share = "contact.heat.friction_share=0.5";
+  EXPECT_EQ(error_of({share}), "no error");
+  EXPECT_THAT(error_of({share, "solver.method=monolithic"}),
+              HasSubstr("contact with heat.friction_share is not available"));
+  EXPECT_THAT(error_of({"contact.electric={law='leak', coefficient=1, foundation_potential=0, "
+                        "ramp=1e-7}",
+                        "solver.body=iterative"}),
+              HasSubstr("contact with electric.ramp is not available"));
+}
+
 TEST(Conflicts, TheTractionOnAContactBoundaryBelongsToTheLaw) {
   EXPECT_THAT(error_of({"boundary[3]={on='left', traction=[0,0]}"}),
               HasSubstr("the traction on a contact boundary"));

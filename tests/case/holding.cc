@@ -145,6 +145,16 @@ TEST(Holding, NoDisplacementAtAllNamesEveryMotion) {
   EXPECT_THAT(error, HasSubstr("a rotation about an axis parallel to x"));
 }
 
+TEST(Holding, AFoundationThatChargeAlwaysCrossesToHoldsThePotential) {
+  const std::string held = "boundary[0]={on='bottom', displacement=[0,0,0]}",
+                    electric =
+                        "contact={on='top', electric={law='exchange', coefficient=1e-9, "
+                        "foundation_potential=0";
+  EXPECT_EQ(error_in(cube, {held, electric + "}}"}), "no error");
+  EXPECT_THAT(error_in(cube, {held, electric + ", ramp=1e-7}}"}),
+              HasSubstr("the electric potential floats"));
+}
+
 TEST(Holding, APotentialWithoutGroundFloats) {
   EXPECT_THAT(error_in(cube, {"boundary[0]={on='bottom', displacement=[0,0,0]}"}),
               HasSubstr("the electric potential floats"));

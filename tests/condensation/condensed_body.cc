@@ -233,7 +233,7 @@ TEST(CondensedBody, RefinedItGivesTheSameStiffnessForcesAndStates) {
 
 TEST(CondensedBody, WithoutContactReduceAndExpandSolveTheBody) {
   Block<2> block(CellShape::triangle, 6);
-  block.contact.clear();
+  block.kept.clear();
   CondensedBody<2> condensed = block.condense();
   std::vector<double> b(block.body.n_nodes() * 4, 0.), x(b.size(), 0.);
   b[unknown<2>(0, 1)] = 1;

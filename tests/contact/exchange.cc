@@ -28,8 +28,7 @@ void expect_derivatives(const Exchange &law, double value, const ContactState &s
     EXPECT_NEAR(derivative, difference, 1e-6 * std::abs(derivative) + 1e-12);
   };
   expect(is.by_value, slope([](double &v, ContactState &, double h) { v += h; }, 1e-2));
-  expect(is.by_pressure,
-         slope([](double &, ContactState &s, double h) { s.pressure += h; }, 1e-3 * 1e5));
+  expect(is.by_pressure, slope([](double &, ContactState &s, double h) { s.pressure += h; }, 5));
   expect(is.by_penetration,
          slope([](double &, ContactState &s, double h) { s.penetration += h; }, 1e-11));
   expect(is.by_friction, slope([](double &, ContactState &s, double h) { s.friction += h; }, 1e-3));
@@ -52,7 +51,7 @@ TEST(HeatExchange, DerivativesAreThoseOfDifferences) {
   for (int k = 0; k < 50; ++k)
     expect_derivatives(
         law, 40 * uniform(random) - 20,
-        {2e5 * uniform(random) + 1e3, -2.9e-7 * uniform(random) - 1e-9, 10 * uniform(random)});
+        {2e5 * uniform(random) + 1e4, -2.9e-7 * uniform(random) - 1e-9, 10 * uniform(random)});
 }
 
 TEST(HeatExchange, TheConstantPartFadesWithTheGapAndThePressuresDoesNot) {
