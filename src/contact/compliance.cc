@@ -59,7 +59,7 @@ double Compliance::potential(double delta) const {
 
 namespace {
 
-std::string words(const casefile::NormalCase &asked) {
+std::string compliance_words(const casefile::NormalCase &asked) {
   const std::string c = text_of(asked.coefficient);
   if (asked.exponent == 1)
     return fmt::format("compliance, p = c (u_ν − g)₊, c = {} N/m³", c);
@@ -67,14 +67,16 @@ std::string words(const casefile::NormalCase &asked) {
                      2 + asked.exponent);
 }
 
-std::shared_ptr<const NormalLaw> at(const casefile::NormalCase &asked, const Vector3 &point,
-                                    double /*step*/, double /*before*/) {
+std::shared_ptr<const NormalLaw> compliance_at(const casefile::NormalCase &asked,
+                                               const Vector3 &point, double /*step*/,
+                                               double /*before*/) {
   return std::make_shared<Compliance>(
       positive(asked.coefficient, point, "the coefficient of normal compliance"), asked.exponent);
 }
 
 }  // namespace
 
-const NormalKind normal_kinds::compliance{.name = "compliance", .at = at, .words = words};
+const NormalKind normal_kinds::compliance{
+    .name = "compliance", .at = compliance_at, .words = compliance_words};
 
 }  // namespace tourmaline::contact

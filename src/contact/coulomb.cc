@@ -29,8 +29,8 @@ FrictionBound::Value Coulomb::at(double pressure, double slip) const {
 
 namespace {
 
-FrictionCoefficient coefficient(const casefile::FrictionCoefficientCase &asked,
-                                const Vector3 &point, double time, double step, double slipped) {
+FrictionCoefficient coefficient_at(const casefile::FrictionCoefficientCase &asked,
+                                   const Vector3 &point, double time, double step, double slipped) {
   FrictionCoefficient mu;
   if (asked.value) {
     mu.at_rest = mu.kinetic = not_negative(*asked.value, point, time, "the friction coefficient");
@@ -49,15 +49,15 @@ FrictionCoefficient coefficient(const casefile::FrictionCoefficientCase &asked,
   return mu;
 }
 
-std::shared_ptr<const FrictionBound> bound(const casefile::FrictionCase &asked,
-                                           const Vector3 &point, double time, double step,
-                                           double slipped) {
+std::shared_ptr<const FrictionBound> coulomb_bound(const casefile::FrictionCase &asked,
+                                                   const Vector3 &point, double time, double step,
+                                                   double slipped) {
   const double cohesion = not_negative(asked.cohesion, point, time, "the cohesion");
   const double limit = asked.limit
                            ? value_from(cohesion, *asked.limit, point, time,
                                         "the limit of the friction bound, beside the cohesion,")
                            : std::numeric_limits<double>::infinity();
-  return std::make_shared<Coulomb>(coefficient(asked.coefficient, point, time, step, slipped),
+  return std::make_shared<Coulomb>(coefficient_at(asked.coefficient, point, time, step, slipped),
                                    cohesion, limit);
 }
 
@@ -69,7 +69,7 @@ std::string coefficient_words(const casefile::FrictionCoefficientCase &mu) {
       mu.speed ? number_text(*mu.speed, 6) + " m/s" : number_text(*mu.distance, 6) + " m of slip");
 }
 
-std::string words(const casefile::FrictionCase &asked) {
+std::string coulomb_words(const casefile::FrictionCase &asked) {
   std::string text = "Coulomb friction, " + coefficient_words(asked.coefficient);
   if (!asked.cohesion.is_zero())
     text += fmt::format(", cohesion {} N/m²", asked.cohesion.text());
@@ -81,6 +81,6 @@ std::string words(const casefile::FrictionCase &asked) {
 }  // namespace
 
 const FrictionKind friction_kinds::coulomb{
-    .name = "coulomb", .at = nullptr, .bound = bound, .words = words};
+    .name = "coulomb", .at = nullptr, .bound = coulomb_bound, .words = coulomb_words};
 
 }  // namespace tourmaline::contact

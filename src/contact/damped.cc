@@ -33,18 +33,18 @@ double Damped::dissipated(double delta) const {
 
 namespace {
 
-std::string words(const casefile::NormalCase &asked) {
+std::string damped_words(const casefile::NormalCase &asked) {
   return fmt::format("damped contact, c = {} N s/m³", text_of(asked.coefficient));
 }
 
-std::shared_ptr<const NormalLaw> at(const casefile::NormalCase &asked, const Vector3 &point,
-                                    double step, double before) {
+std::shared_ptr<const NormalLaw> damped_at(const casefile::NormalCase &asked, const Vector3 &point,
+                                           double step, double before) {
   return std::make_shared<Damped>(
       positive(asked.coefficient, point, "the coefficient of the damped response"), step, before);
 }
 
 }  // namespace
 
-const NormalKind normal_kinds::damped{.name = "damped", .at = at, .words = words};
+const NormalKind normal_kinds::damped{.name = "damped", .at = damped_at, .words = damped_words};
 
 }  // namespace tourmaline::contact

@@ -52,7 +52,7 @@ TangentMatrix Tresca::hessian(const Tangent &d) const {
 
 namespace {
 
-Friction at(const casefile::FrictionCase &asked, const ContactPlace &place) {
+Friction tresca_at(const casefile::FrictionCase &asked, const ContactPlace &place) {
   const double bound = asked.bound.value(place.point, place.time);
   if (bound < 0)
     throw CaseError(fmt::format(
@@ -62,14 +62,14 @@ Friction at(const casefile::FrictionCase &asked, const ContactPlace &place) {
   return Tresca{bound};
 }
 
-std::string words(const casefile::FrictionCase &asked) {
+std::string tresca_words(const casefile::FrictionCase &asked) {
   return fmt::format("Tresca friction, S = {} N/m²", asked.bound.text());
 }
 
 }  // namespace
 
 const FrictionKind friction_kinds::tresca{
-    .name = "tresca", .at = at, .bound = nullptr, .words = words};
+    .name = "tresca", .at = tresca_at, .bound = nullptr, .words = tresca_words};
 
 const FrictionKind friction_kinds::none{
     .name = "none",
