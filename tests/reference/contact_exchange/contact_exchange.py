@@ -108,6 +108,8 @@ class Run:
         bilateral, none = case.normal["law"] == "bilateral", case.friction["law"] == "none"
         status = ["open" if not bilateral and not closed and gap < 0 else "stick" if s and not none else "slip"
                   for closed, gap, s in zip(c["closed"], delta, stuck)]
+        opened = ~c["closed"] & (not bilateral)
+        p, lt = np.where(opened, 0, p), np.where(opened[:, None], 0, lt)
         tau, slips = -np.einsum("mad,md->ma", self.T, lt), np.einsum("mad,md->ma", self.T, slip)
         made = (lt * d).sum(1) / case.k  # friction power per area
         warmth, through = theta - step.theta_f, phi - step.phi_f

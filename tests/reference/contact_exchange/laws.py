@@ -37,11 +37,10 @@ def friction_bound(table, p, closed, size, slid, k):
         return zero, zero, zero
     if table["law"] == "tresca":
         return np.where(closed, table["bound"], 0), zero, zero
-    pressure = np.maximum(p, 0)
     mu, slope = friction_coefficient(table, size, slid, k)
-    bound = np.where(closed, table.get("cohesion", 0) + mu * pressure, 0)
-    below = closed & (bound < table.get("limit", np.inf))
-    return (np.minimum(bound, table.get("limit", np.inf)), np.where(below & (p > 0), mu, 0), np.where(below, slope * pressure, 0))
+    limit, bound = table.get("limit", np.inf), table.get("cohesion", 0) + mu * p  # at least 0 where the contact is pulled
+    between = closed & (bound > 0) & (bound < limit)
+    return np.where(closed, np.clip(bound, 0, limit), 0), np.where(between, mu, 0), np.where(between, slope * p, 0)
 
 
 def on_ball(y, bound):

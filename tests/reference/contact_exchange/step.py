@@ -288,4 +288,5 @@ class Step:
             y = np.sqrt(((lt + self.r[:, None] * d) ** 2).sum(1))
             carrying = bound > 0
             values.append(np.min(np.abs(y - bound)[carrying], initial=np.inf))
-        return float(min(values) / max(np.max(np.abs(p)), np.max(np.abs(lt), initial=0), 1e-300))
+        size = max(np.max(np.abs(p)), np.max(np.abs(lt), initial=0), np.max(np.abs(self.r * delta)) if self.case.normal["law"] == "unilateral" else 0)
+        return float(min(values) / size) if size and np.isfinite(min(values)) else None
