@@ -60,7 +60,8 @@ class Run:
         x[b.THETA::b.stride] = case.initial_temperature(b.points, 0.0)
         slip = -np.einsum("mad,ma->md", self.T, self.foundation(0.0))
         slid, memory, leaked = np.zeros(m, LONG), np.zeros(m, LONG), np.zeros(m, LONG)
-        X, steps = np.concatenate([x, np.zeros(m * dim, LONG)]), []
+        # The first guess: what touches is closed, as otherwise nothing may hold the body.
+        X, steps = np.concatenate([x, np.ones(m, LONG), np.zeros(m * (dim - 1), LONG)]), []
         self.largest = np.zeros(b.stride)
         for number in range(1, case.steps + 1):
             t = number * case.end / case.steps

@@ -12,9 +12,9 @@ for case in cases/*.toml; do
     esac
     [ "$name" = barber-warm ] && options="--every 10"
     # shellcheck disable=SC2086
-    python3 contact_exchange.py "$case" "results/$name.json" $options > "results/$name.log" || echo "$name failed"
+    python3 contact_exchange.py "$case" "results/$name.json" $options > /dev/null || echo "$name failed"
     case $name in
-        pressed-exchange-constant | capacitor-constant | arch | block-turned)
+        pressed-exchange-constant | capacitor-constant | arch | block-turned | bilateral-heated)
             python3 contact_exchange.py "$case" "results/$name.lumped.json" --lumped > /dev/null || echo "$name failed" ;;
     esac
 done

@@ -227,7 +227,8 @@ class Step:
             change, mixed = 0.0, {"closed": new["closed"]}
             for name in ("bound", "pressed", "heat_psi", "charge_psi", "friction_heat"):
                 old_value, value = (v if name == "friction_heat" else v[0] for v in (c[name], new[name]))
-                change = max(change, float(np.max(np.abs(value - old_value)) / max(np.max(np.abs(value)), 1e-300)))
+                felt = new["closed"] if name in ("bound", "pressed", "friction_heat") else True  # open nodes have round-off only
+                change = max(change, float(np.max(np.abs(value - old_value) * felt) / max(np.max(np.abs(value) * felt), 1e-300)))
                 value = old_value + 0.6 * (value - old_value)
                 mixed[name] = value if name == "friction_heat" else (value,) + new[name][1:]
             c = mixed
