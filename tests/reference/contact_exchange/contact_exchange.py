@@ -72,7 +72,9 @@ class Run:
             bound = step.coefficients(X)["bound"][0]
             stuck = (np.sqrt(((lt + step.r[:, None] * d) ** 2).sum(1)) <= bound) & (bound > 0)
             d = np.where((stuck & (case.friction["law"] != "none"))[:, None], 0, d)
-            slip, slid = slip + d, slid + np.sqrt((d ** 2).sum(1))
+            slip = slip + d
+            is_open = (case.normal["law"] != "bilateral") & ~step.coefficients(X)["closed"] & (delta < 0)
+            slid = slid + np.where(is_open, 0, np.sqrt((d ** 2).sum(1)))  # an open node remembers no slip
             heat, charge = self.patch_flows(step, X, t)
             if case.leaks:
                 leaked = leaked + case.k * step.c_e * laws.ramp(delta.astype(float), case.charge_ramp)[0] * (X[step.phi] - step.phi_f)
