@@ -337,7 +337,8 @@ void Balance<dim>::add_charges(const Step &step, Columns &columns) {
   Sum imbalance;
   for (const body::Prescribed &p : model_.prescribed)
     if (p.unknown % Fields<dim>::count == Fields<dim>::potential) {
-      const double charge = step.now.charges[p.unknown] - step.known_charges()[p.unknown];
+      const double charge = step.now.charges[p.unknown] - step.known_charges()[p.unknown] -
+                            step.charge_crossed[p.unknown / Fields<dim>::count];
       (p.electrode < 0 ? through[p.boundary] : on_electrodes) += charge;
       imbalance.add(charge);
     }
@@ -347,8 +348,8 @@ void Balance<dim>::add_charges(const Step &step, Columns &columns) {
     if (charge_boundary_of_[i].empty())
       continue;
     double charge = step.leaked.size() > 0 ? step.leaked[static_cast<Eigen::Index>(i)] : 0;
-    if (!is_prescribed_[unknown])
-      charge += step.now.charges[unknown] - step.known_charges()[unknown];
+    charge += is_prescribed_[unknown] ? step.charge_crossed[model_.interface[i].node]
+                                      : step.now.charges[unknown] - step.known_charges()[unknown];
     through[charge_boundary_of_[i]] += charge;
     imbalance.add(charge);
   }

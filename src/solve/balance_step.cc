@@ -84,13 +84,13 @@ void add_capacitors(const Model<dim> &model, bool cell_by_cell, BalanceStep<dim>
 // Known charges are loads and what crosses the contact; what holds a prescribed potential is what
 // the products say.
 template <int dim>
-void find_charges(const std::vector<bool> &is_prescribed, const std::vector<double> &crossed,
-                  bool cell_by_cell, BalanceStep<dim> &step) {
+void find_charges(const std::vector<bool> &is_prescribed, bool cell_by_cell,
+                  BalanceStep<dim> &step) {
   step.now.charges.assign(step.now.unknowns.size(), 0.);
   for (std::size_t i = Fields<dim>::potential; i < is_prescribed.size(); i += Fields<dim>::count) {
-    step.now.charges[i] = is_prescribed[i]
-                              ? step.now.products.sum(i)
-                              : step.known_charges()[i] + crossed[i / Fields<dim>::count];
+    step.now.charges[i] =
+        is_prescribed[i] ? step.now.products.sum(i)
+                         : step.known_charges()[i] + step.charge_crossed[i / Fields<dim>::count];
     if (cell_by_cell && is_prescribed[i])
       step.before.charges[i] = step.before.products.sum(i);
   }
@@ -108,7 +108,7 @@ std::vector<double> heat_supplied(const Model<dim> &model, const std::vector<boo
     if (is_prescribed[i])
       supplied[node] =
           (step.now.products.sum(i) - step.before.products.sum(i) - step.loads[i]) / per_watt +
-          step.conducted[node];
+          step.conducted[node] - step.heat_crossed[node];
   }
   return supplied;
 }
@@ -297,7 +297,8 @@ BalanceStep<dim> balance_step(const Model<dim> &model, const std::vector<bool> &
   step.normal = normal_energy(model, step);
   step.leaked = outcome.leaked_charge;
   add_capacitors(model, cell_by_cell, step);
-  find_charges(is_prescribed, by_node(model, outcome.charge_flow), cell_by_cell, step);
+  step.charge_crossed = by_node(model, outcome.charge_flow);
+  find_charges(is_prescribed, cell_by_cell, step);
   step.friction_heat = outcome.friction_heat;
   step.heat_crossed = by_node(model, -outcome.heat_flow);
   step.heat_supplied = heat_supplied(model, is_prescribed, step);

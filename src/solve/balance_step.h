@@ -49,13 +49,14 @@ struct BalanceStep {
   /// by unknown, with what capacitors at the contact hold; empty: there are none
   std::vector<double> with_capacitors;
   BalancedState<dim> before, now;
-  std::vector<double> conducted;      ///< by node [W]
-  std::vector<double> heat_supplied;  ///< by node, at prescribed temperatures [W]
-  Eigen::VectorXd friction_heat;      ///< by interface node, into the body [W]; empty: none
-  Eigen::VectorXd leaked;             ///< by interface node, before this step [C]; empty: none
-  std::vector<double> heat_crossed;   ///< by node, at the contact by its state, inwards [W]
-  std::vector<double> contact;        ///< by unknown [N]
-  std::vector<double> friction;       ///< the part of it that opposes the slip [N]
+  std::vector<double> conducted;       ///< by node [W]
+  std::vector<double> heat_supplied;   ///< by node, at prescribed temperatures [W]
+  Eigen::VectorXd friction_heat;       ///< by interface node, into the body [W]; empty: none
+  Eigen::VectorXd leaked;              ///< by interface node, before this step [C]; empty: none
+  std::vector<double> heat_crossed;    ///< by node, at the contact by its state, inwards [W]
+  std::vector<double> charge_crossed;  ///< the same of charge, outwards [C]
+  std::vector<double> contact;         ///< by unknown [N]
+  std::vector<double> friction;        ///< the part of it that opposes the slip [N]
   std::vector<double> carried;  ///< by unknown: how the foundation has moved [m]; empty: it rests
   NormalEnergy normal;          ///< of the foundation's response
   BalanceRoundOff round_off;

@@ -242,7 +242,6 @@ CoupledSolution CondensedRoute<dim>::solve_leaning(const InterfaceProgramme &pro
 template <int dim>
 CoupledSolution CondensedRoute<dim>::solve_with_exchange(double time, const VectorXd &s,
                                                          std::span<const double> before) {
-  exchange_->begin_step(time, *contact_);
   const MatrixXd &all = condensed_.stiffness();
   const Eigen::SparseMatrix<double> &directions = contact_->directions();
   const Index n_rows = directions.rows(), n = directions.cols(), m = exchange_->size();
@@ -338,10 +337,10 @@ void CondensedRoute<dim>::advance_contact(double time, const VectorXd &s,
                                           std::span<const double> state, VectorXd &c,
                                           StepOutcome &outcome) {
   contact_->begin_step(time, before, state);
+  exchange_->begin_step(time, *contact_, state);
   CoupledSolution solution = solve_contact(time, s, before);
   const VectorXd crossing = solution.interface.increment.tail(exchange_->size());
-  if (exchanges())
-    exchange_->end_step(*contact_, solution, outcome);
+  exchange_->end_step(*contact_, solution, outcome);
   solution.interface.increment.conservativeResize(contact_->n_unknowns());
   solution.interface.force.conservativeResize(contact_->n_unknowns());
   last_increment_ = solution.interface.increment;

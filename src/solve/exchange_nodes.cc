@@ -20,20 +20,25 @@ constexpr int component_of(Crossing what) {
   return what == Crossing::heat ? Fields<dim>::temperature : Fields<dim>::potential;
 }
 
-}  // namespace
-
 template <int dim>
-std::vector<ExchangeSite> exchange_sites(const Model<dim> &model) {
+std::vector<ExchangeSite> sites_where(bool prescribed, const Model<dim> &model) {
   std::vector<ExchangeSite> sites;
   const std::vector<bool> is_prescribed = body::mask_of(model.prescribed, model.n_unknowns());
   for (const Crossing what : all_crossings)
     for (std::size_t i = 0; i < model.interface.size(); ++i) {
       const contact::InterfaceNode<dim> &at = model.interface[i];
       const std::size_t unknown = body::unknown<dim>(at.node, component_of<dim>(what));
-      if (!is_prescribed[unknown] && model.laws.of(at).crosses_by_state(what))
+      if (is_prescribed[unknown] == prescribed && model.laws.of(at).crosses_by_state(what))
         sites.push_back({i, what, unknown});
     }
   return sites;
+}
+
+}  // namespace
+
+template <int dim>
+std::vector<ExchangeSite> exchange_sites(const Model<dim> &model) {
+  return sites_where(false, model);
 }
 
 template <int dim>
@@ -51,9 +56,9 @@ std::vector<std::size_t> contact_unknowns(const Model<dim> &model,
 // Entries in which the field's block of the operator is of the size of that of u.
 template <int dim>
 ExchangeNodes<dim>::ExchangeNodes(const Model<dim> &model)
-    : model_(model), sites_(exchange_sites(model)) {
+    : model_(model), sites_(exchange_sites(model)), held_(sites_where(true, model)) {
   scale_.resize(size());
-  crossed_ = crossed_before_ = VectorXd::Zero(size());
+  crossed_ = crossed_before_ = VectorXd::Zero(size() + static_cast<Index>(held_.size()));
   if (sites_.empty())
     return;
   const auto scales = model.op.scales(model.step);
@@ -79,18 +84,33 @@ double ExchangeNodes<dim>::of_flow(std::size_t k) const {
                                           : weight;
 }
 
+// `crossed`: its place in `crossed_`.
 template <int dim>
-void ExchangeNodes<dim>::begin_step(double time, const ContactNodes<dim> &contact) {
+ExchangePoint ExchangeNodes<dim>::seen(const ExchangeSite &site, Index crossed, double time,
+                                       const ContactNodes<dim> &contact) const {
+  const contact::InterfaceNode<dim> &at = model_.interface[site.node];
+  ExchangePoint point = contact.seen_by_exchange(site.node);
+  point.law = model_.laws.of(at).exchange(site.what, at.point, time, crossed_[crossed]);
+  return point;
+}
+
+template <int dim>
+void ExchangeNodes<dim>::begin_step(double time, const ContactNodes<dim> &contact,
+                                    std::span<const double> state) {
   points_.clear();
   for (std::size_t k = 0; k < sites_.size(); ++k) {
     const auto entry = static_cast<Index>(k);
-    const contact::InterfaceNode<dim> &at = model_.interface[sites_[k].node];
-    ExchangePoint &point = points_.emplace_back(contact.seen_by_exchange(sites_[k].node));
+    ExchangePoint &point = points_.emplace_back(seen(sites_[k], entry, time, contact));
     point.entry = contact.n_unknowns() + entry;
     point.field = sites_[k].what == sites_[0].what ? 0 : 1;
     point.of_value = scale_[entry];
     point.of_flow = scale_[entry] * of_flow(k);
-    point.law = model_.laws.of(at).exchange(sites_[k].what, at.point, time, crossed_[entry]);
+  }
+  held_points_.clear();
+  held_values_.clear();
+  for (std::size_t k = 0; k < held_.size(); ++k) {
+    held_points_.push_back(seen(held_[k], size() + static_cast<Index>(k), time, contact));
+    held_values_.push_back(state[held_[k].unknown]);
   }
 }
 
@@ -120,26 +140,36 @@ void ExchangeNodes<dim>::prepare(StepOutcome &outcome) const {
 }
 
 template <int dim>
+void ExchangeNodes<dim>::cross(const ExchangeSite &site, Index crossed, const ExchangePoint &at,
+                               double value, const contact::ContactState &state,
+                               StepOutcome &outcome) {
+  const contact::Exchange::Value q = at.law->at(value, state);
+  const auto node = static_cast<Index>(site.node);
+  const double weight = model_.interface[site.node].weight;
+  if (site.what == Crossing::charge) {
+    outcome.charge_flow[node] = weight * q.flow;
+    crossed_[crossed] = q.flow;
+    return;
+  }
+  outcome.heat_flow[node] = weight * q.flow;
+  if (q.by_friction != 0)
+    outcome.friction_heat[node] = -weight * q.by_friction * state.friction;
+}
+
+template <int dim>
 void ExchangeNodes<dim>::end_step(const ContactNodes<dim> &contact, const CoupledSolution &solution,
                                   StepOutcome &outcome) {
   crossed_before_ = crossed_;
-  for (std::size_t k = 0; k < sites_.size(); ++k) {
-    const ExchangePoint &at = points_[k];
-    const contact::ContactState state =
-        state_at(at, contact.points(), solution, contact.couplings());
-    const contact::Exchange::Value q =
-        at.law->at(at.of_value * solution.interface.increment[at.entry], state);
-    const auto node = static_cast<Index>(sites_[k].node);
-    const double weight = model_.interface[sites_[k].node].weight;
-    if (sites_[k].what == Crossing::charge) {
-      outcome.charge_flow[node] = weight * q.flow;
-      crossed_[static_cast<Index>(k)] = q.flow;
-      continue;
-    }
-    outcome.heat_flow[node] = weight * q.flow;
-    if (q.by_friction != 0)
-      outcome.friction_heat[node] = -weight * q.by_friction * state.friction;
-  }
+  const auto state = [&](const ExchangePoint &at) {
+    return state_at(at, contact.points(), solution, contact.couplings());
+  };
+  for (std::size_t k = 0; k < sites_.size(); ++k)
+    cross(sites_[k], static_cast<Index>(k), points_[k],
+          points_[k].of_value * solution.interface.increment[points_[k].entry], state(points_[k]),
+          outcome);
+  for (std::size_t k = 0; k < held_.size(); ++k)
+    cross(held_[k], size() + static_cast<Index>(k), held_points_[k], held_values_[k],
+          state(held_points_[k]), outcome);
 }
 
 template <int dim>

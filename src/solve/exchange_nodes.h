@@ -12,14 +12,14 @@
 
 namespace tourmaline::solve {
 
-/// A temperature or potential of a contact node that is free and that a law acts on.
+/// A temperature or potential of a contact node that a law acts on.
 struct ExchangeSite {
   std::size_t node = 0;  ///< of `Model::interface`
   contact::Crossing what = contact::Crossing::heat;
   std::size_t unknown = 0;  ///< of the body
 };
 
-/// Temperatures, then potentials, each by node. Prescribed ones take no part in what crosses.
+/// Those that are free: temperatures, then potentials, each by node.
 template <int dim>
 std::vector<ExchangeSite> exchange_sites(const Model<dim> &model);
 
@@ -43,14 +43,16 @@ class ExchangeNodes {
   /// The entries of a state.
   Eigen::VectorXd entries(std::span<const double> state) const;
 
-  /// The exchanges of the step that ends at `time`; `contact` is in it already.
-  void begin_step(double time, const ContactNodes<dim> &contact);
+  /// The exchanges of the step that ends at `time`; `contact` is in it already, and `state` holds
+  /// the prescribed values.
+  void begin_step(double time, const ContactNodes<dim> &contact, std::span<const double> state);
   const std::vector<ExchangePoint> &points() const { return points_; }
   /// Rows of temperatures and of potentials, if there are any, by the sizes of the terms of each
   /// [N].
   std::vector<FieldRows> fields(const Eigen::VectorXd &terms) const;
 
-  /// What has crossed by a solution, whose increment has the entries here, too.
+  /// What has crossed by a solution, whose increment has the entries here, too. Where the
+  /// temperature or the potential is prescribed it crosses as well, and the support has the rest.
   void end_step(const ContactNodes<dim> &contact, const CoupledSolution &solution,
                 StepOutcome &outcome);
   /// What that adds to the right side of the rows of the sites.
@@ -65,12 +67,18 @@ class ExchangeNodes {
 
  private:
   double of_flow(std::size_t k) const;
+  ExchangePoint seen(const ExchangeSite &site, Eigen::Index crossed, double time,
+                     const ContactNodes<dim> &contact) const;
+  void cross(const ExchangeSite &site, Eigen::Index crossed, const ExchangePoint &at, double value,
+             const contact::ContactState &state, StepOutcome &outcome);
 
   const Model<dim> &model_;
-  std::vector<ExchangeSite> sites_;
+  std::vector<ExchangeSite> sites_, held_;
   Eigen::VectorXd scale_;
-  std::vector<ExchangePoint> points_;         // by site
-  Eigen::VectorXd crossed_, crossed_before_;  // D.nu by site, and a step ago [C/m^2]
+  std::vector<ExchangePoint> points_, held_points_;  // by site
+  std::vector<double> held_values_;                  // theta or phi
+  Eigen::VectorXd crossed_,
+      crossed_before_;  // D.nu by site, those held last, and a step ago [C/m^2]
 };
 
 }  // namespace tourmaline::solve

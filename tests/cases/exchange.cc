@@ -87,10 +87,7 @@ const Overrides coupled{"material={library='BaTiO3-Liu2014'}", "time={end=2,step
                         "contact.friction.coefficient={static=0.4,kinetic=0.25,speed=5e-5}",
                         "contact.gap='-2e-7*x/0.02'"};
 
-TEST(FrictionHeat, IsThePowerOfFrictionInACoupledBodyToo) {
-  const RunCase run = verification("friction-heat", coupled);
-  const Table history = run.history();
-  expect_balances(history);
+void expect_halves(const Table &history) {
   const std::vector<double> power = history.numbers("friction_dissipation"),
                             body = history.numbers("friction_heat_body"),
                             foundation = history.numbers("friction_heat_foundation");
@@ -98,6 +95,26 @@ TEST(FrictionHeat, IsThePowerOfFrictionInACoupledBodyToo) {
     EXPECT_GT(power[n], 0);
     EXPECT_NEAR(body[n], 0.5 * power[n], 1e-10 * power[n]);
     EXPECT_NEAR(body[n] + foundation[n], power[n], 1e-10 * power[n]);
+  }
+}
+
+TEST(FrictionHeat, IsThePowerOfFrictionInACoupledBodyToo) {
+  const RunCase run = verification("friction-heat", coupled);
+  expect_balances(run.history());
+  expect_halves(run.history());
+}
+
+// At the corner, whose temperature is held, the support takes what friction brings.
+TEST(FrictionHeat, WarmsTheBodyWhereATemperatureIsPrescribedToo) {
+  for (const char *heat :
+       {"contact.heat={law='insulated',friction_share=0.5}",
+        "contact.heat={law='exchange',coefficient=2e4,foundation_temperature=-2,friction_share=0.5,"
+        "ramp=1e-6}"}) {
+    Overrides cooled = coupled;
+    cooled.insert(cooled.end(), {"boundary[1].temperature=0", heat});
+    const RunCase run = verification("friction-heat", cooled);
+    expect_balances(run.history());
+    expect_halves(run.history());
   }
 }
 
