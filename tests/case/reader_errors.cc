@@ -73,7 +73,7 @@ const Mistake names[] = {
      {"[contact] bound = 15", "one of that name in [contact.friction]"}},
     {"pyroelectric", "pyroelectrik", {"did you mean \"pyroelectric\"?"}},
     {"library = \"BaTiO3-Liu2014\"", "c66 = 43e9", {"[material] c66", "(c11 - c12)/2"}},
-    {"normal = \"bilateral\"", "charge = 1", {"[contact] charge", "not available in this version"}},
+    {"normal = \"bilateral\"", "charge = 1", {"[contact] charge", "said by the table `electric`"}},
 };
 INSTANTIATE_TEST_SUITE_P(Names, MistakeInAFile, testing::ValuesIn(names));
 
@@ -206,7 +206,7 @@ const Mistake choices[] = {
      "\"unilatral\"",
      {"allowed: \"bilateral\", \"unilateral\", \"compliance\", \"damped\"",
       "did you mean \"unilateral\"?"}},
-    {"\"exchange\",", "\"frictional_heating\",", {"not available in this version"}},
+    {"\"exchange\",", "\"frictional_heating\",", {"allowed: \"insulated\", \"exchange\""}},
     {"\"exchange\"", "\"conducting\"", {"allowed: \"insulated\", \"exchange\""}},
     {"\"condensed\"", "\"monolitic\"", {"did you mean \"monolithic\"?"}},
     {"\"triangle\"", "\"tri\"", {"[mesh.box] cell = \"tri\"", "did you mean \"triangle\"?"}},
