@@ -129,7 +129,7 @@ WRONG = {
     "number above its range": (SQUARE, "cells = [4, 4]", "cells = [4, 4] }\nmesh.degree = 3 #"),
     "integer that does not fit": (SQUARE, "steps = 2", "steps = 3000000000"),
     "wrong choice": (SQUARE, "tresca", "treska"),
-    "law of a later version": (SQUARE, "bound = 15 }", 'bound = 15 }, heat = { law = "frictional_heating" }'),
+    "law that is a key": (SQUARE, "bound = 15 }", 'bound = 15 }, heat = { law = "frictional_heating" }'),
     "law alone that needs a constant": (SQUARE, 'on = "left",', 'on = "left", normal = "damped",'),
     "law in its table without its constant": (SQUARE, 'on = "left",', 'on = "left", normal = { law = "compliance" },'),
     "number for a law": (SQUARE, 'on = "left",', 'on = "left", normal = 1,'),

@@ -55,7 +55,7 @@ const Mistake names[] = {
      {"[contact] bound = 15", "one of that name in [contact.friction]"}},
     {"pyroelectric", "pyroelectrik", {"did you mean \"pyroelectric\"?"}},
     {"library = \"BaTiO3-Liu2014\"", "c66 = 43e9", {"[material] c66", "(c11 - c12)/2"}},
-    {"normal = \"bilateral\"", "charge = 1", {"[contact] charge", "the table `electric`"}},
+    {"normal = \"bilateral\"", "charge = 1", {"[contact] charge", "said by the table `electric`"}},
 };
 INSTANTIATE_TEST_SUITE_P(Names, MistakeInAFile, testing::ValuesIn(names));
 
