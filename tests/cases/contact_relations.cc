@@ -49,6 +49,15 @@ void expect_same_answer(const RunCase &one, const RunCase &other, int dim,
   EXPECT_EQ(one.contact().columns.at("status"), other.contact().columns.at("status"));
 }
 
+using Overrides = std::vector<std::string>;
+
+// Heat that crosses as friction, pressure and gap say, and charge that leaks where it touches.
+const Overrides linear_exchange{},
+    exchange_by_state{
+        "contact.heat={law='exchange',coefficient=2e4,foundation_temperature='20*t',"
+        "pressure={coefficient=3e4,reference=1e7,exponent=0.95},ramp=3e-7,friction_share=0.5}",
+        "contact.electric={law='leak',coefficient=1e-6,foundation_potential='50*t',ramp=2e-7}"};
+
 // 1. Another frame.
 
 // Pressed and rubbed, with every law's terms: {0} what holds the top, {1} keys of the contact.
@@ -81,6 +90,7 @@ const char *const damped =
 const char *const held = "normal = \"bilateral\"\nfriction = { law = \"tresca\", bound = 2e6 }";
 
 class OtherFrame : public ::testing::TestWithParam<const char *> {};
+class WhatCrosses : public ::testing::TestWithParam<const char *> {};
 
 // The foundation moves by -U and the top rests, or the foundation rests and the top moves by U.
 TEST_P(OtherFrame, AFoundationThatMovesIsABodyThatIsMovedTheOtherWay) {
@@ -109,6 +119,27 @@ TEST_P(OtherFrame, AFoundationThatMovesIsABodyThatIsMovedTheOtherWay) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, OtherFrame,
+                         ::testing::Values(coulomb, weakening, yielding, damped, held));
+
+TEST_P(WhatCrosses, IsTheSameWhoeverMoves) {
+  const std::string ux = "1.5e-6*sin(4*t)", uy = "-6e-7*sin(3*t)";
+  const RunCase foundation = run_text(
+      rubbed("0, 0", fmt::format("foundation_displacement = [\"-({})\", \"-({})\"]\n", ux, uy) +
+                         GetParam()),
+      exchange_by_state);
+  const RunCase body =
+      run_text(rubbed(fmt::format("\"{}\", \"{}\"", ux, uy), GetParam()), exchange_by_state);
+  expect_equal_quantities(foundation.contact(), body.contact(),
+                          {{"heat_flux"}, {"charge_flux"}, {"potential"}, {"temperature"}});
+  expect_equal_quantities(foundation.history(), body.history(),
+                          {{"friction_heat_body", "friction_heat_foundation"},
+                           {"charge_bottom"},
+                           {"heat_bottom", "heat_top"}});
+  expect_balances(foundation);
+  expect_balances(body);
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, WhatCrosses,
                          ::testing::Values(coulomb, weakening, yielding, damped, held));
 
 TEST(OtherFrame, WhatAFoundationThatMovesDoesIsTheSupportsWorkOfTheOtherFrame) {
@@ -197,13 +228,16 @@ heat = {{ law = "exchange", coefficient = 2e4, foundation_temperature = "20*t" }
                      half ? "[[boundary]]\non = \"left\"\ndisplacement = [0, \"free\"]" : "");
 }
 
-TEST(PlaneOfSymmetry, HalfOfTheBodyDoesWhatTheWholeDoes) {
-  const RunCase half = run_text(whole_or_half(true)), whole = run_text(whole_or_half(false));
+class PlaneOfSymmetry : public ::testing::TestWithParam<Overrides> {};
+
+TEST_P(PlaneOfSymmetry, HalfOfTheBodyDoesWhatTheWholeDoes) {
+  const RunCase half = run_text(whole_or_half(true), GetParam()),
+                whole = run_text(whole_or_half(false), GetParam());
   const Table a = half.contact(), b = whole.contact();
   expect_every_status(b);
   const std::vector<double> x = b.numbers("x");
   for (const char *column : {"normal_traction", "tangential_traction_x", "slip_x", "gap",
-                             "potential", "temperature", "friction_bound"}) {
+                             "potential", "temperature", "friction_bound", "heat_flux"}) {
     const std::vector<double> ours = a.numbers(column), theirs = b.numbers(column);
     for (std::size_t i = 0, j = 0; j < theirs.size(); ++j)
       if (x[j] > -1e-9) {
@@ -226,6 +260,9 @@ TEST(PlaneOfSymmetry, HalfOfTheBodyDoesWhatTheWholeDoes) {
   }
   expect_balances(half);
 }
+
+INSTANTIATE_TEST_SUITE_P(Exchange, PlaneOfSymmetry,
+                         ::testing::Values(linear_exchange, exchange_by_state));
 
 // 4. One cell deep between smooth walls, in cells of either degree.
 
@@ -257,16 +294,17 @@ heat = {{ law = "exchange", coefficient = 2e4, foundation_temperature = "20*t" }
            : "");
 }
 
-class OneCellDeep : public ::testing::TestWithParam<int> {};
+class OneCellDeep : public ::testing::TestWithParam<std::tuple<int, Overrides>> {};
 
 TEST_P(OneCellDeep, ASolidDoesWhatThePlaneBodyDoes) {
-  const RunCase plane = run_text(plane_or_deep(false, GetParam())),
-                solid = run_text(plane_or_deep(true, GetParam()));
+  const auto &[degree, exchange] = GetParam();
+  const RunCase plane = run_text(plane_or_deep(false, degree), exchange),
+                solid = run_text(plane_or_deep(true, degree), exchange);
   const Table flat = plane.contact(), deep = solid.contact();
   EXPECT_TRUE(has_status(flat, "slip"));
   EXPECT_TRUE(has_status(flat, "open"));
   const std::size_t layers = deep.n_rows() / flat.n_rows();
-  ASSERT_EQ(layers, static_cast<std::size_t>(GetParam() + 1));
+  ASSERT_EQ(layers, static_cast<std::size_t>(degree + 1));
   const std::vector<double> x = flat.numbers("x"), step = flat.numbers("step"),
                             deep_x = deep.numbers("x"), deep_step = deep.numbers("step");
   for (const auto &[column, of_deep] :
@@ -276,6 +314,8 @@ TEST_P(OneCellDeep, ASolidDoesWhatThePlaneBodyDoes) {
                                           {"gap", "gap"},
                                           {"friction_bound", "friction_bound"},
                                           {"potential", "potential"},
+                                          {"heat_flux", "heat_flux"},
+                                          {"charge_flux", "charge_flux"},
                                           {"temperature", "temperature"}}) {
     const std::vector<double> theirs = flat.numbers(column), ours = deep.numbers(of_deep);
     for (std::size_t i = 0; i < ours.size(); ++i) {
@@ -298,7 +338,9 @@ TEST_P(OneCellDeep, ASolidDoesWhatThePlaneBodyDoes) {
   expect_balances(plane);
 }
 
-INSTANTIATE_TEST_SUITE_P(Degree, OneCellDeep, ::testing::Values(1, 2));
+INSTANTIATE_TEST_SUITE_P(Degree, OneCellDeep,
+                         ::testing::Combine(::testing::Values(1, 2),
+                                            ::testing::Values(linear_exchange, exchange_by_state)));
 
 // 5. Regions and a circuit.
 

@@ -148,6 +148,15 @@ TEST_F(Interrupted, FrictionThatRemembersItsSlipOnAFoundationThatMovesGoesOn) {
   EXPECT_THAT(content_of(here() / "other/results/contact.csv"), HasSubstr("accumulated_slip"));
 }
 
+// Charge that has leaked stays.
+TEST_F(Interrupted, WhatCrossesTheContactGoesOn) {
+  std::ofstream(here() / "weakening.toml") << weakening;
+  expect_to_go_on(
+      "weakening.toml --set contact.heat.friction_share=0.5 --set contact.heat.ramp=3e-7 --set "
+      "contact.electric='{law=\"leak\",coefficient=1e-6,foundation_potential=5,ramp=2e-7}'");
+  EXPECT_THAT(content_of(here() / "other/results/history.csv"), HasSubstr("friction_heat_body"));
+}
+
 TEST_F(Interrupted, FrictionThatRemembersItsSlipGoesOnIteratively) {
   std::ofstream(here() / "weakening.toml") << weakening;
   expect_to_go_on("weakening.toml --set solver.body=iterative");

@@ -96,6 +96,24 @@ TEST_P(Ranks, ARubbedBlockThatComesOffIsTheSame) {
   expect_same_rubbing(one_, several_, 3);
 }
 
+// Heat by friction, pressure and gap, charge that leaks.
+const char *const crossing =
+    " --set contact.heat.pressure='{coefficient=3e4,reference=1e7,exponent=0.95}'"
+    " --set contact.heat.ramp=3e-7 --set contact.heat.friction_share=0.5"
+    " --set "
+    "contact.electric='{law=\"leak\",coefficient=1e-6,foundation_potential=\"50*t\",ramp=2e-7}'";
+
+TEST_P(Ranks, WhatCrossesTheContactByItsStateIsTheSame) {
+  for (const auto &[text, dim] : {std::pair(rubbed, 2), std::pair(rubbed_block, 3)}) {
+    ASSERT_NO_FATAL_FAILURE(run_twice(file_of(text) + crossing));
+    expect_same_rubbing(one_, several_, dim);
+    expect_equal_quantities(several_.contact, one_.contact, {{"charge_flux"}});
+    expect_equal_quantities(
+        several_.history, one_.history,
+        {{"friction_heat_body", "friction_heat_foundation"}, {"charge_bottom"}, {"heat_bottom"}});
+  }
+}
+
 const char *const iteratively = " --set solver.body=iterative --set solver.linear_tolerance=1e-13";
 
 TEST_P(Ranks, ARubbedBodyThatComesOffIsTheSameIteratively) {
