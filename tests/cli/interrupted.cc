@@ -150,10 +150,11 @@ TEST_F(Interrupted, FrictionThatRemembersItsSlipOnAFoundationThatMovesGoesOn) {
 
 // Charge that has leaked stays.
 TEST_F(Interrupted, WhatCrossesTheContactGoesOn) {
-  std::ofstream(here() / "weakening.toml") << weakening;
-  expect_to_go_on(
-      "weakening.toml --set contact.heat.friction_share=0.5 --set contact.heat.ramp=3e-7 --set "
-      "contact.electric='{law=\"leak\",coefficient=1e-6,foundation_potential=5,ramp=2e-7}'");
+  std::ofstream(here() / "crossing.toml") << weakening.substr(0, weakening.find("heat")) << R"toml(
+heat = { law = "exchange", coefficient = 2e4, foundation_temperature = "20*t", ramp = 3e-7, friction_share = 0.5 }
+electric = { law = "leak", coefficient = 1e-6, foundation_potential = 5, ramp = 2e-7 }
+)toml";
+  expect_to_go_on("crossing.toml");
   EXPECT_THAT(content_of(here() / "other/results/history.csv"), HasSubstr("friction_heat_body"));
 }
 
