@@ -53,6 +53,10 @@ void check_contacts(const Case &asked) {
         place_of_key(contact.places, contact.where, contact.name ? "name" : "on"));
     if (!is_new)
       fail(contact, "a contact is called so already, by " + other->second);
+    if (contact.heat.friction_share.value_or(0) > 0 && !contact.friction.resists())
+      fail(contact,
+           "heat.friction_share is a share of the heat that friction makes, but the contact has no "
+           "friction; give contact.friction, or leave the share out");
   }
 }
 

@@ -47,9 +47,9 @@ void Highlights::see(const output::HistoryRow &row) {
   for (const char *balance : balances)
     for (const auto &[name, value] : row.quantities)
       // What is no number is worse than any.
-      if (name == std::string(balance) + "_imbalance" && !(value <= imbalance_)) {
+      if (name == std::string(balance) + "_imbalance" && !(std::abs(value) <= imbalance_)) {
         imbalance_name_ = balance;
-        imbalance_ = value;
+        imbalance_ = std::abs(value);
         imbalance_step_ = row.step;
       }
 }

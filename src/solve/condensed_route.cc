@@ -318,16 +318,19 @@ void CondensedRoute<dim>::give_up(double time, const InterfaceSolution &solution
         "no digit of the slips certain; {}",
         time, ill_conditioned_advice));
   const std::vector<std::size_t> &unsettled = solution.unsettled;
-  throw SolveError(
-      fmt::format("the contact iteration did not converge at t = {:g} s: residual {:.3g} of the "
-                  "largest force after "
-                  "{} iterations, wanted {:.3g}; {} points are unsettled, among them{}; raise "
-                  "solver.max_iterations or "
-                  "solver.tolerance, or take smaller time steps",
-                  time, solution.residual, solution.iterations, model_.asked.solver.tolerance,
-                  unsettled.size(), first_places(unsettled.size(), [&](std::size_t i) {
-                    return model_.interface[contact_->node_of(unsettled[i])].point;
-                  })));
+  const std::string where =
+      unsettled.empty()
+          ? "what crosses of heat or charge by the contact's state is unsettled"
+          : fmt::format("{} points are unsettled, among them{}", unsettled.size(),
+                        first_places(unsettled.size(), [&](std::size_t i) {
+                          return model_.interface[contact_->node_of(unsettled[i])].point;
+                        }));
+  throw SolveError(fmt::format(
+      "the contact iteration did not converge at t = {:g} s: residual {:.3g} of the largest force "
+      "after {} iterations, wanted {:.3g}; {}; raise solver.max_iterations or solver.tolerance, or "
+      "take smaller time steps{}",
+      time, solution.residual, solution.iterations, model_.asked.solver.tolerance, where,
+      exchanges() ? ", or let conductances fade over a longer ramp" : ""));
 }
 
 // On the first rank, which holds the condensed stiffness: c and what is known with it.

@@ -86,6 +86,13 @@ TEST(Conflicts, HeatThatCrossesByTheContactsStateIsNotForEveryRoute) {
               HasSubstr("contact with electric.ramp is not available"));
 }
 
+TEST(Conflicts, WithoutFrictionThereIsNoHeatOfItToShare) {
+  EXPECT_THAT(error_of({"contact.heat.friction_share=0.5", "contact.friction={law='none'}"}),
+              HasSubstr("the contact has no friction"));
+  EXPECT_EQ(error_of({"contact.heat.friction_share=0", "contact.friction={law='none'}"}),
+            "no error");
+}
+
 TEST(Conflicts, TheTractionOnAContactBoundaryBelongsToTheLaw) {
   EXPECT_THAT(error_of({"boundary[3]={on='left', traction=[0,0]}"}),
               HasSubstr("the traction on a contact boundary"));
