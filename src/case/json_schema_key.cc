@@ -112,8 +112,6 @@ std::string description_of(const Key &key, const Value &value) {
     text += "; must not depend on t";
   if (!key.used.words.empty())
     text += "; only with " + key.used.words;
-  if (!key.foreseen.empty())
-    text += fmt::format("; not available in this version: {}", fmt::join(key.foreseen, ", "));
   return key.default_words.empty() ? text : text + "; default: " + key.default_words;
 }
 

@@ -89,10 +89,8 @@ std::string listed(const std::vector<std::string> &texts) {
 
 void check_choice(const Item &item, const std::string &text) {
   const Key &key = item.key;
-  const auto among = [&](const std::vector<std::string> &texts) {
-    return std::find(texts.begin(), texts.end(), text) != texts.end();
-  };
-  if ((key.choices.empty() && key.no_choices.empty()) || among(key.choices))
+  const bool any = key.choices.empty() && key.no_choices.empty();
+  if (any || std::find(key.choices.begin(), key.choices.end(), text) != key.choices.end())
     return;
   if (key.choices.empty())
     fail(item, "is not allowed; " + key.no_choices);
@@ -100,15 +98,7 @@ void check_choice(const Item &item, const std::string &text) {
     if (edit_distance(other, text) == 0)
       fail(item, "is not allowed; allowed: " + listed(key.choices) + "; did you mean \"" + choice +
                      "\"?");
-  if (among(key.foreseen))
-    fail(item, "not available in this version; allowed: " + listed(key.choices));
-  std::vector<std::string> known = key.choices;
-  known.insert(known.end(), key.foreseen.begin(), key.foreseen.end());
-  const std::optional<std::string> meant = nearest(text, known);
-  const bool is_foreseen =
-      meant && std::find(key.foreseen.begin(), key.foreseen.end(), *meant) != key.foreseen.end();
-  fail(item, "is not allowed; allowed: " + listed(key.choices) + did_you_mean(text, known) +
-                 (is_foreseen ? " That is not available in this version" : ""));
+  fail(item, "is not allowed; allowed: " + listed(key.choices) + did_you_mean(text, key.choices));
 }
 
 const toml::array &entries_of(const Item &item, std::string_view wanted) {

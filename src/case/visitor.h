@@ -45,7 +45,6 @@ struct Key {
   Range range = {};                        ///< of a number, and of a formula that is one
   std::vector<std::string> choices = {};   ///< the texts that are allowed; empty: any
   std::string choices_words = {};          ///< all of them, where they depend on the dimension
-  std::vector<std::string> foreseen = {};  ///< texts that a later version may allow
   Length length = {};                      ///< of a list, and of each row of a matrix
   int rows = 0;                            ///< of a matrix
   bool constant_in_time = false;           ///< of a formula

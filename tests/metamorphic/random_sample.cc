@@ -13,13 +13,27 @@ namespace {
 double typical(const std::string &key, double length) {
   constexpr double strain = 2e-7, stress = 1e4, charge = 4e-6, warmth = 5e-3;  // K
   static const std::map<std::string, std::pair<double, int>> all{
-      {"displacement", {strain, 1}},    {"traction", {stress, 0}},
-      {"bound", {stress, 0}},           {"force", {stress, -1}},
-      {"potential", {1e4, 1}},          {"voltage", {1e4, 1}},
-      {"surface_charge", {charge, 0}},  {"charge", {charge, -1}},
-      {"temperature", {warmth, 0}},     {"foundation_temperature", {warmth, 0}},
-      {"heat_flux", {50 * warmth, -1}}, {"heat", {50 * warmth, -2}},
-      {"coefficient", {50, -1}}};
+      {"displacement", {strain, 1}},
+      {"traction", {stress, 0}},
+      {"bound", {stress, 0}},
+      {"force", {stress, -1}},
+      {"potential", {1e4, 1}},
+      {"voltage", {1e4, 1}},
+      {"surface_charge", {charge, 0}},
+      {"charge", {charge, -1}},
+      {"temperature", {warmth, 0}},
+      {"foundation_temperature", {warmth, 0}},
+      {"heat_flux", {50 * warmth, -1}},
+      {"heat", {50 * warmth, -2}},
+      {"exchanged heat", {50, -1}},
+      {"exchanged charge", {charge / 1e4, -1}},
+      {"foundation_potential", {1e4, 1}},
+      {"foundation_displacement", {strain, 1}},
+      {"gap", {strain, 1}},
+      {"compliance", {stress / strain, -1}},
+      {"coulomb", {0.15, 0}},
+      {"cohesion", {stress / 10, 0}},
+      {"pressure", {stress, 0}}};
   const auto &[size, power] = all.at(key);
   return size * std::pow(length, power);
 }
@@ -74,15 +88,23 @@ class Builder {
       : sample_(sample), length_(length), random_(random) {}
 
   Condition &add(const std::string &table, int side, const std::string &key) {
-    const bool is_vector = key == "displacement" || key == "traction" || key == "force";
+    const bool is_vector = key.ends_with("displacement") || key == "traction" || key == "force";
     const int rows = is_vector ? sample_.dimension() : 1;
     return put(table, side < 0 ? "" : fmt::format("side{}", side), key,
                random_term(key, length_, rows, sample_.dimension(), random_));
   }
-  Condition &add_law(const std::string &table, const std::string &key) {
-    Condition &law = put(table, "", key, positive_term(key, length_, sample_.dimension(), random_));
+  // Of the size that is typical of `like`.
+  Condition &add_law(const std::string &table, const std::string &key, const std::string &like) {
+    Condition &law =
+        put(table, "", key, positive_term(like, length_, sample_.dimension(), random_));
     law.is_law = true;
     return law;
+  }
+  Condition &add_law(const std::string &table, const std::string &key) {
+    return add_law(table, key, key);
+  }
+  void add_number(const std::string &key, const std::string &like) {
+    sample_.numbers[key] = random_.sized(0.3, 3) * typical(like, length_);
   }
   // A plane of symmetry, or one whose support moves.
   void add_roller(int side, int axis) {
@@ -127,20 +149,90 @@ MeshShape random_shape(int dimension, int degree, int contact, Random &random) {
   return shape;
 }
 
-void add_contact(Builder &add, Sample &sample, int side, bool linear, bool moves, Random &random) {
+// So small that there is one solution.
+void add_coulomb(Builder &add, Sample &sample, Random &random) {
+  sample.laws["contact.friction"] = "coulomb";
+  add.add_law("contact.friction", "coefficient", "coulomb");
+  if (random.chance(0.5))
+    add.add_law("contact.friction", "cohesion");
+  if (random.chance(0.3))
+    add.add_law("contact.friction", "limit", "bound");
+}
+
+void add_tresca(Builder &add, Sample &sample, double larger) {
+  sample.laws["contact.friction"] = "tresca";
+  Term &bound = add.add_law("contact.friction", "bound").terms[0];
+  bound.value *= larger;
+  bound.gradient *= larger;
+}
+
+// One that opens.
+void add_normal_law(Builder &add, Sample &sample, Random &random) {
+  const char *laws[] = {"unilateral", "compliance", "damped"};
+  const std::string law = laws[random.below(3)];
+  sample.laws["contact.normal"] = law;
+  if (law == "unilateral")
+    return;
+  Term &c = add.add_law("contact.normal", "coefficient", "compliance").terms[0];
+  if (law == "damped") {
+    c.value *= sample.end;
+    c.gradient *= sample.end;
+  }
+}
+
+void add_charge(Builder &add, Sample &sample, Random &random) {
+  sample.laws["contact.electric"] = random.chance(0.5) ? "exchange" : "leak";
+  Term &c = add.add_law("contact.electric", "coefficient", "exchanged charge").terms[0];
+  if (sample.laws["contact.electric"] == "leak") {
+    c.value /= sample.end;
+    c.gradient /= sample.end;
+  }
+  add.add("contact.electric", -1, "foundation_potential");
+  if (random.chance(0.5))
+    add.add_number("contact.electric.ramp", "gap");
+}
+
+// Heat by the contact's state.
+void add_heat(Builder &add, Sample &sample, Random &random) {
+  if (random.chance(0.5)) {
+    add.add_law("contact.heat.pressure", "coefficient", "exchanged heat");
+    add.add_number("contact.heat.pressure.reference", "pressure");
+  }
+  if (random.chance(0.5))
+    add.add_number("contact.heat.ramp", "gap");
+  if (sample.laws.contains("contact.friction") && random.chance(0.5))
+    sample.numbers["contact.heat.friction_share"] = random.between(0, 1);
+}
+
+struct ContactWish {
+  bool opens, moves;  ///< it may open; a support moves some of its points
+};
+
+void add_contact(Builder &add, Sample &sample, int side, const ContactWish &here, const Wish &wish,
+                 Random &random) {
   sample.contact = fmt::format("side{}", side);
+  if (here.opens && random.chance(0.5))
+    add_normal_law(add, sample, random);
+  if (!wish.linear && random.chance(0.4))
+    add.add_law("contact", "gap").terms[0].value *= random.chance(0.5) ? 1 : -1;
   // A point that a support moves rubs, however much friction there is.
-  if (linear ? !moves && random.chance(0.6) : random.chance(0.85)) {
-    Term &bound = add.add_law("contact.friction", "bound").terms[0];
-    if (linear) {
-      bound.value *= 1e6;
-      bound.gradient *= 1e6;
-    }
+  if (wish.linear ? !here.moves && random.chance(0.6) : random.chance(0.85)) {
+    if (!wish.linear && random.chance(0.4))
+      add_coulomb(add, sample, random);
+    else
+      add_tresca(add, sample, wish.linear ? 1e6 : 1);
   }
+  if (random.chance(0.4))
+    add.add("contact", -1, "foundation_displacement");
   if (random.chance(0.6)) {
-    add.add_law("contact.heat", "coefficient");
+    sample.laws["contact.heat"] = "exchange";
+    add.add_law("contact.heat", "coefficient", "exchanged heat");
     add.add("contact.heat", -1, "foundation_temperature");
+    if (wish.exchange && random.chance(0.5))
+      add_heat(add, sample, random);
   }
+  if (wish.exchange && random.chance(0.3))
+    add_charge(add, sample, random);
 }
 
 void add_electrode(Builder &add, int side, bool resistors, Random &random) {
@@ -176,7 +268,8 @@ void add_supports(Builder &add, Sample &sample, const MeshShape &shape, const Wi
   add.add("boundary", held, "temperature");
   add.add("boundary", held, only_rollers ? "traction" : "displacement");
   if (touches)
-    add_contact(add, sample, contact, wish.linear, rolls || rimmed, random);
+    add_contact(add, sample, contact, {!wish.linear && !only_rollers, rolls || rimmed}, wish,
+                random);
   for (int axis = 0; axis < shape.dimension && rolls; ++axis)
     if (axis != contact / 2 && (only_rollers || random.chance(0.6)))
       add.add_roller(2 * axis, axis);

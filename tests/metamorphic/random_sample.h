@@ -9,6 +9,7 @@ namespace tourmaline::testing {
 struct Wish {
   bool linear = false;    ///< no friction, or so much that all that can stick does
   bool resistors = true;  ///< electrodes may have resistors, which the condensed route alone takes
+  bool exchange = true;   ///< heat and charge may cross by the contact's state: likewise
 };
 
 /// A small case whose strains, fields and temperatures are such that every coupling matters, and

@@ -21,7 +21,10 @@ enum Relation : unsigned int { rotation = 1, mirror, units, superposition, order
 constexpr unsigned int n_cases = 35;  // of each
 
 Wish wish_of(unsigned int seed) {
-  return {.linear = seed / 1000 == superposition, .resistors = seed / 1000 < newton};
+  const unsigned int relation = seed / 1000;
+  return {.linear = relation == superposition,
+          .resistors = relation < newton,
+          .exchange = relation < newton && relation != superposition};
 }
 
 // The parameter is the seed.
@@ -110,29 +113,48 @@ INSTANTIATE_TEST_SUITE_P(Seed, Renumbering, seeds_of(order));
 INSTANTIATE_TEST_SUITE_P(Seed, MonolithicRoute, seeds_of(newton));
 INSTANTIATE_TEST_SUITE_P(Seed, IterativeRoute, seeds_of(krylov));
 
-// What the generator may not lose.
-std::map<std::string, bool> features(const Sample &sample) {
+// What the generator may not lose, of what is wished for.
+std::map<std::string, bool> features(const Sample &sample, const Wish &wish) {
   const bool is_solid = sample.dimension() == 3, held = sample.has_free_components(),
              touches = !sample.contact.empty(), tilted = touches && sample.contact_is_tilted();
   const Condition *electrode = sample.find("electrode", "voltage");
-  return {{"2D", !is_solid},
-          {"3D", is_solid},
-          {"degree 2", sample.degree == 2},
-          {"3D of degree 2 in contact", is_solid && sample.degree == 2 && touches},
-          {"simplices", sample.mesh.simplices},
-          {"quadrilaterals or hexahedra", !sample.mesh.simplices},
-          {"incompatible modes", sample.incompatible},
-          {"regions", sample.materials.size() == 2},
-          {"conductor", sample.materials[0].conductor},
-          {"electrode", electrode != nullptr},
-          {"contact", touches},
-          {"no contact", !touches},
-          {"friction", sample.find("contact.friction", "bound") != nullptr},
-          {"heat exchange", sample.find("contact.heat", "coefficient") != nullptr},
-          {"tilted contact", tilted},
-          {"partly prescribed nodes", held},
-          {"partly prescribed nodes in contact", held && touches},
-          {"volume loads", sample.find("load", "force") != nullptr}};
+  const auto law = [&](const std::string &table, const std::string &name) {
+    const auto found = sample.laws.find("contact." + table);
+    return found != sample.laws.end() && found->second == name;
+  };
+  std::map<std::string, bool> all{
+      {"2D", !is_solid},
+      {"3D", is_solid},
+      {"degree 2", sample.degree == 2},
+      {"3D of degree 2 in contact", is_solid && sample.degree == 2 && touches},
+      {"simplices", sample.mesh.simplices},
+      {"quadrilaterals or hexahedra", !sample.mesh.simplices},
+      {"incompatible modes", sample.incompatible},
+      {"regions", sample.materials.size() == 2},
+      {"conductor", sample.materials[0].conductor},
+      {"electrode", electrode != nullptr},
+      {"contact", touches},
+      {"no contact", !touches},
+      {"Tresca's friction", law("friction", "tresca")},
+      {"heat exchange", sample.find("contact.heat", "coefficient") != nullptr},
+      {"moving foundation", sample.find("contact", "foundation_displacement") != nullptr},
+      {"tilted contact", tilted},
+      {"partly prescribed nodes", held},
+      {"partly prescribed nodes in contact", held && touches},
+      {"volume loads", sample.find("load", "force") != nullptr}};
+  if (!wish.linear)
+    all.insert({{"gap", sample.find("contact", "gap") != nullptr},
+                {"unilateral contact", law("normal", "unilateral")},
+                {"compliance", law("normal", "compliance")},
+                {"damped contact", law("normal", "damped")},
+                {"Coulomb's friction", law("friction", "coulomb")}});
+  if (wish.exchange)
+    all.insert({{"heat of friction", sample.numbers.contains("contact.heat.friction_share")},
+                {"heat by pressure", sample.numbers.contains("contact.heat.pressure.reference")},
+                {"fading exchange", sample.numbers.contains("contact.heat.ramp")},
+                {"charge through the contact", law("electric", "exchange")},
+                {"leak", law("electric", "leak")}});
+  return all;
 }
 
 TEST(RandomCases, HaveEveryFeatureUnderEveryRelation) {
@@ -141,7 +163,8 @@ TEST(RandomCases, HaveEveryFeatureUnderEveryRelation) {
     std::map<std::string, bool> found;
     for (unsigned int seed = 1000 * relation; seed < 1000 * relation + n_cases; ++seed) {
       Random random(seed);
-      for (const auto &[name, is_there] : features(random_sample(random, wish_of(seed)))) {
+      const Wish wish = wish_of(seed);
+      for (const auto &[name, is_there] : features(random_sample(random, wish), wish)) {
         found[name] = found[name] || is_there;
         count[name] += is_there;
       }

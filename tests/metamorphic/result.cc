@@ -25,7 +25,8 @@ struct Quantity {
 
 const std::vector<Quantity> &all_quantities() {
   constexpr bool vector = true;
-  constexpr Dimension energy{1, 1}, power{1, 1, 0, 0, -1}, charge{1, 1, -1}, stress{-2, 1};
+  constexpr Dimension energy{1, 1}, power{1, 1, 0, 0, -1}, charge{1, 1, -1}, stress{-2, 1},
+      charge_density{-1, 1, -1};
   static const std::vector<Quantity> all{
       {"nodes", "", "", {1}, vector},  // places
       {"nodes", "u_", "", {1}, vector},
@@ -37,6 +38,10 @@ const std::vector<Quantity> &all_quantities() {
       {"contact", "slip_", "", {1}, vector},
       {"contact", "slip_rate", "", {1, 0, 0, 0, -1}, false, false},
       {"contact", "heat_flux", "", {-1, 1, 0, 0, -1}},
+      {"contact", "gap", "", {1}},
+      {"contact", "charge_flux", "", charge_density},
+      {"contact", "temperature", "", {0, 0, 0, 1}},
+      {"contact", "potential", "", {0, 0, 1}},
       {"history", "m", "_potential", {0, 0, 1}, false, false},  // least and greatest
       {"history", "", "_energy", energy, false, false},
       {"history", "", "_power", power, false, false},

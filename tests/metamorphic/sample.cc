@@ -13,8 +13,23 @@ double Units::factor(const Dimension &of) const {
          std::pow(temperature, of.temperature) * std::pow(time, of.time);
 }
 
-Dimension dimension_of_key(const std::string &key) {
+Dimension dimension_of_key(const std::string &key, const std::string &law) {
+  static const std::map<std::string, Dimension> by_law{
+      {"contact.normal compliance", {-3, 1}},
+      {"contact.normal damped", {-3, 1, 0, 0, 1}},
+      {"contact.friction coulomb", {}},
+      {"contact.electric exchange", {-1, 1, -2}},
+      {"contact.electric leak", {-1, 1, -2, 0, -1}}};
+  if (key == "coefficient" && by_law.contains(law))
+    return by_law.at(law);
   static const std::map<std::string, Dimension> whole{{"displacement", {1}},
+                                                      {"foundation_displacement", {1}},
+                                                      {"gap", {1}},
+                                                      {"ramp", {1}},
+                                                      {"foundation_potential", {0, 0, 1}},
+                                                      {"friction_share", {}},
+                                                      {"reference", {-2, 1}},
+                                                      {"cohesion", {-2, 1}},
                                                       {"potential", {0, 0, 1}},
                                                       {"voltage", {0, 0, 1}},
                                                       {"temperature", {0, 0, 0, 1}},
@@ -110,6 +125,11 @@ std::string table(const SampleMaterial &material) {
 
 }  // namespace
 
+std::string Sample::law_of(const std::string &table) const {
+  const auto found = laws.find(table);
+  return table + " " + (found == laws.end() ? "" : found->second);
+}
+
 bool Sample::has_free_components() const {
   return std::any_of(conditions.begin(), conditions.end(),
                      [](const Condition &c) { return !c.free.empty(); });
@@ -145,10 +165,10 @@ std::string Sample::text() const {
     out += "material = " + table(materials[0]) + "\n";
   if (!contact.empty())
     out += fmt::format("contact.on = \"{}\"\n", contact);
-  if (find("contact.friction", "bound"))
-    out += "contact.friction.law = \"tresca\"\n";
-  if (find("contact.heat", "coefficient"))
-    out += "contact.heat.law = \"exchange\"\n";
+  for (const auto &[table, law] : laws)
+    out += fmt::format("{}.law = \"{}\"\n", table, law);
+  for (const auto &[key, value] : numbers)
+    out += fmt::format("{} = {:.17g}\n", key, value);
   for (const Condition &condition : conditions)
     if (condition.on.empty())
       out += fmt::format("{}.{} = {}\n", condition.table, condition.key, value_of(condition, end));

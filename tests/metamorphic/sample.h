@@ -19,8 +19,9 @@ struct Units {
   double factor(const Dimension &of) const;
 };
 
-/// Of a key of the case file; resistors in three dimensions.
-Dimension dimension_of_key(const std::string &key);
+/// Of a key of the case file; resistors in three dimensions. Contact laws share the key
+/// `coefficient`: theirs is that of the `law`, the name of its table and its own.
+Dimension dimension_of_key(const std::string &key, const std::string &law = {});
 
 /// A mesh file: vertices of the cells in Gmsh's order.
 struct SampleMesh {
@@ -44,7 +45,7 @@ struct Condition {
   std::string table, on, key;   ///< `on` is a side, or empty
   std::vector<Term> terms;      ///< their sum
   std::vector<bool> free = {};  ///< components that are not prescribed; empty: none
-  bool is_law = false;          ///< no load, but part of the operator or of the friction law
+  bool is_law = false;          ///< no load, but part of the operator or of a contact law
   double resistor = 0;          ///< of an electrode; 0: none
 };
 
@@ -63,11 +64,14 @@ struct Sample {
   std::vector<SampleMaterial> materials;  ///< by region
   std::vector<Condition> conditions;
   std::string contact;  ///< side; empty: none
+  std::map<std::string, std::string> laws = {};  ///< of the contact, by table
+  std::map<std::string, double> numbers = {};    ///< of laws, by table and key
   double end = 1;
   int steps = 2;
   std::string solver = "method = \"condensed\", body = \"direct\"";
 
   int dimension() const { return static_cast<int>(mesh.points.front().size()); }
+  std::string law_of(const std::string &table) const;  ///< for `dimension_of_key`
   bool has_free_components() const;
   bool contact_is_tilted() const;  ///< to the axes, somewhere
   /// nullptr: none.

@@ -103,7 +103,8 @@ Sample in_units(Sample sample, const Units &units) {
     for (auto &[key, value] : material.constants)
       value *= units.factor(dimension_of_key(key));
   for (Condition &condition : sample.conditions) {
-    const double factor = units.factor(dimension_of_key(condition.key));
+    const double factor =
+        units.factor(dimension_of_key(condition.key, sample.law_of(condition.table)));
     for (Term &term : condition.terms) {
       term.value *= factor;
       term.gradient *= factor / units.length;
@@ -111,6 +112,8 @@ Sample in_units(Sample sample, const Units &units) {
     condition.resistor *= units.factor(dimension_of_key("resistor")) *
                           (sample.dimension() == 2 ? units.length : 1);  // of a metre of depth
   }
+  for (auto &[key, value] : sample.numbers)
+    value *= units.factor(dimension_of_key(key.substr(key.rfind('.') + 1)));
   sample.end *= units.time;
   return sample;
 }
