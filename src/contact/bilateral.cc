@@ -117,8 +117,8 @@ void require_plain_normal(const InterfaceNode<dim> &at, const Admissible<dim> &a
     return;
   throw CaseError(fmt::format(
       "[contact] at ({:g}, {:g}, {:g}) some components of the displacement are prescribed, and "
-      "the normal ({:g}, {:g}, {:g}) is oblique to them; contact that opens or whose friction "
-      "depends on the pressure is not available there",
+      "the normal ({:g}, {:g}, {:g}) is oblique to them; contact that opens, or whose friction "
+      "or exchange depends on the pressure, is not available there",
       at.point[0], at.point[1], at.point[2], at.normal[0], at.normal[1],
       dim == 3 ? at.normal[dim - 1] : 0.));
 }

@@ -156,7 +156,7 @@ void add_coulomb(Builder &add, Sample &sample, Random &random) {
   if (random.chance(0.5))
     add.add_law("contact.friction", "cohesion");
   if (random.chance(0.3))
-    add.add_law("contact.friction", "limit", "bound");
+    add.add_law("contact.friction", "limit", "bound").terms[0].value *= 2;  // above the cohesion
 }
 
 void add_tresca(Builder &add, Sample &sample, double larger) {
@@ -181,7 +181,7 @@ void add_normal_law(Builder &add, Sample &sample, Random &random) {
 }
 
 void add_charge(Builder &add, Sample &sample, Random &random) {
-  sample.laws["contact.electric"] = random.chance(0.5) ? "exchange" : "leak";
+  sample.laws["contact.electric"] = random.chance(0.4) ? "exchange" : "leak";
   Term &c = add.add_law("contact.electric", "coefficient", "exchanged charge").terms[0];
   if (sample.laws["contact.electric"] == "leak") {
     c.value /= sample.end;
@@ -200,24 +200,27 @@ void add_heat(Builder &add, Sample &sample, Random &random) {
   }
   if (random.chance(0.5))
     add.add_number("contact.heat.ramp", "gap");
-  if (sample.laws.contains("contact.friction") && random.chance(0.5))
+  if (sample.laws.contains("contact.friction") && random.chance(0.8))
     sample.numbers["contact.heat.friction_share"] = random.between(0, 1);
 }
 
 struct ContactWish {
-  bool opens, moves;  ///< it may open; a support moves some of its points
+  bool opens;  ///< it may
+  bool rubs;   ///< friction and what crosses may depend on the pressure
+  bool moves;  ///< a support moves some of its points
 };
 
 void add_contact(Builder &add, Sample &sample, int side, const ContactWish &here, const Wish &wish,
                  Random &random) {
   sample.contact = fmt::format("side{}", side);
-  if (here.opens && random.chance(0.5))
+  if (here.opens && random.chance(0.6))
     add_normal_law(add, sample, random);
   if (!wish.linear && random.chance(0.4))
     add.add_law("contact", "gap").terms[0].value *= random.chance(0.5) ? 1 : -1;
   // A point that a support moves rubs, however much friction there is.
   if (wish.linear ? !here.moves && random.chance(0.6) : random.chance(0.85)) {
-    if (!wish.linear && random.chance(0.4))
+    // Tresca's friction jumps where contact opens: there may be several solutions.
+    if (here.rubs && (sample.laws.contains("contact.normal") || random.chance(0.4)))
       add_coulomb(add, sample, random);
     else
       add_tresca(add, sample, wish.linear ? 1e6 : 1);
@@ -228,10 +231,10 @@ void add_contact(Builder &add, Sample &sample, int side, const ContactWish &here
     sample.laws["contact.heat"] = "exchange";
     add.add_law("contact.heat", "coefficient", "exchanged heat");
     add.add("contact.heat", -1, "foundation_temperature");
-    if (wish.exchange && random.chance(0.5))
+    if (wish.exchange && here.rubs && random.chance(0.7))
       add_heat(add, sample, random);
   }
-  if (wish.exchange && random.chance(0.3))
+  if (wish.exchange && here.rubs && random.chance(0.6))
     add_charge(add, sample, random);
 }
 
@@ -268,8 +271,12 @@ void add_supports(Builder &add, Sample &sample, const MeshShape &shape, const Wi
   add.add("boundary", held, "temperature");
   add.add("boundary", held, only_rollers ? "traction" : "displacement");
   if (touches)
-    add_contact(add, sample, contact, {!wish.linear && !only_rollers, rolls || rimmed}, wish,
-                random);
+    add_contact(add, sample, contact,
+                // Not available at points that are held obliquely to the normal.
+                {.opens = !wish.linear && !only_rollers && !rimmed,
+                 .rubs = !wish.linear && !rimmed,
+                 .moves = rolls || rimmed},
+                wish, random);
   for (int axis = 0; axis < shape.dimension && rolls; ++axis)
     if (axis != contact / 2 && (only_rollers || random.chance(0.6)))
       add.add_roller(2 * axis, axis);
@@ -282,9 +289,10 @@ void add_loads(Builder &add, Sample &sample, const MeshShape &shape, const Wish 
   const bool conducts = sample.materials[0].conductor;
   const int side = shape.ring ? 5 : shape.layered < 2 ? 3 : 1;
   const bool has_side = !shape.ring || shape.dimension == 3, electrode = random.chance(0.4);
-  if (electrode)
-    add_electrode(add, has_side && random.chance(0.5) ? side : shape.layered, wish.resistors,
-                  random);
+  // An electrode at the contact would take what crosses there.
+  const bool beside = has_side && (sample.laws.contains("contact.electric") || random.chance(0.5));
+  if (electrode && (beside || !sample.laws.contains("contact.electric")))
+    add_electrode(add, beside ? side : shape.layered, wish.resistors, random);
   if (has_side) {
     add.add("boundary", side, "traction");
     add.add("boundary", side, "heat_flux");

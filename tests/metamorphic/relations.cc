@@ -91,7 +91,7 @@ TEST_P(Renumbering, TheMeshFileChangesNothing) {
 
 TEST_P(MonolithicRoute, GivesTheResultOfTheCondensedOne) {
   Sample other = sample;
-  other.solver = "method = \"monolithic\"";
+  other.solver = "method = \"monolithic\", tolerance = 1e-14";
   expect_image(other);
 }
 
@@ -181,7 +181,7 @@ TEST(RandomCases, StickAtOnePlaceWhileTheySlipAtAnother) {
   for (unsigned int seed = 1000; seed < 1000 + n_cases; ++seed) {
     Random random(seed);
     const Result result = run(random_sample(random));
-    n += std::set<std::string>(result.status.begin(), result.status.end()).size() == 2;
+    n += std::set<std::string>(result.status.begin(), result.status.end()).size() >= 2;
   }
   EXPECT_GE(n, 5);
 }

@@ -30,6 +30,7 @@ Dimension dimension_of_key(const std::string &key, const std::string &law) {
                                                       {"friction_share", {}},
                                                       {"reference", {-2, 1}},
                                                       {"cohesion", {-2, 1}},
+                                                      {"limit", {-2, 1}},
                                                       {"potential", {0, 0, 1}},
                                                       {"voltage", {0, 0, 1}},
                                                       {"temperature", {0, 0, 0, 1}},

@@ -68,7 +68,7 @@ struct Sample {
   std::map<std::string, double> numbers = {};    ///< of laws, by table and key
   double end = 1;
   int steps = 2;
-  std::string solver = "method = \"condensed\", body = \"direct\"";
+  std::string solver = "method = \"condensed\", body = \"direct\", tolerance = 1e-14";
 
   int dimension() const { return static_cast<int>(mesh.points.front().size()); }
   std::string law_of(const std::string &table) const;  ///< for `dimension_of_key`
