@@ -42,13 +42,13 @@ struct Key {
   std::string description;  ///< a phrase without capital and full stop; of a table a sentence
   std::string unit = {};
   bool required = false;
-  Range range = {};                        ///< of a number, and of a formula that is one
-  std::vector<std::string> choices = {};   ///< the texts that are allowed; empty: any
-  std::string choices_words = {};          ///< all of them, where they depend on the dimension
-  Length length = {};                      ///< of a list, and of each row of a matrix
-  int rows = 0;                            ///< of a matrix
-  bool constant_in_time = false;           ///< of a formula
-  std::string default_words = {};          ///< the default where the value does not say it
+  Range range = {};                       ///< of a number, and of a formula that is one
+  std::vector<std::string> choices = {};  ///< the texts that are allowed; empty: any
+  std::string choices_words = {};         ///< all of them, where they depend on the dimension
+  Length length = {};                     ///< of a list, and of each row of a matrix
+  int rows = 0;                           ///< of a matrix
+  bool constant_in_time = false;          ///< of a formula
+  std::string default_words = {};         ///< the default where the value does not say it
   Use used = {};
   bool optional = false;               ///< not giving it differs from giving any value
   std::string no_choices = {};         ///< why no text is allowed where `choices` is empty

@@ -63,7 +63,7 @@ struct Sample {
   bool incompatible = false;
   std::vector<SampleMaterial> materials;  ///< by region
   std::vector<Condition> conditions;
-  std::string contact;  ///< side; empty: none
+  std::string contact;                           ///< side; empty: none
   std::map<std::string, std::string> laws = {};  ///< of the contact, by table
   std::map<std::string, double> numbers = {};    ///< of laws, by table and key
   double end = 1;
