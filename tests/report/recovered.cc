@@ -30,11 +30,11 @@ where = "y >= 0.01"
 material.library = "silicon"
 )";
 
-const FieldArray &array_of(const FieldFile &file, const std::string &name) {
+const FieldArray &array_of(const FieldFile &file, std::string_view name) {
   for (const FieldArray &array : file.arrays)
     if (array.name == name)
       return array;
-  throw std::runtime_error("there is no array " + name);
+  throw std::runtime_error("there is no array " + std::string(name));
 }
 
 class Column : public ::testing::Test {
