@@ -54,6 +54,12 @@ double ContactLaws::pressure_under_supports(const Vector3 &point, double before,
   return law->is_smooth_at(now) ? law->pressure_at(now) : 0;
 }
 
+bool ContactLaws::is_closed_under_supports(const Vector3 &point, double before, double now) const {
+  const auto law = normal(point, before);
+  constexpr double r = 1;  // [N/m^3], any
+  return law->is_smooth_at(now) && law->is_closed(law->pressure_at(now) + r * now);
+}
+
 FrictionAt ContactLaws::friction() const {
   return friction_of(asked_.friction);
 }

@@ -43,6 +43,8 @@ class ContactLaws {
   /// foundation that yields; where it is rigid, nothing tells it from the supports, and it has
   /// none.
   double pressure_under_supports(const Vector3 &point, double before, double now) const;
+  /// Whether the foundation touches it there.
+  bool is_closed_under_supports(const Vector3 &point, double before, double now) const;
   /// Friction that does not depend on the pressure; none where `bound` has it.
   FrictionAt friction() const;
   /// The bound that depends on the pressure, or nothing; `slipped`: the accumulated slip at the end

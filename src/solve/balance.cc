@@ -90,7 +90,8 @@ Balance<dim>::Balance(const Model<dim> &model, std::span<const double> initial)
 }
 
 // What crosses by the contact's state crosses at nodes: each belongs to the first boundary of its
-// contact that it is on.
+// contact that it is on. What leaks by place alone leaks through facets, which reach nodes of other
+// contacts.
 template <int dim>
 void Balance<dim>::find_crossings(contact::Crossing what) {
   const bool is_heat = what == contact::Crossing::heat;
@@ -106,7 +107,8 @@ void Balance<dim>::find_crossings(contact::Crossing what) {
       add_once(is_heat ? heat_boundaries_ : charge_boundaries_, name);
       const std::vector<body::Node> nodes = model_.body.nodes_on({name});
       for (std::size_t i = 0; i < boundary_of.size(); ++i)
-        if (model_.interface[i].contact == c && boundary_of[i].empty() &&
+        if ((model_.interface[i].contact == c || !model_.laws[c].crosses_by_state(what)) &&
+            boundary_of[i].empty() &&
             std::find(nodes.begin(), nodes.end(), model_.interface[i].node) != nodes.end())
           boundary_of[i] = name;
     }
@@ -276,7 +278,8 @@ double Balance<dim>::lack_of_energy(const Step &step, double whole,
         continue;
       stored += gained[g];
       loss += lost[g];
-      round_off += step.round_off.energy[g];
+      if (!std::isinf(step.round_off.energy[g]))
+        round_off += step.round_off.energy[g];
       for (const double work : works[g])
         imbalance.add(work);
     }

@@ -201,8 +201,8 @@ double widest_opening(const Model<dim> &model, const BalanceStep<dim> &step) {
   return widest;
 }
 
-// What moves or holds prescribed values, and what moves at the contact, works against the round-off
-// of forces, charges and heats [J].
+// What moves or holds prescribed values, and what moves or crosses at the contact, works against
+// the round-off of forces, charges and heats [J].
 template <int dim>
 std::array<double, 3> work_of_round_off(const Model<dim> &model, const BalanceStep<dim> &step,
                                         const BalanceRoundOff &sums) {
@@ -212,9 +212,18 @@ std::array<double, 3> work_of_round_off(const Model<dim> &model, const BalanceSt
     const double moved = field == 0 ? step.change(p.unknown) : step.now.unknowns[p.unknown];
     most[field] = larger(most[field], std::abs(moved));
   }
-  for (const contact::InterfaceNode<dim> &at : model.interface)
+  const auto see = [&](int field, double value) {
+    most[field] = larger(most[field], std::abs(value));
+  };
+  for (const contact::InterfaceNode<dim> &at : model.interface) {
     for (int c = 0; c < dim; ++c)
-      most[0] = larger(most[0], std::abs(step.change(body::unknown<dim>(at.node, c))));
+      see(0, step.change(body::unknown<dim>(at.node, c)));
+    const contact::ContactLaws &laws = model.laws.of(at);
+    if (laws.lets_pass(contact::Crossing::charge))
+      see(1, step.now.unknowns[body::unknown<dim>(at.node, Fields<dim>::potential)]);
+    if (laws.lets_pass(contact::Crossing::heat))
+      see(2, step.now.unknowns[body::unknown<dim>(at.node, Fields<dim>::temperature)]);
+  }
   const double watt = model.op.reference_temperature() / model.step;
   return {most[0] * sums.force, most[1] * sums.charge, most[2] * sums.heat / watt};
 }
@@ -295,6 +304,7 @@ BalanceStep<dim> balance_step(const Model<dim> &model, const std::vector<bool> &
   step.friction = by_unknown(model, outcome.friction_forces);
   step.carried = carried(model, time, step.before.unknowns);
   step.normal = normal_energy(model, step);
+  step.backward_error = outcome.backward_error;
   step.leaked = outcome.leaked_charge;
   add_capacitors(model, cell_by_cell, step);
   step.charge_crossed = by_node(model, outcome.charge_flow);
@@ -311,7 +321,8 @@ BalanceStep<dim> balance_step(const Model<dim> &model, const std::vector<bool> &
 template <int dim>
 BalanceRoundOff round_off_of(const Model<dim> &model, const CoupledFields &coupled,
                              const BalanceStep<dim> &step) {
-  constexpr double eps = std::numeric_limits<double>::epsilon(), several = 1e2, neighbours = 10;
+  constexpr double several = 1e2, neighbours = 10;
+  const double eps = larger(std::numeric_limits<double>::epsilon(), step.backward_error);
   const std::vector<double> diagonal = model.op.diagonal(model.step);
   const std::array<double, Fields<dim>::count> scale = body::Operator<dim>::scales(diagonal);
   std::array<double, 3> size = coupled_sizes(coupled, step, scale);

@@ -52,6 +52,7 @@ struct BalanceStep {
   std::vector<double> conducted;       ///< by node [W]
   std::vector<double> heat_supplied;   ///< by node, at prescribed temperatures [W]
   Eigen::VectorXd friction_heat;       ///< by interface node, into the body [W]; empty: none
+  double backward_error = 0;           ///< of the body's equations, beyond round-off
   Eigen::VectorXd leaked;              ///< by interface node, before this step [C]; empty: none
   std::vector<double> heat_crossed;    ///< by node, at the contact by its state, inwards [W]
   std::vector<double> charge_crossed;  ///< the same of charge, outwards [C]
@@ -98,11 +99,11 @@ BalanceStep<dim> balance_step(const Model<dim> &model, const std::vector<bool> &
                               const StepOutcome &outcome, std::span<const double> now,
                               bool cell_by_cell);
 
-/// A solution is uncertain by the round-off of the largest scaled unknown of the fields that are
-/// coupled: that is what a field of which there is nothing consists of; fields that consist of what
-/// the solver let through from others may lack anything. Forces, charges and heats
-/// have |K| times that; energies cell by cell have its square, as K annihilates what changes none.
-/// That much a sum may lack.
+/// A solution is uncertain by the round-off, or the backward error, of the largest scaled unknown
+/// of the fields that are coupled: that is what a field of which there is nothing consists of;
+/// fields that consist of what the solver let through from others may lack anything. Forces,
+/// charges and heats have |K| times that; energies cell by cell have its square, as K annihilates
+/// what changes none. That much a sum may lack.
 template <int dim>
 BalanceRoundOff round_off_of(const Model<dim> &model, const CoupledFields &coupled,
                              const BalanceStep<dim> &step);

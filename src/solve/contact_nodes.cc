@@ -130,12 +130,14 @@ template <int dim>
 void ContactNodes<dim>::know_pressure(std::size_t i, double time, std::span<const double> before) {
   const contact::InterfaceNode<dim> &at = model_.interface[i];
   Node &node = nodes_[i];
-  node.pressure = model_.laws.of(at).pressure_under_supports(at.point, penetration(i, time, before),
-                                                             node.penetration);
+  const double then = penetration(i, time, before);
+  const contact::ContactLaws &laws = model_.laws.of(at);
+  node.pressure = laws.pressure_under_supports(at.point, then, node.penetration);
+  node.is_closed = laws.is_closed_under_supports(at.point, then, node.penetration);
   if (node.coupling == none)
     return;
   couplings_[node.coupling].pressure = node.pressure;
-  couplings_[node.coupling].is_closed = node.pressure > 0;
+  couplings_[node.coupling].is_closed = node.is_closed;
 }
 
 template <int dim>
@@ -154,7 +156,7 @@ ContactStatus ContactNodes<dim>::status(std::size_t i, const CoupledSolution &so
   const Node &node = nodes_[i];
   const std::vector<ContactStatus> &status = solution.interface.status;
   const bool is_open = is_moved_along_normal(i)
-                           ? !(node.pressure > 0)
+                           ? !node.is_closed
                            : node.normal != none && status[node.normal] == ContactStatus::open;
   return is_open ? ContactStatus::open : status[node.slip];
 }

@@ -74,7 +74,8 @@ class ContactNodes {
     contact::Admissible<dim> admissible;
     std::size_t normal = none, slip = 0;
     std::size_t coupling = none;
-    double pressure = 0;
+    double pressure = 0;     // of one that supports move along its normal
+    bool is_closed = false;  // likewise
     double penetration = 0;  // where the normal's unknown is 0 [m]
   };
   bool is_moved_along_normal(std::size_t i) const {

@@ -1,8 +1,12 @@
 #include "solve/exchange_nodes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "larger.h"
+#include "solve/circuit.h"
+#include "tourmaline/error.h"
 
 namespace tourmaline::solve {
 
@@ -34,6 +38,25 @@ std::vector<ExchangeSite> sites_where(bool prescribed, const Model<dim> &model) 
   return sites;
 }
 
+// Where an electrode says what the potential is, what crosses is its support's charge; where it
+// does not, the circuit would have to know of that charge.
+template <int dim>
+void require_given_voltages(const Model<dim> &model, const std::vector<ExchangeSite> &held) {
+  const Circuit circuit(model.asked.electrodes, model.step);
+  for (const ExchangeSite &site : held)
+    for (const std::size_t e : circuit.free()) {
+      const contact::InterfaceNode<dim> &at = model.interface[site.node];
+      const std::vector<body::Node> &nodes = model.electrodes[e];
+      if (site.what == Crossing::charge &&
+          std::find(nodes.begin(), nodes.end(), at.node) != nodes.end())
+        throw CaseError(fmt::format(
+            "[contact] electric: at ({:g}, {:g}, {:g}) the contact touches electrode \"{}\", whose "
+            "voltage is not given; charge that crosses by the contact's state is not available "
+            "there: leave out its ramp, or leave a facet between the two",
+            at.point[0], at.point[1], at.point[2], model.asked.electrodes[e].name));
+    }
+}
+
 }  // namespace
 
 template <int dim>
@@ -57,6 +80,7 @@ std::vector<std::size_t> contact_unknowns(const Model<dim> &model,
 template <int dim>
 ExchangeNodes<dim>::ExchangeNodes(const Model<dim> &model)
     : model_(model), sites_(exchange_sites(model)), held_(sites_where(true, model)) {
+  require_given_voltages(model, held_);
   scale_.resize(size());
   crossed_ = crossed_before_ = VectorXd::Zero(size() + static_cast<Index>(held_.size()));
   if (sites_.empty())

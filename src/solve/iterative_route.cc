@@ -92,7 +92,9 @@ StepOutcome IterativeRoute<dim>::advance(double time, std::span<const double> ri
   if (is_refined() || this->template outgrew_measured<dim>(state))
     measure();
   see_backward_error(body_.backward_error(freed(body_.residual())));
-  return outcome();
+  StepOutcome done = outcome();
+  done.backward_error = this->accuracy_so_far().backward_error;
+  return done;
 }
 
 template <int dim>

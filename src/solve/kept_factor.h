@@ -90,6 +90,7 @@ class KeptFactor {
   std::optional<InterfaceSystem> of_;
   double excess_ = 0;  // products that were needed beyond the usual ones since the factor was made
   std::optional<Eigen::PartialPivLU<Eigen::MatrixXf>> factor_;
+  std::vector<float> copied_;  // the last system's part of A
 };
 
 }  // namespace tourmaline::solve

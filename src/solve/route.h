@@ -48,6 +48,9 @@ struct StepOutcome {
   /// unloads: then the slip is a jump. Looked for in the condensed route, on contacts of less than
   /// a thousand slipping unknowns.
   bool slip_jumped = false;
+  /// Of the body's equations, the largest of all steps so far, whose errors stay, where they are
+  /// solved by iteration; else only round-off is left.
+  double backward_error = 0;
 
   /// Whether the step had more than a convex programme to solve.
   bool has_stages() const {

@@ -108,9 +108,7 @@ std::vector<HeldBounds::State> SaddleContact<dim>::states(const StepData &data,
             ? 0
             : std::hypot(y.tail(y.size() - point.has_normal).norm(), law.friction.held().norm());
     state.pressure = point.has_normal ? law.pressure(y, lambda) : supported_pressure(x, p, holding);
-    state.is_closed = point.has_normal
-                          ? law.is_closed(y, lambda)
-                          : !model_.laws[point.contact].can_open() || state.pressure > 0;
+    state.is_closed = !model_.laws[point.contact].can_open() || touches(data, x, p);
   }
   return all;
 }
@@ -134,9 +132,10 @@ std::vector<ContactStatus> SaddleContact<dim>::status(const StepData &data,
 // laws that open are the nodes.
 template <int dim>
 bool SaddleContact<dim>::touches(const StepData &data, const SaddlePoint &x, std::size_t p) const {
-  return system_.points()[p].has_normal
-             ? data.laws[p].is_closed(system_.displacement(p, x, data), system_.multiplier(p, x))
-             : supported_pressure(x, p, {}) > 0;
+  if (system_.points()[p].has_normal)
+    return data.laws[p].is_closed(system_.displacement(p, x, data), system_.multiplier(p, x));
+  const contact::InterfaceNode<dim> &at = model_.interface[p];
+  return model_.laws.of(at).is_closed_under_supports(at.point, penetration(p), closing(x, p));
 }
 
 // Of a node that supports hold along its normal.
@@ -146,8 +145,13 @@ double SaddleContact<dim>::supported_pressure(const SaddlePoint &x, std::size_t 
   const contact::InterfaceNode<dim> &at = model_.interface[p];
   if (!model_.laws.of(at).can_open())
     return -holding.template segment<dim>(dim * static_cast<Index>(p)).dot(at.normal) / at.weight;
-  return model_.laws.of(at).pressure_under_supports(
-      at.point, penetration(p), displacement(x.body, p).dot(at.normal) - model_.reach(at, time_));
+  return model_.laws.of(at).pressure_under_supports(at.point, penetration(p), closing(x, p));
+}
+
+template <int dim>
+double SaddleContact<dim>::closing(const SaddlePoint &x, std::size_t node) const {
+  const contact::InterfaceNode<dim> &at = model_.interface[node];
+  return displacement(x.body, node).dot(at.normal) - model_.reach(at, time_);
 }
 
 // At the end of the last step.

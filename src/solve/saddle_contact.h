@@ -62,6 +62,7 @@ class SaddleContact {
   double supported_pressure(const SaddlePoint &x, std::size_t p,
                             const Eigen::VectorXd &holding) const;
   double penetration(std::size_t node) const;
+  double closing(const SaddlePoint &x, std::size_t node) const;
   Vector displacement(std::span<const double> state, std::size_t node) const;
   contact::Tangent whole_friction(const StepData &data, const SaddlePoint &x, std::size_t p,
                                   const Eigen::VectorXd &holding) const;

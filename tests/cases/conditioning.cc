@@ -48,11 +48,14 @@ TEST_P(Thickness, RefinedCantileverBendsAsItShould) {
   const RunCase run(beam, {thick(GetParam())});
   // Not tighter than 2 % of the shear: two quadratic cells in the height see its parabola as a
   // broken line.
-  EXPECT_NEAR(tip(run) / deflection(GetParam()), 1, 1e-8 + 0.06 * GetParam() * GetParam());
   const nlohmann::json summary = run.summary();
+  const double error = summary["forward_error"];
+  EXPECT_NEAR(tip(run) / deflection(GetParam()), 1,
+              1e-8 + 10 * error + 0.06 * GetParam() * GetParam());
   EXPECT_TRUE(summary["refined"]);
-  EXPECT_LT(summary["forward_error"], 1e-6);
-  EXPECT_TRUE(summary["warnings"].empty());
+  // Of the thinnest it depends on MUMPS and on the processor on which side of a warning it is.
+  EXPECT_LT(error, GetParam() > 1e-5 ? 1e-8 : 3e-6);
+  EXPECT_EQ(error > 1e-6, !summary["warnings"].empty());
   EXPECT_LT(std::abs(run.history().numbers("energy_imbalance").back()), 1e-6);
 }
 

@@ -81,8 +81,10 @@ DrawnLine drawn_line(const std::string &colour, const std::string &path) {
   return line;
 }
 
+// The styles stand in one attribute or, from cairo 1.18 on, each in its own.
 std::vector<DrawnLine> drawn_lines(const std::string &svg) {
-  const std::regex of_data(R"re(stroke-width:1\.1;[^"]*stroke:(rgb\([^)]*\))[^"]*" d="([^"]*)")re");
+  const std::regex of_data(
+      R"re(stroke-width(?::|=")1\.1[;"][^>]*stroke(?::|=")(rgb\([^)]*\))[^>]* d="([^"]*)")re");
   std::vector<DrawnLine> lines;
   for (std::sregex_iterator at(svg.begin(), svg.end(), of_data), end; at != end; ++at)
     lines.push_back(drawn_line((*at)[1], (*at)[2]));
@@ -90,10 +92,10 @@ std::vector<DrawnLine> drawn_lines(const std::string &svg) {
 }
 
 std::size_t marks(const std::string &svg, const std::string &colour) {
-  const std::string filled = "fill:" + colour;
   std::size_t count = 0;
-  for (std::size_t at = svg.find(filled); at != std::string::npos; at = svg.find(filled, at + 1))
-    ++count;
+  for (const std::string &filled : {"fill:" + colour, "fill=\"" + colour})
+    for (std::size_t at = svg.find(filled); at != std::string::npos; at = svg.find(filled, at + 1))
+      ++count;
   return count;
 }
 
