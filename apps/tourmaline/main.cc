@@ -63,7 +63,7 @@ void run(const Asked &asked) {
 
 void check(const Asked &asked) {
   const auto read = case_of(asked);
-  tourmaline::run::check(read);
+  tourmaline::run::check_thoroughly(read);
   std::cout << tourmaline::casefile::resolved(read) << tourmaline::run::survey(read);
   for (const std::string &warning : tourmaline::casefile::snapping_warnings(read))
     std::cout << "\n# warning: " << warning << "\n";

@@ -11,6 +11,7 @@
 #include "run/lone_error.h"
 #include "run/memory.h"
 #include "run/process.h"
+#include "run/rehearsal.h"
 #include "run/resumption.h"
 #include "run/time_loop.h"
 #include "tourmaline/error.h"
@@ -23,6 +24,11 @@ void check(const casefile::Case &asked) {
   else
     material::Composition<3>{asked};
   parallel::together([&] { require_memory(asked); });
+}
+
+void check_thoroughly(const casefile::Case &asked) {
+  check(asked);
+  rehearse(asked);
 }
 
 namespace {

@@ -17,6 +17,7 @@
 #include "run/lone_error.h"
 #include "run/memory.h"
 #include "run/plausibility.h"
+#include "run/rehearsal.h"
 #include "run/resumption.h"
 #include "run/step_check.h"
 #include "run/survey.h"
@@ -62,14 +63,10 @@ TimeLoop<dim>::TimeLoop(const casefile::Case &asked, const std::filesystem::path
                              : solves_iteratively(asked)),
       model_(announced<dim>(asked, progress_)),
       leaked_(model_),
-      most_strained_(model_.n_unknowns()) {
+      most_strained_(model_.n_unknowns()),
+      adrift_(model_) {
   state_ = body::initial_state(model_.body, asked.initial);
-  std::vector<double> trial = state_;
-  prescribe(model_.time(1), trial);
-  sum_loads(model_.time(1));
-  for (const auto &node : model_.interface)
-    model_.friction(contact::contact_place(node.point, model_.time(1),
-                                           Eigen::Matrix<double, dim, 0>{}, node.contact));
+  rehearse(model_, 1);
   if (options.friction) {
     model_.friction = contact::checked(options.friction, options.friction_name);
     model_.laws.replace_friction();
@@ -139,6 +136,7 @@ void TimeLoop<dim>::step(int n) {
   solve::StepOutcome outcome = route_->advance(n, right_side_, state_, next_);
   leaked_.describe(outcome);
   account_.step(n, outcome, watch.lap());
+  adrift_.step(n, outcome);
   const output::HistoryRow row = record(n, outcome);
   highlights_.see(row);
   most_strained_.step(row, next_);
@@ -286,6 +284,7 @@ void TimeLoop<dim>::save(int n) {
     numbers.put("state", state_);
     leaked_.save(numbers);
     account_.save(numbers);
+    adrift_.save(numbers);
     route_->save(numbers);
     recorder_->save(numbers);
     highlights_.save(numbers);
@@ -302,6 +301,7 @@ void TimeLoop<dim>::restore() {
   numbers.fill("state", state_);
   leaked_.restore(numbers);
   account_.restore(numbers);
+  adrift_.restore(numbers);
   route_->restore(numbers);
   recorder_->restore(state_, numbers);
   highlights_.restore(numbers);
@@ -371,6 +371,7 @@ std::vector<std::string> TimeLoop<dim>::warnings() const {
   if (most_strained_.step() > 0)
     add(locking_warning(model_, most_strained_.state()));
   add(account_.jump_warning());
+  add(adrift_.warning());
   for (const std::string &text : material_warnings(model_.asked))
     add(text);
   for (const std::string &text : casefile::snapping_warnings(model_.asked))

@@ -13,6 +13,7 @@
 #include "output/result_folder.h"
 #include "output/summary.h"
 #include "run/account.h"
+#include "run/adrift.h"
 #include "run/chosen_route.h"
 #include "run/ending.h"
 #include "run/most_strained.h"
@@ -80,6 +81,7 @@ class TimeLoop {
   int saved_step_ = 0;  // of the checkpoint that is there; 0: none
   Highlights highlights_;
   MostStrained most_strained_;
+  Adrift<dim> adrift_;
   TemperaturePeak temperature_;
 };
 

@@ -285,7 +285,7 @@ std::optional<KeptFactor::Solved> KeptFactor::iterate(const InterfaceSystem &sys
   excess_ = std::max(excess_ + static_cast<double>(directions.size()) - usual_products, 0.);
   Solved found = spread(system, a, x);
   left = b - product(system, found);
-  return left.norm() <= 10 * reduction * b.norm() ? std::optional(std::move(found)) : std::nullopt;
+  return left.norm() <= 2 * reduction * b.norm() ? std::optional(std::move(found)) : std::nullopt;
 }
 
 // Nothing where it must be solved exactly.

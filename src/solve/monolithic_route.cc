@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "body/backward_error.h"
+#include "larger.h"
 #include "parallel/ranks.h"
 #include "solve/first_places.h"
 #include "solve/held_bounds.h"
@@ -141,8 +142,12 @@ void MonolithicRoute<dim>::find_with_bounds(double time, const StepData &data,
       laws[p].friction = held.law(p, own[p]);
     find(time, data, start, outcome);
     start = x_;
-    if (held.settle(contact_.states(data, x_),
-                    model_.asked.solver.tolerance * force_size_ / least_weight)) {
+    const std::vector<HeldBounds::State> states = contact_.states(data, x_);
+    // By the pressures: forces inside the body may be larger by many powers of ten.
+    double settled = std::numeric_limits<double>::epsilon() * force_size_ / least_weight;
+    for (const HeldBounds::State &state : states)
+      settled = larger(settled, model_.asked.solver.tolerance * std::abs(state.pressure));
+    if (held.settle(states, settled)) {
       outcome.stage = ContactStage::fixed_point;
       outcome.friction_bound = VectorXd::Zero(static_cast<Index>(laws.size()));
       for (std::size_t p = 0; p < laws.size(); ++p)

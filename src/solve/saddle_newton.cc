@@ -57,7 +57,7 @@ SaddleNewton<dim>::SaddleNewton(SaddleSystem<dim> &system, const StepData &data,
                                 SaddlePoint prediction)
     : system_(system), data_(data), x_(std::move(prediction)) {
   constexpr double little = 1e-3;
-  const auto sizes = system_.row_sizes(data_, x_);
+  const auto sizes = system_.row_sizes(data_, x_).of_field;
   for (std::size_t field = 0; field < 3; ++field)
     least_sizes_[field] = little * sizes[field];
   least_displacement_ = little * system_.largest_displacement(x_);
@@ -190,21 +190,26 @@ template <int dim>
 Verdict SaddleNewton<dim>::judge(const StepData &data) const {
   Verdict verdict;
   const auto rows = system_.largest_rows(system_.residual(data, x_));
-  auto sizes = system_.row_sizes(data, x_);
+  const auto found = system_.row_sizes(data, x_);
+  auto sizes = found.of_field;
   for (std::size_t field = 0; field < 3; ++field)
     sizes[field] = larger(sizes[field], least_sizes_[field]);
   verdict.force_size = sizes[0];
   for (std::size_t field = 0; field < 3; ++field)
     verdict.blocks[field] = relative_to(rows[field], sizes[field]);
+  // What is left of the law counts beside the forces around its point, which may be far smaller
+  // than those elsewhere; where there are none, beside their round-off.
+  constexpr double nothing = 1e-7;
   double gap = 0, law = 0;
   for (std::size_t p = 0; p < data.laws.size(); ++p) {
     if (data.laws[p].has_normal && !data.laws[p].normal)
       gap = larger(gap, std::abs(system_.displacement(p, x_, data)[0]));
-    law = larger(law, law_residual(p));
+    law = larger(
+        law, relative_to(law_residual(p), larger(found.at_point[p], nothing * verdict.force_size)));
   }
   verdict.blocks[3] =
       relative_to(gap, larger(system_.largest_displacement(x_), least_displacement_));
-  verdict.blocks[4] = relative_to(law, verdict.force_size);
+  verdict.blocks[4] = law;
   return verdict;
 }
 

@@ -9,8 +9,8 @@ namespace tourmaline::solve {
 /// Residuals of the blocks of (37), each over its own size, or a thousandth of that where the step
 /// began if this is more, as round-off of what was does not go when all else does: the body's rows
 /// by their largest sum of terms, u_nu of bilateral contact by the largest displacement, and the
-/// laws, w |lambda - P(lambda
-/// + r y)| with the stiffness of a node for r, by the size of the mechanical rows.
+/// laws, w |lambda - P(lambda + r y)| with the stiffness of a node for r, each by the size of the
+/// mechanical rows around its point.
 struct Verdict {
   static constexpr std::array names{"the balance of forces (31)", "the balance of charges (32)",
                                     "the balance of heat (33)", "the normal displacement (34)",

@@ -200,13 +200,22 @@ double SaddleSystem<dim>::largest_displacement(const SaddlePoint &x) const {
 }
 
 template <int dim>
-std::array<double, 3> SaddleSystem<dim>::row_sizes(const StepData &data,
-                                                   const SaddlePoint &x) const {
+typename SaddleSystem<dim>::RowSizes SaddleSystem<dim>::row_sizes(const StepData &data,
+                                                                  const SaddlePoint &x) const {
   const std::vector<double> terms = operator_.sizes(step_, x.body);
-  std::array<double, 3> sizes{};
-  for (const std::size_t i : unknown_of_)
-    sizes[field_of<dim>(i)] =
-        larger(sizes[field_of<dim>(i)], std::abs(data.right_side[i]) + terms[i]);
+  const auto size = [&](std::size_t i) { return std::abs(data.right_side[i]) + terms[i]; };
+  RowSizes sizes;
+  for (const std::size_t i : unknown_of_) {
+    double &largest = sizes.of_field[field_of<dim>(i)];
+    largest = larger(largest, size(i));
+  }
+  for (const Point &point : points_) {
+    double &largest = sizes.at_point.emplace_back(0);
+    for (const auto &share : point.mean)
+      for (int c = 0; c < dim; ++c)
+        if (const std::size_t i = body::unknown<dim>(share.node, c); is_free(i))
+          largest = larger(largest, size(i));
+  }
   return sizes;
 }
 

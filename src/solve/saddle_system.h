@@ -54,8 +54,12 @@ class SaddleSystem {
 
   /// R(x); zero in prescribed rows.
   SaddlePoint residual(const StepData &data, const SaddlePoint &x) const;
-  /// Largest sum |K| |x| + |b| of a row, by field: [N], and in the scaled rows of phi and theta.
-  std::array<double, 3> row_sizes(const StepData &data, const SaddlePoint &x) const;
+  /// Largest sum |K| |x| + |b| of a row.
+  struct RowSizes {
+    std::array<double, 3> of_field{};  ///< [N], and in the scaled rows of phi and theta
+    std::vector<double> at_point;      ///< by contact point, of its nodes' mechanical rows [N]
+  };
+  RowSizes row_sizes(const StepData &data, const SaddlePoint &x) const;
   /// Largest entry, by field, of the body rows of a residual.
   std::array<double, 3> largest_rows(const SaddlePoint &residual) const;
 

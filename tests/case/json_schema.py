@@ -79,7 +79,7 @@ RIGHT = [
     (SQUARE, "bound = 15", 'bound = "15*(1 + x)"'),
     (SQUARE, 'law = "tresca", bound = 15', 'law = "none"'),
     (SQUARE, 'law = "tresca", bound = 15', ""),
-    (SQUARE, 'on = "left"', 'on = ["left", "bottom"]'),
+    (SQUARE, 'on = "left"', 'on = ["bottom", "top"]'),
     (SQUARE, "displacement = [0, 0]", 'displacement = ["free", "1e-9*t"], temperature = 0'),
     (SQUARE, "cells = [4, 4]", 'cells = [4, 4], cell = "quadrilateral", grading = { left = 3, top = 2.5 }'),
     (CUBE, 'cell = "hexahedron"', 'cell = "hexahedron", grading = { front = 3 }'),

@@ -190,6 +190,14 @@ TEST(Locking, LinearCellsThatAreTooStiffForABimorphAreToldOf) {
   EXPECT_THAT(warnings(read(bimorph(2, plane_mesh("triangle", 128, 8, "")))), HasSubstr("bends"));
 }
 
+// So stiff that the voltage bends it by next to nothing, and only stretches it.
+TEST(Locking, ABimorphThatItsCellsBlockAltogetherIsToldOf) {
+  for (const char *cell : {"triangle", "quadrilateral"})
+    for (const int n : {3, 5, 10, 20, 30})
+      EXPECT_THAT(warnings(read(bimorph(2, plane_mesh(cell, n, 2, "")))), HasSubstr("bends"))
+          << cell << ", " << n;
+}
+
 TEST(Locking, LinearCellsThatAreTooStiffForACantileverAreToldOf) {
   for (const char *cell : {"triangle", "quadrilateral"})
     EXPECT_THAT(warnings(read(cantilever(plane_mesh(cell, 50, 4, "")))), HasSubstr("bends"))

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "equal_quantities.h"
 #include "run_case.h"
 #include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
@@ -219,6 +220,33 @@ TEST(WellConditioned, BodyOfThePaperIsNotRefinedAndSaysNothing) {
   EXPECT_FALSE(summary["refined"]);
   EXPECT_LT(summary["forward_error"], 1e-10);
   EXPECT_TRUE(summary["warnings"].empty());
+}
+
+// Forces around the contact are far below those inside the body; Coulomb's law settles by its own.
+TEST(StiffnessContrast, CoulombContactOfTheSofterPartsIsThatOfTheCondensedRoute) {
+  const auto run = [](const char *solver) {
+    return run_text(R"toml(
+mesh.box = { min = [0, 0], max = [0.3, 0.1], cells = [9, 3], cell = "quadrilateral" }
+time = { end = 1, steps = 3 }
+boundary = [ { on = "left", displacement = [0, 0], potential = 0, temperature = 0 },
+             { on = "right", traction = ["1e3*t", "-1e3*t"] } ]
+contact = { on = "bottom", normal = "unilateral", friction = { law = "coulomb", coefficient = 0.3 } }
+[[region]]
+where = "x > 0.1 && x < 0.2"
+material = { symmetry = "isotropic", young = 1e11, poisson = 0.3, eps11 = 10, k11 = 1, density = 1000, specific_heat = 1000, reference_temperature = 293 }
+[[region]]
+where = "x <= 0.1 || x >= 0.2"
+material = { symmetry = "isotropic", young = 1e3, poisson = 0.3, eps11 = 10, k11 = 1, density = 1000, specific_heat = 1000, reference_temperature = 293 }
+)toml",
+                    {solver});
+  };
+  const RunCase condensed = run("solver.method=condensed"),
+                monolithic = run("solver.method=monolithic");
+  EXPECT_GT(condensed.history().numbers("slip").back(), 0);
+  // The contrast takes eight of sixteen digits.
+  expect_equal_quantities(
+      monolithic.contact(), condensed.contact(),
+      {{"normal_displacement"}, {"slip_x"}, {"normal_traction"}, {"tangential_traction_x"}}, 1e-6);
 }
 
 class NotFinite : public ::testing::TestWithParam<std::string> {};

@@ -289,10 +289,12 @@ void add_loads(Builder &add, Sample &sample, const MeshShape &shape, const Wish 
   const bool conducts = sample.materials[0].conductor;
   const int side = shape.ring ? 5 : shape.layered < 2 ? 3 : 1;
   const bool has_side = !shape.ring || shape.dimension == 3, electrode = random.chance(0.4);
-  // An electrode at the contact would take what crosses there.
-  const bool beside = has_side && (sample.laws.contains("contact.electric") || random.chance(0.5));
-  if (electrode && (beside || !sample.laws.contains("contact.electric")))
-    add_electrode(add, beside ? side : shape.layered, wish.resistors, random);
+  // An electrode at the contact would take what crosses there; one that floats is not available
+  // beside it either.
+  const bool charges = sample.laws.contains("contact.electric"),
+             beside = has_side && (charges || random.chance(0.5));
+  if (electrode && (beside || !charges))
+    add_electrode(add, beside ? side : shape.layered, wish.resistors && !charges, random);
   if (has_side) {
     add.add("boundary", side, "traction");
     add.add("boundary", side, "heat_flux");

@@ -80,9 +80,9 @@ on = "back"
   const std::string alone = "[contact]";
   text.replace(text.find(alone), alone.size(), "[[contact]]");
   std::ofstream(met) << text;
-  for (const std::string body : {"direct", "iterative"}) {
+  for (const std::string body : {"direct", "iterative --set solver.linear_tolerance=1e-13"}) {
     SCOPED_TRACE(body);
-    expect_same(met + " --set solver.linear_tolerance=1e-13 --set solver.body=" + body);
+    expect_same(met + " --set solver.body=" + body);
   }
 }
 

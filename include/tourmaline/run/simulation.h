@@ -14,6 +14,9 @@ namespace tourmaline::run {
 /// Checks what needs the material library and this machine's memory, without building anything.
 /// Throws CaseError.
 void check(const casefile::Case &asked);
+/// Builds mesh and operator as well, and evaluates all formulas at all places, in up to a hundred
+/// steps. Throws CaseError.
+void check_thoroughly(const casefile::Case &asked);
 
 /// Where a run starts: from the beginning, or, where an earlier run of the case was interrupted in
 /// the folder, from its checkpoint.

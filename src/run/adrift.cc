@@ -1,0 +1,78 @@
+#include "run/adrift.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "case/holding.h"
+
+namespace tourmaline::run {
+
+template <int dim>
+Adrift<dim>::Adrift(const solve::Model<dim> &model)
+    : model_(model), left_to_contact_(casefile::left_to_contact(model.asked)) {}
+
+// Friction that slips holds, too: whether it lets go is for the balance of forces to say.
+template <int dim>
+bool Adrift<dim>::is_held(const solve::StepOutcome &outcome) const {
+  using Vector = Eigen::Matrix<double, dim, 1>;
+  std::vector<casefile::Support> supports;
+  const auto add = [&](const Vector3 &point, const Vector &direction) {
+    supports.push_back({point, {}});
+    std::copy(direction.begin(), direction.end(), supports.back().direction.begin());
+  };
+  for (const body::Prescribed &p : model_.prescribed)
+    if (const int c = static_cast<int>(p.unknown % body::Fields<dim>::count); c < dim)
+      add(p.point, Vector::Unit(c));
+  for (std::size_t i = 0; i < model_.interface.size(); ++i) {
+    const contact::InterfaceNode<dim> &at = model_.interface[i];
+    if (outcome.status[i] == ContactStatus::open)
+      continue;
+    const bool rubs =
+        outcome.status[i] == ContactStatus::stick ||
+        !outcome.friction_forces.segment<dim>(dim * static_cast<Eigen::Index>(i)).isZero(0);
+    add(at.point, at.normal);
+    for (int c = 0; rubs && c < dim; ++c)
+      add(at.point, Vector::Unit(c));
+  }
+  return casefile::free_motions(dim, supports).empty();
+}
+
+template <int dim>
+void Adrift<dim>::step(int n, const solve::StepOutcome &outcome) {
+  if (!left_to_contact_.empty() && !is_held(outcome) && ++steps_ == 1)
+    first_ = n;
+}
+
+template <int dim>
+std::string Adrift<dim>::warning() const {
+  if (steps_ == 0)
+    return "";
+  return fmt::format(
+      "nothing held the body in {}: its contact had let go, and no load worked on all that only "
+      "contact keeps it from, {}. Where it stands along such a motion is arbitrary there; "
+      "deformation, forces "
+      "and the other fields are not. Prescribe further components of `displacement`, or press the "
+      "body to "
+      "the foundation",
+      steps_ == 1 ? fmt::format("step {}", first_)
+                  : fmt::format("{} steps, first in step {}", steps_, first_),
+      left_to_contact_);
+}
+
+template <int dim>
+void Adrift<dim>::save(output::SavedNumbers &numbers) const {
+  numbers.put("adrift", {double(steps_), double(first_)});
+}
+
+template <int dim>
+void Adrift<dim>::restore(const output::SavedNumbers &numbers) {
+  const auto saved = numbers.get("adrift", 2);
+  steps_ = static_cast<int>(saved[0]);
+  first_ = static_cast<int>(saved[1]);
+}
+
+template class Adrift<2>;
+template class Adrift<3>;
+
+}  // namespace tourmaline::run

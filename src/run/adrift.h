@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+
+#include "output/checkpoint.h"
+#include "solve/model.h"
+#include "solve/route.h"
+
+namespace tourmaline::run {
+
+/// Watches over bodies that nothing but contact keeps from a rigid motion. Where the contact opens
+/// and no load works on that motion either, the equations hold wherever the body stands.
+template <int dim>
+class Adrift {
+ public:
+  /// `model` outlives this.
+  explicit Adrift(const solve::Model<dim> &model);
+
+  /// Of step n.
+  void step(int n, const solve::StepOutcome &outcome);
+  /// Empty where the body was held in every step.
+  std::string warning() const;
+
+  void save(output::SavedNumbers &numbers) const;
+  void restore(const output::SavedNumbers &numbers);
+
+ private:
+  bool is_held(const solve::StepOutcome &outcome) const;
+
+  const solve::Model<dim> &model_;
+  std::string left_to_contact_;  // the motions, as a phrase
+  int steps_ = 0, first_ = 0;    // in which it was not held
+};
+
+}  // namespace tourmaline::run

@@ -1,0 +1,41 @@
+#include "run/rehearsal.h"
+
+#include <algorithm>
+
+#include "run/step_check.h"
+#include "solve/contact_nodes.h"
+#include "solve/exchange_nodes.h"
+
+namespace tourmaline::run {
+
+template <int dim>
+void rehearse(const solve::Model<dim> &model, int n_steps) {
+  const std::vector<double> before = body::initial_state(model.body, model.asked.initial);
+  std::vector<double> state = before, loads;
+  solve::ContactNodes<dim> contact(model, body::mask_of(model.prescribed, model.n_unknowns()));
+  solve::ExchangeNodes<dim> exchange(model);
+  for (int i = 0; i < n_steps; ++i) {
+    const int n = n_steps == 1 ? 1 : 1 + (model.asked.time.steps - 1) * i / (n_steps - 1);
+    const double time = model.time(n);
+    for (const body::Prescribed &p : model.prescribed)
+      state[p.unknown] = p.value.value(p.point, time);
+    loads.assign(model.n_unknowns(), 0.);
+    model.loads.integrate(time, loads);
+    StepCheck(n, time).loads(dim, model.body.points(), loads);
+    contact.begin_step(time, before, state);
+    exchange.begin_step(time, contact, state);
+  }
+}
+
+void rehearse(const casefile::Case &asked) {
+  const int n_steps = std::min(asked.time.steps, 100);
+  if (asked.dimension == 2)
+    rehearse(solve::Model<2>(asked), n_steps);
+  else
+    rehearse(solve::Model<3>(asked), n_steps);
+}
+
+template void rehearse<2>(const solve::Model<2> &, int);
+template void rehearse<3>(const solve::Model<3> &, int);
+
+}  // namespace tourmaline::run

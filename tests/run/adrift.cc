@@ -1,0 +1,64 @@
+#include "run/adrift.h"
+
+#include <gmock/gmock.h>
+
+#include "tourmaline/case/case.h"
+#include "tourmaline/case/reader.h"
+
+namespace tourmaline::run {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// A block on a foundation, which supports keep from moving along x alone.
+class OnItsFoundation : public testing::Test {
+ protected:
+  static solve::StepOutcome with(ContactStatus left, ContactStatus right) {
+    solve::StepOutcome outcome;
+    outcome.status = {left, right};
+    outcome.friction_forces = Eigen::VectorXd::Zero(4);
+    return outcome;
+  }
+
+  const casefile::Case asked = casefile::read_text(R"toml(
+mesh.box = { min = [0, 0], max = [0.01, 0.01], cells = [1, 1], cell = "quadrilateral" }
+material.library = "silicon"
+time = { end = 1, steps = 9 }
+[[boundary]]
+on = "left"
+displacement = [0, "free"]
+potential = 0
+[contact]
+on = "bottom"
+normal = "unilateral"
+)toml",
+                                                   "case.toml");
+  const solve::Model<2> model{asked};
+  Adrift<2> adrift{model};
+};
+
+TEST_F(OnItsFoundation, ItIsHeldByOneNodeThatTouches) {
+  adrift.step(1, with(ContactStatus::slip, ContactStatus::open));
+  EXPECT_EQ(adrift.warning(), "");
+}
+
+TEST_F(OnItsFoundation, ItIsAdriftWhereAllNodesAreOpen) {
+  adrift.step(1, with(ContactStatus::slip, ContactStatus::slip));
+  adrift.step(2, with(ContactStatus::open, ContactStatus::open));
+  EXPECT_THAT(adrift.warning(), AllOf(HasSubstr("nothing held the body in step 2:"),
+                                      HasSubstr("keeps it from, a translation along y.")));
+}
+
+TEST_F(OnItsFoundation, ARunThatGoesOnKnowsOfTheStepsBefore) {
+  adrift.step(2, with(ContactStatus::open, ContactStatus::open));
+  output::SavedNumbers numbers;
+  adrift.save(numbers);
+  Adrift<2> later(model);
+  later.restore(numbers);
+  later.step(3, with(ContactStatus::open, ContactStatus::open));
+  EXPECT_THAT(later.warning(), HasSubstr("in 2 steps, first in step 2:"));
+}
+
+}  // namespace
+}  // namespace tourmaline::run
