@@ -29,7 +29,6 @@ class ActiveSetRoute : public IterativeRoute<dim>, private SlipResponse {
   using IterativeRoute<dim>::iterations_;
   using IterativeRoute<dim>::so_far_;
   using IterativeRoute<dim>::contact_tolerance;
-  using IterativeRoute<dim>::tighter;
 
   void begin_contact(std::span<const double> before) override;
   double terms_at_contact() const;
@@ -79,7 +78,7 @@ double ActiveSetRoute<dim>::terms_at_contact() const {
 
 template <int dim>
 double ActiveSetRoute<dim>::force_accuracy() const {
-  return body_.tolerance() * terms_at_contact_;
+  return model_.asked.solver.linear_tolerance * terms_at_contact_;
 }
 
 // What of a residual of the body Newton's method takes down.
@@ -176,19 +175,12 @@ template <int dim>
 void ActiveSetRoute<dim>::find_safely() {
   const std::vector<ContactPoint> points = contact_.programme_points();
   const std::vector<double> curvatures = contact_.curvatures();
-  const int most = model_.asked.solver.max_iterations;
-  const VectorXd start = contact_.increments();
+  VectorXd start = contact_.increments();
   so_far_.safe_steps += start.size() > 0;  // without slips there is only the body to go on with
   body_.forget_increment();
-  const auto minimum = [&](VectorXd from, int iterations) {
-    return minimise(SlipProgramme{points, curvatures}, *this, std::move(from),
-                    {contact_tolerance(), iterations});
-  };
-  InterfaceSolution solution = minimum(start, most - iterations_);
-  if (!solution.converged && start.size() > 0) {
-    body_.tighten(tighter);
-    solution = minimum(solution.increment, most);
-  }
+  const int left = model_.asked.solver.max_iterations - iterations_;
+  const InterfaceSolution solution = minimise(SlipProgramme{points, curvatures}, *this,
+                                              std::move(start), {contact_tolerance(), left});
   if (!solution.converged)
     this->give_up_contact(solution, [&](std::size_t i) { return model_.interface[i].point; });
 }

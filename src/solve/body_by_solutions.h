@@ -69,7 +69,7 @@ class BodyBySolutions : public ContactBody, private SlipResponse {
                             const std::vector<contact::TangentMatrix> &hessian,
                             const Eigen::VectorXd &descent) override;
   double force_size() const override { return size_; }
-  double force_accuracy() const override { return body_.tolerance() * size_; }
+  double force_accuracy() const override { return model_.asked.solver.linear_tolerance * size_; }
 
   Eigen::VectorXd increments_of(std::span<const double> state) const;
   Eigen::VectorXd possible(Eigen::VectorXd d) const;

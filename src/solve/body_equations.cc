@@ -122,7 +122,7 @@ std::array<double, 3> BodyEquations<dim>::round_off(std::span<const double> righ
 // refined solution corrections decide: its residual is what round-off of the state makes.
 template <int dim>
 bool BodyEquations<dim>::is_solved(std::span<const double> free_residual) {
-  const double tolerance = this->tolerance();
+  const double tolerance = model_.asked.solver.linear_tolerance;
   const std::array<double, 3> found = norms<dim>(free_residual), sizes = field_sizes();
   const double before = lack_;
   lack_ = 0;
@@ -214,7 +214,7 @@ double BodyEquations<dim>::backward_error(std::span<const double> free_residual)
 template <int dim>
 void BodyEquations<dim>::give_up(double time, std::span<const double> free_residual) const {
   constexpr std::array<const char *, 3> names{"displacement", "potential", "temperature"};
-  const double tolerance = this->tolerance();
+  const double tolerance = model_.asked.solver.linear_tolerance;
   const std::array<double, 3> found = norms<dim>(free_residual), sizes = field_sizes();
   std::string what;
   for (int f = 0; f < 3; ++f)

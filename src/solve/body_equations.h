@@ -48,10 +48,7 @@ class BodyEquations {
   /// corrections, so its round-off stays in them.
   const NodalForces &first_nodal_forces() const { return first_nodal_forces_; }
 
-  /// To this part of solver.linear_tolerance the equations are solved from now on, in this step.
-  void tighten(double part) { tightened_ = part; }
-  double tolerance() const { return tightened_ * model_.asked.solver.linear_tolerance; }
-  /// Whether the free residual is within the tolerance in each field or, where an
+  /// Whether the free residual is within solver.linear_tolerance in each field or, where an
   /// iteration gains little, within round-off. Refined equations are solved when corrections do not
   /// fall any more.
   bool is_solved(std::span<const double> free_residual);
@@ -98,7 +95,6 @@ class BodyEquations {
   NodalForces first_nodal_forces_;
   std::array<double, 3> first_round_off_{};
   double lack_ = 0;
-  double tightened_ = 1;
   double correction_ = 0;
   bool corrections_fall_ = true;
 };

@@ -54,7 +54,6 @@ class ContactBySolutions : public IterativeRoute<dim> {
   using IterativeRoute<dim>::so_far_;
   using IterativeRoute<dim>::left_to_contact_;
   using IterativeRoute<dim>::contact_tolerance;
-  using IterativeRoute<dim>::tighter;
 
   void begin_contact(std::span<const double> before) override {
     contact_.begin_step(time_, before, state_);
@@ -144,10 +143,6 @@ void ContactBySolutions<dim>::find_safely(const VectorXd &start) {
     sprung = solve_from(sprung).interface.increment;
     seen_.set_springs(0);
     solution_ = solve_from(sprung);
-  }
-  if (!solution_.interface.converged) {
-    body_.tighten(tighter);
-    solution_ = solve_from(solution_.interface.increment);
   }
 }
 

@@ -85,7 +85,6 @@ StepOutcome IterativeRoute<dim>::advance(double time, std::span<const double> ri
   state_ = state;
   iterations_ = 0;
   predict(before);
-  body_.tighten(1);
   body_.begin_step(right_side, state);
   begin_contact(before);
   settle();

@@ -33,9 +33,6 @@ class IterativeRoute : public Route {
 
   /// The residual of the contact, over the size of its forces, that counts as none.
   double contact_tolerance() const;
-  /// Part of solver.linear_tolerance where the contact does not settle with what is left of the
-  /// body: its slips may be far smaller than the body's displacements.
-  static constexpr double tighter = 1e-2;
 
   /// Throws SolveError: where the contact did not settle, `place` by contact point, or which motion
   /// nothing keeps the body from.

@@ -43,7 +43,7 @@ class Descent {
   double residual(std::size_t i) const {
     return (part(force_, i) - friction_force(i, programme_.curvature[i])).norm();
   }
-  VectorXd proximal_point() const;
+  VectorXd proximal_point(double tolerance) const;
   std::vector<bool> smooth_points() const;
   double dissipation(const VectorXd &d) const;
   VectorXd along(const VectorXd &direction, double length) const;
@@ -74,12 +74,17 @@ double Descent::largest_residual() const {
 }
 
 // Every point's own problem with A replaced by a multiple of the identity. A point inside the ball
-// comes out as exactly zero.
-VectorXd Descent::proximal_point() const {
+// comes out as exactly zero, and so does one at its surface, which round-off would make slip: by so
+// little that no linear step holds, and each stops at its kink.
+VectorXd Descent::proximal_point(double tolerance) const {
+  const double nothing = 1e-3 * allowed(tolerance);
   VectorXd next = d_;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const double r = stiffness_factor_ * programme_.curvature[i];
-    next.segment(points_[i].offset, points_[i].size) = (trial(i, r) - friction_force(i, r)) / r;
+    const Tangent resisted = trial(i, r) - friction_force(i, r);
+    next.segment(points_[i].offset, points_[i].size) = resisted.norm() <= nothing
+                                                           ? Tangent(Tangent::Zero(resisted.size()))
+                                                           : Tangent(resisted / r);
   }
   return next;
 }
@@ -89,7 +94,7 @@ VectorXd Descent::proximal_point() const {
 bool Descent::proximal_step(double tolerance) {
   constexpr int most_tries = 40;  // a factor of 2^40 in the stiffness
   for (int k = 0; k < most_tries; ++k) {
-    const VectorXd next = proximal_point();
+    const VectorXd next = proximal_point(tolerance);
     const VectorXd change = next - d_;
     if (change.isZero(0))
       return restore();

@@ -206,6 +206,12 @@ TEST(Iterative, APadShearedToAndFroBetweenElectrodesIsThatOfTheFactorisation) {
   expect_equal_runs(RunCase(asked.with("direct")), RunCase(asked.with("iterative")));
 }
 
+// Where it turns, many of its points stick at their bound.
+TEST(Iterative, APadOfFinerCellsThatTurnsIsThatOfTheFactorisation) {
+  const Asked asked{"pad", {"mesh.box.cells=[14,11,6]", "time.end=2", "time.steps=5"}, pad};
+  expect_equal_runs(RunCase(asked.with("direct")), RunCase(asked.with("iterative")));
+}
+
 // n24-sin-7 of tests/reference/third as a solid between planes of symmetry, as coarse as a mesh may
 // be on which Newton's method still fails in one step.
 constexpr const char *extruded = R"toml(
