@@ -51,10 +51,8 @@ std::string Adrift<dim>::warning() const {
   return fmt::format(
       "nothing held the body in {}: its contact had let go, and no load worked on all that only "
       "contact keeps it from, {}. Where it stands along such a motion is arbitrary there; "
-      "deformation, forces "
-      "and the other fields are not. Prescribe further components of `displacement`, or press the "
-      "body to "
-      "the foundation",
+      "deformation, forces and the other fields are not. Prescribe further components of "
+      "`displacement`, or press the body to the foundation",
       steps_ == 1 ? fmt::format("step {}", first_)
                   : fmt::format("{} steps, first in step {}", steps_, first_),
       left_to_contact_);
