@@ -135,12 +135,6 @@ void declare(Visitor &v, SolverCase &solver, const std::vector<ContactCase> &con
   v.key({.name = "threads", .description = "of OpenBLAS and OpenMP", .range = from_to(1, 1024)},
         &solver.threads);
   declare_augmented_lagrangian(v, solver);
-  v.check("method", [&] {
-    return solver.method == "monolithic" ? exchange_complaint(contacts, "\"monolithic\"") : "";
-  });
-  v.check("body", [&] {
-    return solver.body == "iterative" ? exchange_complaint(contacts, "\"iterative\"") : "";
-  });
   v.check("multiplier", [&] { return multiplier_complaint(contacts, solver.multiplier); });
 }
 

@@ -342,6 +342,8 @@ std::string law_of_the_state(const std::vector<ContactCase> &contacts) {
       return "normal = \"" + contact.normal.law + "\"";
     if (contact.friction.law == "coulomb")
       return "friction.law = \"coulomb\"";
+    if (const std::string key = contact.crosses_by_state(); !key.empty())
+      return key;
   }
   return "";
 }
@@ -364,16 +366,6 @@ std::string multiplier_complaint(const std::vector<ContactCase> &contacts,
       "contact with {} is not available with solver.multiplier = \"{}\" in this version; take "
       "\"nodal\"",
       law, multiplier);
-}
-
-std::string exchange_complaint(const std::vector<ContactCase> &contacts, const std::string &way) {
-  for (const ContactCase &contact : contacts)
-    if (const std::string key = contact.crosses_by_state(); !key.empty())
-      return fmt::format(
-          "contact with {} is not available with {} in this version; take solver.method = "
-          "\"condensed\" and solver.body = \"direct\"",
-          key, way);
-  return "";
 }
 
 void declare_contacts(Visitor &v, std::vector<ContactCase> &contacts, const MeshCase &mesh,

@@ -30,8 +30,6 @@ void declare_boundaries(Visitor &v, std::vector<BoundaryCase> &boundaries, const
 void declare_electrodes(Visitor &v, std::vector<ElectrodeCase> &electrodes, const MeshCase &mesh);
 void declare_contacts(Visitor &v, std::vector<ContactCase> &contacts, const MeshCase &mesh,
                       int dimension);
-/// Of contacts whose laws the way of solving cannot take; empty: it can.
-std::string exchange_complaint(const std::vector<ContactCase> &contacts, const std::string &way);
 std::string multiplier_complaint(const std::vector<ContactCase> &contacts,
                                  const std::string &multiplier);
 

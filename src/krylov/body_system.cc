@@ -63,6 +63,7 @@ struct BodySystem<dim>::Parts {
   std::vector<bool> is_prescribed;
   std::vector<NodeTangent<dim>> contact, preconditioned;
   std::vector<NodeCoupling<dim>> coupling;  // as `contact`, or empty
+  std::vector<Eigen::Vector2d> crossing;    // likewise
   std::vector<int> contact_index;           // by node; -1: not at the contact
   std::vector<Block> contact_blocks;  // diagonal blocks of this rank's contact nodes, without C
   NodeRows rows;
@@ -283,6 +284,8 @@ void BodySystem<dim>::Parts::multiply_whole(Vec x, Vec y) const {
   for (const NodeTangent<dim> &at : contact) {
     const std::size_t first = unknown<dim>(at.node, 0);
     Vector::Map(&product[first]) += at.stiffness * Vector::Map(&state[first]);
+    for (int c = dim; c < n; ++c)
+      product[first + c] -= at.crossing[c - dim] * state[first + c];
   }
   project(product);
   for (std::size_t i = 0; i < coupled.size(); ++i)
@@ -308,6 +311,8 @@ void BodySystem<dim>::Parts::put_contact() {
       continue;
     Block block = *without++;
     block.template topLeftCorner<dim, dim>() += scale[0] * scale[0] * at.stiffness;
+    for (int c = dim; c < n; ++c)
+      block(c, c) += scale[c] * scale[c] * at.crossing[c - dim];
     const PetscInt row = rows.of(at.node);
     check(MatSetValuesBlocked(matrix, 1, &row, 1, &row, block.data(), INSERT_VALUES));
   }
@@ -342,8 +347,11 @@ template <int dim>
 BodySystem<dim>::~BodySystem() = default;
 
 template <int dim>
-void BodySystem<dim>::set_contact(const std::vector<NodeTangent<dim>> &contact) {
+void BodySystem<dim>::set_contact(const std::vector<NodeTangent<dim>> &asked) {
   Parts &in = *parts_;
+  std::vector<NodeTangent<dim>> contact = asked;
+  for (std::size_t i = 0; i < in.crossing.size(); ++i)
+    contact[i].crossing = in.crossing[i];
   const bool is_first = in.set_ups == 0;
   if (!is_first && contact == in.contact)
     return;
@@ -363,6 +371,11 @@ void BodySystem<dim>::set_contact(const std::vector<NodeTangent<dim>> &contact) 
   if (!as_free)
     in.precondition();
   in.set_up_seconds += watch.lap();
+}
+
+template <int dim>
+void BodySystem<dim>::set_crossing(std::vector<Eigen::Vector2d> crossing) {
+  parts_->crossing = std::move(crossing);
 }
 
 template <int dim>
@@ -447,7 +460,7 @@ double BodySystem<dim>::backward_error(std::span<const double> residual,
 namespace {
 
 template <int dim>
-constexpr std::size_t tangent_size = 1 + 2 * dim *dim;  // node, projector, stiffness
+constexpr std::size_t tangent_size = 3 + 2 * dim *dim;  // node, projector, stiffness, crossing
 
 template <int dim>
 std::vector<double> numbers_of(const std::vector<NodeTangent<dim>> &contact) {
@@ -457,6 +470,7 @@ std::vector<double> numbers_of(const std::vector<NodeTangent<dim>> &contact) {
     numbers.push_back(at.node);
     numbers.insert(numbers.end(), at.projector.data(), at.projector.data() + dim * dim);
     numbers.insert(numbers.end(), at.stiffness.data(), at.stiffness.data() + dim * dim);
+    numbers.insert(numbers.end(), at.crossing.data(), at.crossing.data() + 2);
   }
   return numbers;
 }
@@ -469,6 +483,7 @@ std::vector<NodeTangent<dim>> contact_of(std::span<const double> numbers) {
     at.node = static_cast<Node>(next[0]);
     std::copy_n(next + 1, dim * dim, at.projector.data());
     std::copy_n(next + 1 + dim * dim, dim * dim, at.stiffness.data());
+    std::copy_n(next + 1 + 2 * dim * dim, 2, at.crossing.data());
     next += tangent_size<dim>;
   }
   return contact;

@@ -13,13 +13,15 @@
 namespace tourmaline::krylov {
 
 /// What the contact leaves a node: displacements in the range of `projector` (symmetric, its square
-/// itself), and a stiffness [N/m] against them.
+/// itself), and a stiffness [N/m] against them; and what crosses there with phi and theta.
 template <int dim>
 struct NodeTangent {
   using Matrix = Eigen::Matrix<double, dim, dim>;
 
   body::Node node;
   Matrix projector, stiffness;
+  Eigen::Vector2d crossing =
+      Eigen::Vector2d::Zero();  ///< what K_phi,phi and K_theta,theta are less by
 
   bool operator==(const NodeTangent &) const = default;
 };
@@ -58,6 +60,8 @@ class BodySystem {
   /// Sets the matrix of another contact; one entry for each contact node, always the same nodes.
   /// The preconditioner stays where only stiffnesses differ.
   void set_contact(const std::vector<NodeTangent<dim>> &contact);
+  /// Slopes of what crosses, by contact node, which `set_contact` gives its own from now on.
+  void set_crossing(std::vector<Eigen::Vector2d> crossing);
   /// From now on the iteration solves Q (K + C) Q x + E K Q x + G Q x = Q r, with E and G of these,
   /// one for each contact node, or of none; the preconditioner stays. `set_contact` comes first.
   void set_coupling(std::vector<NodeCoupling<dim>> coupling);

@@ -42,21 +42,11 @@ double iterative_memory(const casefile::Case &asked) {
   return program + 5000 * nodes_of(asked.mesh) * (asked.dimension + 2);
 }
 
-namespace {
-
-bool crosses_by_state(const casefile::Case &asked) {
-  return std::any_of(
-      asked.contacts.begin(), asked.contacts.end(),
-      [](const casefile::ContactCase &contact) { return !contact.crosses_by_state().empty(); });
-}
-
-}  // namespace
-
 bool solves_iteratively(const casefile::Case &asked) {
   if (asked.solver.method != "condensed" || asked.solver.body == "direct")
     return false;
   const bool too_large = asked.dimension == 3 && casefile::all_voltages_given(asked) &&
-                         casefile::left_to_contact(asked).empty() && !crosses_by_state(asked) &&
+                         casefile::left_to_contact(asked).empty() &&
                          factorised_memory(asked) > available_memory().bytes / 2;
   return asked.solver.body == "iterative" || parallel::from_first(too_large) != 0;
 }

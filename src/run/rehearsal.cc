@@ -12,7 +12,8 @@ template <int dim>
 void rehearse(const solve::Model<dim> &model, int n_steps) {
   const std::vector<double> before = body::initial_state(model.body, model.asked.initial);
   std::vector<double> state = before, loads;
-  solve::ContactNodes<dim> contact(model, body::mask_of(model.prescribed, model.n_unknowns()));
+  const std::vector<bool> is_prescribed = body::mask_of(model.prescribed, model.n_unknowns());
+  solve::ContactNodes<dim> contact(model, is_prescribed);
   solve::ExchangeNodes<dim> exchange(model);
   for (int i = 0; i < n_steps; ++i) {
     const int n = n_steps == 1 ? 1 : 1 + (model.asked.time.steps - 1) * i / (n_steps - 1);
@@ -23,7 +24,7 @@ void rehearse(const solve::Model<dim> &model, int n_steps) {
     model.loads.integrate(time, loads);
     StepCheck(n, time).loads(dim, model.body.points(), loads);
     contact.begin_step(time, before, state);
-    exchange.begin_step(time, contact, state);
+    exchange.begin_step(time, state);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -99,13 +100,26 @@ void BodyBySolutions<dim>::put(const VectorXd &d) {
         state_[u] = c[dim * static_cast<Index>(i) + k];
 }
 
-// Where there are no forces, as the body has left the foundation, round-off is what counts.
+// Where there are no forces, as the body has left the foundation, round-off is what counts; and so
+// does that of slips which are longer than the body deforms by many powers of ten.
 template <int dim>
 double BodyBySolutions<dim>::size_at_state() const {
   const auto [largest, round_off] = body_.nodal_forces();
-  const double size =
-      larger(largest, larger(round_off, body_.first_nodal_forces().round_off) / tolerance_);
+  const double least = larger(round_off, body_.first_nodal_forces().round_off);
+  const double size = larger(largest, larger(least, round_off_of_slips()) / tolerance_);
   return size == 0 ? 1 : size;
+}
+
+// Nodal forces that the last digit of the contact's unknowns is worth [N].
+template <int dim>
+double BodyBySolutions<dim>::round_off_of_slips() const {
+  constexpr double last_digits = 16 * std::numeric_limits<double>::epsilon();
+  double largest = 0;
+  for (std::size_t i = 0; i < contact_.points().size(); ++i) {
+    const ContactPoint &p = contact_.points()[i];
+    largest = larger(largest, curvatures_[i] * d_.segment(p.offset, p.size).norm());
+  }
+  return last_digits * largest;
 }
 
 // What contact and prescribed unknowns leave free of a residual.

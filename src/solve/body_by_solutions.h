@@ -75,6 +75,7 @@ class BodyBySolutions : public ContactBody, private SlipResponse {
   Eigen::VectorXd possible(Eigen::VectorXd d) const;
   void add_at_contact(const Eigen::VectorXd &by_node, std::span<double> vector) const;
   double size_at_state() const;
+  double round_off_of_slips() const;
   std::vector<double> product(std::span<const double> x) const {
     return model_.product(x, body_.is_refined());
   }

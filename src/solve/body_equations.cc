@@ -42,7 +42,8 @@ BodyEquations<dim>::BodyEquations(const Model<dim> &model, const std::vector<boo
 
 template <int dim>
 void BodyEquations<dim>::begin_step(std::span<const double> right_side, std::span<double> state) {
-  right_side_ = right_side;
+  loads_ = right_side;
+  right_side_.assign(right_side.begin(), right_side.end());
   state_ = state;
   correction_ = std::numeric_limits<double>::infinity();
   corrections_fall_ = true;
@@ -58,23 +59,37 @@ void BodyEquations<dim>::forget_increment() {
 }
 
 template <int dim>
-void BodyEquations<dim>::update_residual() {
-  if (is_refined()) {
-    residual_ = residual_by_cells();
-    return;
+void BodyEquations<dim>::hold(const HeldExchanges<dim> &exchange) {
+  right_side_.assign(loads_.begin(), loads_.end());
+  exchange.add_rests(right_side_);
+  slopes_.clear();
+  std::vector<Eigen::Vector2d> crossing(model_.interface.size(), Eigen::Vector2d::Zero());
+  for (std::size_t k = 0; k < exchange.sites().size(); ++k) {
+    const ExchangeSite &site = exchange.sites()[k];
+    const double slope = exchange.slopes()[static_cast<Eigen::Index>(k)];
+    slopes_.emplace_back(site.unknown, slope);
+    crossing[site.node][body::field_of<dim>(site.unknown) - 1] = slope;
   }
-  model_.op.multiply(model_.step, state_, residual_);
-  for (std::size_t i = 0; i < residual_.size(); ++i)
-    residual_[i] = right_side_[i] - residual_[i];
+  system_.set_crossing(std::move(crossing));
+}
+
+template <int dim>
+std::vector<double> BodyEquations<dim>::left(std::vector<double> product) const {
+  for (const auto &[unknown, slope] : slopes_)
+    product[unknown] -= slope * state_[unknown];
+  for (std::size_t i = 0; i < product.size(); ++i)
+    product[i] = right_side_[i] - product[i];
+  return product;
+}
+
+template <int dim>
+void BodyEquations<dim>::update_residual() {
+  residual_ = left(model_.product(state_, is_refined()));
 }
 
 template <int dim>
 std::vector<double> BodyEquations<dim>::residual_by_cells() const {
-  std::vector<double> residual(state_.size());
-  model_.cells.multiply(model_.step, state_, residual);
-  for (std::size_t i = 0; i < residual.size(); ++i)
-    residual[i] = right_side_[i] - residual[i];
-  return residual;
+  return left(model_.product(state_, true));
 }
 
 // Sizes of the forces, charges and heats that balance in each field's rows: each the norm of what

@@ -4,10 +4,12 @@
 #include <limits>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "krylov/body_system.h"
 #include "output/checkpoint.h"
+#include "solve/held_exchanges.h"
 #include "solve/model.h"
 #include "solve/route.h"
 
@@ -30,6 +32,8 @@ class BodyEquations {
 
   /// Another right-hand side b, and the state x that `correct` changes from now on.
   void begin_step(std::span<const double> right_side, std::span<double> state);
+  /// From now on K and b are those with what crosses the contact held as it is here.
+  void hold(const HeldExchanges<dim> &exchange);
 
   /// Looks at the state anew.
   void update_residual();
@@ -81,6 +85,7 @@ class BodyEquations {
 
  private:
   [[noreturn]] void give_up(double time, std::span<const double> free_residual) const;
+  std::vector<double> left(std::vector<double> product) const;
   std::array<double, 3> field_sizes() const;
   std::array<double, 3> round_off(std::span<const double> right_side) const;
 
@@ -89,8 +94,10 @@ class BodyEquations {
   RouteReport &count_;
   krylov::BodySystem<dim> system_;
   std::vector<double> residual_, increment_;
+  std::vector<std::pair<std::size_t, double>> slopes_;  // by unknown: of what crosses
   // Of the step at hand:
-  std::span<const double> right_side_;
+  std::span<const double> loads_;
+  std::vector<double> right_side_;
   std::span<double> state_;
   NodalForces first_nodal_forces_;
   std::array<double, 3> first_round_off_{};

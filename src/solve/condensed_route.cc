@@ -251,11 +251,12 @@ CoupledSolution CondensedRoute<dim>::solve_with_exchange(double time, const Vect
   force << directions.transpose() * (s - resisted).head(n_rows),
       exchange_->scale().cwiseProduct((s - resisted).tail(m));
   start << last_increment_, exchange_->entries(before);
+  const std::vector<ExchangePoint> exchanges = exchange_->points(*contact_);
   const ExchangeProgramme programme{
       {whole_stiffness_, force, contact_->points(), terms.head(n_rows).maxCoeff(),
-       exchange_->fields(exchange_->scale().cwiseProduct(terms.tail(m)))},
+       exchange_->fields(n, exchange_->scale().cwiseProduct(terms.tail(m)))},
       contact_->couplings(),
-      exchange_->points()};
+      exchanges};
   const auto solve_held = [&](const InterfaceProgramme &held, const VectorXd &from) {
     return solve_programme(held, from, settings(nullptr));
   };
@@ -340,10 +341,12 @@ void CondensedRoute<dim>::advance_contact(double time, const VectorXd &s,
                                           std::span<const double> state, VectorXd &c,
                                           StepOutcome &outcome) {
   contact_->begin_step(time, before, state);
-  exchange_->begin_step(time, *contact_, state);
+  exchange_->begin_step(time, state);
   CoupledSolution solution = solve_contact(time, s, before);
   const VectorXd crossing = solution.interface.increment.tail(exchange_->size());
-  exchange_->end_step(*contact_, solution, outcome);
+  exchange_->end_step(
+      exchange_->scale().cwiseProduct(crossing),
+      [&](std::size_t node) { return contact_->state_for_exchange(node, solution); }, outcome);
   solution.interface.increment.conservativeResize(contact_->n_unknowns());
   solution.interface.force.conservativeResize(contact_->n_unknowns());
   last_increment_ = solution.interface.increment;

@@ -7,6 +7,7 @@
 #include "solve/body_by_solutions.h"
 #include "solve/contact_nodes.h"
 #include "solve/coupled_programme.h"
+#include "solve/held_exchanges.h"
 #include "solve/iterative_route.h"
 #include "solve/leaning.h"
 #include "solve/natural_map.h"
@@ -41,6 +42,7 @@ class ContactBySolutions : public IterativeRoute<dim> {
   explicit ContactBySolutions(const Model<dim> &model)
       : IterativeRoute<dim>(model),
         contact_(model, this->is_prescribed_),
+        exchange_(model),
         seen_(model, this->is_prescribed_, body_, contact_, !left_to_contact_.empty()) {}
 
   VectorXd accumulated_slip() const override { return contact_.accumulated_slip(); }
@@ -57,9 +59,11 @@ class ContactBySolutions : public IterativeRoute<dim> {
 
   void begin_contact(std::span<const double> before) override {
     contact_.begin_step(time_, before, state_);
+    exchange_.begin_step(time_, state_);
     seen_.begin_step(time_, state_, contact_tolerance());
   }
   void settle() override;
+  void settle_contact();
   std::vector<double> freed(std::vector<double> residual) const override {
     return seen_.freed(std::move(residual));
   }
@@ -68,9 +72,18 @@ class ContactBySolutions : public IterativeRoute<dim> {
   std::string unheld() const override {
     return unheld_motions(model_, contact_, solution_.interface.status);
   }
-  void save_contact(output::SavedNumbers &numbers) const override { contact_.save(numbers); }
-  void restore_contact(const output::SavedNumbers &numbers) override { contact_.restore(numbers); }
+  void save_contact(output::SavedNumbers &numbers) const override {
+    contact_.save(numbers);
+    exchange_.save(numbers);
+  }
+  void restore_contact(const output::SavedNumbers &numbers) override {
+    contact_.restore(numbers);
+    exchange_.restore(numbers);
+  }
 
+  StateAtNode states() const {
+    return [this](std::size_t node) { return contact_.state_for_exchange(node, solution_); };
+  }
   CoupledContact coupled() { return {seen_, contact_.points(), contact_.couplings()}; }
   bool find_fast();
   bool newton_step(const ContactTangent &tangent, std::vector<double> residual);
@@ -78,6 +91,7 @@ class ContactBySolutions : public IterativeRoute<dim> {
   void find_safely(const VectorXd &start);
 
   ContactNodes<dim> contact_;
+  HeldExchanges<dim> exchange_;
   BodyBySolutions<dim> seen_;  // by the contact
   CoupledSolution solution_;   // of the step at hand
 };
@@ -146,10 +160,22 @@ void ContactBySolutions<dim>::find_safely(const VectorXd &start) {
   }
 }
 
-// Both stages begin with the state that is predicted.
+// What crosses the contact by its state is held, the step solved, and so on.
 template <int dim>
 void ContactBySolutions<dim>::settle() {
   seen_.forget_iterations();
+  do {
+    body_.hold(exchange_);
+    settle_contact();
+  } while (!exchange_.is_empty() &&
+           !exchange_.settle(time_, state_, states(), contact_tolerance()));
+  if (!exchange_.is_empty())
+    solution_.stage = ContactStage::fixed_point;
+}
+
+// Both stages begin with the state that is predicted.
+template <int dim>
+void ContactBySolutions<dim>::settle_contact() {
   const VectorXd start = seen_.unknowns();
   const std::vector<double> state(state_.begin(), state_.end());
   const bool is_found = find_fast();
@@ -179,6 +205,7 @@ StepOutcome ContactBySolutions<dim>::outcome() {
     outcome.accumulated_slip = VectorXd::Zero(n);
   solution_.interface.iterations = iterations_;
   contact_.end_step(solution_, outcome);
+  exchange_.end_step(state_, states(), outcome);
   return outcome;
 }
 

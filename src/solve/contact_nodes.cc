@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "solve/exchange_programme.h"
+
 namespace tourmaline::solve {
 
 using contact::Tangent;
@@ -149,6 +151,12 @@ ExchangePoint ContactNodes<dim>::seen_by_exchange(std::size_t node) const {
   seen.known.pressure = nodes_[node].pressure;
   seen.known.penetration = nodes_[node].penetration;
   return seen;
+}
+
+template <int dim>
+contact::ContactState ContactNodes<dim>::state_for_exchange(std::size_t node,
+                                                            const CoupledSolution &solution) const {
+  return state_at(seen_by_exchange(node), points_, solution, couplings_);
 }
 
 template <int dim>

@@ -29,6 +29,7 @@ class ContactNodes {
   /// Both outlive this. Throws CaseError for nodes whose laws need a normal displacement that other
   /// conditions tilt.
   ContactNodes(const Model<dim> &model, const std::vector<bool> &is_prescribed);
+  ContactNodes(const Model<dim> &model, std::vector<bool> &&is_prescribed) = delete;
 
   const Eigen::SparseMatrix<double> &directions() const { return directions_; }  ///< T
   /// Whether friction depends on what happens along the normal.
@@ -41,6 +42,8 @@ class ContactNodes {
   std::size_t node_of(std::size_t point) const { return node_of_[point]; }
   /// The points of a node, and what is known of it in the step at hand, as an exchange has them.
   ExchangePoint seen_by_exchange(std::size_t node) const;
+  /// What an exchange sees of the node in a solution.
+  contact::ContactState state_for_exchange(std::size_t node, const CoupledSolution &solution) const;
 
   /// The laws of the step that ends at `time`; `state` holds the prescribed values, `before` is the
   /// state of the last step.

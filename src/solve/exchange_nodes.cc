@@ -110,46 +110,61 @@ double ExchangeNodes<dim>::of_flow(std::size_t k) const {
 
 // `crossed`: its place in `crossed_`.
 template <int dim>
-ExchangePoint ExchangeNodes<dim>::seen(const ExchangeSite &site, Index crossed, double time,
-                                       const ContactNodes<dim> &contact) const {
+typename ExchangeNodes<dim>::Law ExchangeNodes<dim>::law(const ExchangeSite &site, Index crossed,
+                                                         double time) const {
   const contact::InterfaceNode<dim> &at = model_.interface[site.node];
-  ExchangePoint point = contact.seen_by_exchange(site.node);
-  point.law = model_.laws.of(at).exchange(site.what, at.point, time, crossed_[crossed]);
-  return point;
+  return model_.laws.of(at).exchange(site.what, at.point, time, crossed_[crossed]);
 }
 
 template <int dim>
-void ExchangeNodes<dim>::begin_step(double time, const ContactNodes<dim> &contact,
-                                    std::span<const double> state) {
-  points_.clear();
-  for (std::size_t k = 0; k < sites_.size(); ++k) {
-    const auto entry = static_cast<Index>(k);
-    ExchangePoint &point = points_.emplace_back(seen(sites_[k], entry, time, contact));
-    point.entry = contact.n_unknowns() + entry;
-    point.field = sites_[k].what == sites_[0].what ? 0 : 1;
-    point.of_value = scale_[entry];
-    point.of_flow = scale_[entry] * of_flow(k);
-  }
-  held_points_.clear();
+void ExchangeNodes<dim>::begin_step(double time, std::span<const double> state) {
+  laws_.clear();
+  for (std::size_t k = 0; k < sites_.size(); ++k)
+    laws_.push_back(law(sites_[k], static_cast<Index>(k), time));
+  held_laws_.clear();
   held_values_.clear();
   for (std::size_t k = 0; k < held_.size(); ++k) {
-    held_points_.push_back(seen(held_[k], size() + static_cast<Index>(k), time, contact));
+    held_laws_.push_back(law(held_[k], size() + static_cast<Index>(k), time));
     held_values_.push_back(state[held_[k].unknown]);
   }
 }
 
 template <int dim>
-std::vector<FieldRows> ExchangeNodes<dim>::fields(const VectorXd &terms) const {
+std::vector<ExchangePoint> ExchangeNodes<dim>::points(const ContactNodes<dim> &contact) const {
+  std::vector<ExchangePoint> points;
+  for (std::size_t k = 0; k < sites_.size(); ++k) {
+    const auto entry = static_cast<Index>(k);
+    ExchangePoint &point = points.emplace_back(contact.seen_by_exchange(sites_[k].node));
+    point.law = laws_[k];
+    point.entry = contact.n_unknowns() + entry;
+    point.field = sites_[k].what == sites_[0].what ? 0 : 1;
+    point.of_value = scale_[entry];
+    point.of_flow = scale_[entry] * of_flow(k);
+  }
+  return points;
+}
+
+template <int dim>
+std::vector<FieldRows> ExchangeNodes<dim>::fields(Index first, const VectorXd &terms) const {
   std::vector<FieldRows> fields;
-  for (const ExchangePoint &point : points_) {
-    if (fields.size() == point.field)
-      fields.push_back({point.entry, 0, 0});
+  for (std::size_t k = 0; k < sites_.size(); ++k) {
+    const auto entry = static_cast<Index>(k);
+    if (k == 0 || sites_[k].what != sites_[k - 1].what)
+      fields.push_back({first + entry, 0, 0});
     FieldRows &rows = fields.back();
-    const Index k = point.entry - points_.front().entry;
-    rows.scale = larger(rows.scale, terms[k]);
+    rows.scale = larger(rows.scale, terms[entry]);
     ++rows.size;
   }
   return fields;
+}
+
+// By the law's slope at the value at hand: exact where the law is linear in it.
+template <int dim>
+typename ExchangeNodes<dim>::Row ExchangeNodes<dim>::row(std::size_t site, double value,
+                                                         const contact::ContactState &state) const {
+  const contact::Exchange::Value q = laws_[site]->at(value, state);
+  const double weight = of_flow(site);
+  return {weight * q.by_value, weight * (q.flow - q.by_value * value)};
 }
 
 template <int dim>
@@ -164,10 +179,9 @@ void ExchangeNodes<dim>::prepare(StepOutcome &outcome) const {
 }
 
 template <int dim>
-void ExchangeNodes<dim>::cross(const ExchangeSite &site, Index crossed, const ExchangePoint &at,
-                               double value, const contact::ContactState &state,
+void ExchangeNodes<dim>::cross(const ExchangeSite &site, Index crossed,
+                               const contact::Exchange::Value &q, double friction,
                                StepOutcome &outcome) {
-  const contact::Exchange::Value q = at.law->at(value, state);
   const auto node = static_cast<Index>(site.node);
   const double weight = model_.interface[site.node].weight;
   if (site.what == Crossing::charge) {
@@ -177,23 +191,22 @@ void ExchangeNodes<dim>::cross(const ExchangeSite &site, Index crossed, const Ex
   }
   outcome.heat_flow[node] = weight * q.flow;
   if (q.by_friction != 0)
-    outcome.friction_heat[node] = -weight * q.by_friction * state.friction;
+    outcome.friction_heat[node] = -weight * q.by_friction * friction;
 }
 
 template <int dim>
-void ExchangeNodes<dim>::end_step(const ContactNodes<dim> &contact, const CoupledSolution &solution,
+void ExchangeNodes<dim>::end_step(const VectorXd &values, const StateAtNode &state_at,
                                   StepOutcome &outcome) {
   crossed_before_ = crossed_;
-  const auto state = [&](const ExchangePoint &at) {
-    return state_at(at, contact.points(), solution, contact.couplings());
+  const auto end = [&](const ExchangeSite &site, const contact::Exchange &law, Index crossed,
+                       double value) {
+    const contact::ContactState state = state_at(site.node);
+    cross(site, crossed, law.at(value, state), state.friction, outcome);
   };
   for (std::size_t k = 0; k < sites_.size(); ++k)
-    cross(sites_[k], static_cast<Index>(k), points_[k],
-          points_[k].of_value * solution.interface.increment[points_[k].entry], state(points_[k]),
-          outcome);
+    end(sites_[k], *laws_[k], static_cast<Index>(k), values[static_cast<Index>(k)]);
   for (std::size_t k = 0; k < held_.size(); ++k)
-    cross(held_[k], size() + static_cast<Index>(k), held_points_[k], held_values_[k],
-          state(held_points_[k]), outcome);
+    end(held_[k], *held_laws_[k], size() + static_cast<Index>(k), held_values_[k]);
 }
 
 template <int dim>

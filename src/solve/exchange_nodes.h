@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -29,8 +31,11 @@ template <int dim>
 std::vector<std::size_t> contact_unknowns(const Model<dim> &model,
                                           const std::vector<ExchangeSite> &sites);
 
-/// Temperatures and potentials of contact nodes as unknowns of the contact problem: the exchanges
-/// of a step, and what crosses in it.
+/// The state of a contact node at the end of a step, by its index in `Model::interface`.
+using StateAtNode = std::function<contact::ContactState(std::size_t node)>;
+
+/// Temperatures and potentials of contact nodes that laws act on: the exchanges of a step, and what
+/// crosses in it. They have an entry each where they are unknowns of the contact problem, too.
 template <int dim>
 class ExchangeNodes {
  public:
@@ -43,18 +48,25 @@ class ExchangeNodes {
   /// The entries of a state.
   Eigen::VectorXd entries(std::span<const double> state) const;
 
-  /// The exchanges of the step that ends at `time`; `contact` is in it already, and `state` holds
-  /// the prescribed values.
-  void begin_step(double time, const ContactNodes<dim> &contact, std::span<const double> state);
-  const std::vector<ExchangePoint> &points() const { return points_; }
+  /// The exchanges of the step that ends at `time`; `state` holds the prescribed values.
+  void begin_step(double time, std::span<const double> state);
+  /// Those that are free behind the points of `contact`, which is in the step already.
+  std::vector<ExchangePoint> points(const ContactNodes<dim> &contact) const;
   /// Rows of temperatures and of potentials, if there are any, by the sizes of the terms of each
-  /// [N].
-  std::vector<FieldRows> fields(const Eigen::VectorXd &terms) const;
+  /// [N]; the first entry is `first`.
+  std::vector<FieldRows> fields(Eigen::Index first, const Eigen::VectorXd &terms) const;
 
-  /// What has crossed by a solution, whose increment has the entries here, too. Where the
-  /// temperature or the potential is prescribed it crosses as well, and the support has the rest.
-  void end_step(const ContactNodes<dim> &contact, const CoupledSolution &solution,
-                StepOutcome &outcome);
+  const std::vector<ExchangeSite> &sites() const { return sites_; }
+  /// What adds to the right side of a site's row of the body's equations, in its unknown theta or
+  /// phi: `rest` + `slope` times that, at a value and a state.
+  struct Row {
+    double slope = 0, rest = 0;
+  };
+  Row row(std::size_t site, double value, const contact::ContactState &state) const;
+
+  /// What has crossed where the free unknowns have the `values` theta or phi. Where these are
+  /// prescribed it crosses as well, and the support has the rest.
+  void end_step(const Eigen::VectorXd &values, const StateAtNode &state_at, StepOutcome &outcome);
   /// What that adds to the right side of the rows of the sites.
   Eigen::VectorXd rows(const StepOutcome &outcome) const;
   /// Makes room for what crosses.
@@ -66,17 +78,18 @@ class ExchangeNodes {
   void restore(const output::SavedNumbers &numbers);
 
  private:
+  using Law = std::shared_ptr<const contact::Exchange>;
+
   double of_flow(std::size_t k) const;
-  ExchangePoint seen(const ExchangeSite &site, Eigen::Index crossed, double time,
-                     const ContactNodes<dim> &contact) const;
-  void cross(const ExchangeSite &site, Eigen::Index crossed, const ExchangePoint &at, double value,
-             const contact::ContactState &state, StepOutcome &outcome);
+  Law law(const ExchangeSite &site, Eigen::Index crossed, double time) const;
+  void cross(const ExchangeSite &site, Eigen::Index crossed, const contact::Exchange::Value &q,
+             double friction, StepOutcome &outcome);
 
   const Model<dim> &model_;
   std::vector<ExchangeSite> sites_, held_;
   Eigen::VectorXd scale_;
-  std::vector<ExchangePoint> points_, held_points_;  // by site
-  std::vector<double> held_values_;                  // theta or phi
+  std::vector<Law> laws_, held_laws_;  // by site
+  std::vector<double> held_values_;    // theta or phi
   Eigen::VectorXd crossed_,
       crossed_before_;  // D.nu by site, those held last, and a step ago [C/m^2]
 };

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "larger.h"
+
 namespace tourmaline::solve {
 
 using contact::PointLaw;
@@ -42,7 +44,9 @@ PointLaw HeldBounds::law(std::size_t node, const PointLaw &own) const {
 bool HeldBounds::settle(const std::vector<State> &found, double tolerance) {
   const VectorXd asked = asked_for(found);
   std::vector<bool> is_closed = closed_in(found);
-  bool same = (asked - held_).lpNorm<Eigen::Infinity>() <= tolerance;
+  const double change = (asked - held_).lpNorm<Eigen::Infinity>();
+  bool same =
+      change <= tolerance || stall_.see(relative_to(change, asked.lpNorm<Eigen::Infinity>()));
   for (std::size_t i = 0; i < found.size(); ++i)
     if (!bounds_[i] && is_closed[i] != is_closed_[i])
       same = false;

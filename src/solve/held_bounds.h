@@ -6,6 +6,7 @@
 #include "contact/friction_bound.h"
 #include "contact/point_law.h"
 #include "solve/anderson.h"
+#include "solve/stall.h"
 
 namespace tourmaline::solve {
 
@@ -28,7 +29,7 @@ class HeldBounds {
   contact::PointLaw law(std::size_t node, const contact::PointLaw &own) const;
 
   /// Takes the state that was found with these laws; true where it asks for no others: bounds that
-  /// differ by no more than `tolerance` [N/m^2].
+  /// differ by no more than `tolerance` [N/m^2], or by round-off that no round takes away.
   bool settle(const std::vector<State> &found, double tolerance);
 
  private:
@@ -38,6 +39,7 @@ class HeldBounds {
   Eigen::VectorXd held_;
   std::vector<bool> is_closed_;
   Anderson anderson_;
+  Stall stall_;
 };
 
 }  // namespace tourmaline::solve

@@ -146,7 +146,10 @@ template class IterativeRoute<3>;
 
 template <int dim>
 std::unique_ptr<Route> iterative_route(const Model<dim> &model) {
-  return model.laws.has_normal_unknowns() ? contact_by_solutions(model) : active_set_route(model);
+  const bool decides = model.laws.has_normal_unknowns() ||
+                       model.laws.crosses_by_state(contact::Crossing::heat) ||
+                       model.laws.crosses_by_state(contact::Crossing::charge);
+  return decides ? contact_by_solutions(model) : active_set_route(model);
 }
 
 template std::unique_ptr<Route> iterative_route<2>(const Model<2> &);

@@ -12,6 +12,7 @@
 #include "parallel/ranks.h"
 #include "solve/first_places.h"
 #include "solve/held_bounds.h"
+#include "solve/held_exchanges.h"
 #include "solve/saddle_contact.h"
 #include "solve/saddle_newton.h"
 #include "tourmaline/error.h"
@@ -38,6 +39,13 @@ std::vector<contact::MultiplierPoint<dim>> multiplier_points(const Model<dim> &m
   return contact::facet_multipliers(model.body, model.asked.contacts.front().on, is_prescribed);
 }
 
+std::vector<std::size_t> unknowns_of(const std::vector<ExchangeSite> &sites) {
+  std::vector<std::size_t> unknowns;
+  for (const ExchangeSite &site : sites)
+    unknowns.push_back(site.unknown);
+  return unknowns;
+}
+
 template <int dim>
 class MonolithicRoute : public Route {
  public:
@@ -52,6 +60,9 @@ class MonolithicRoute : public Route {
   void find(double time, const StepData &data, SaddlePoint start, StepOutcome &outcome);
   void find_with_bounds(double time, const StepData &data, std::vector<AugmentedLagrangian> &laws,
                         SaddlePoint start, StepOutcome &outcome);
+  void find_with_exchanges(double time, const StepData &data,
+                           std::vector<AugmentedLagrangian> &laws, std::span<double> right_side,
+                           SaddlePoint start, StepOutcome &outcome);
   SaddlePoint prediction(std::span<const double> before, std::span<const double> state) const;
   [[noreturn]] void give_up(double time, const SaddleNewton<dim> &newton) const;
 
@@ -60,6 +71,7 @@ class MonolithicRoute : public Route {
   void restore_memory(const output::SavedNumbers &numbers) override;
 
   const Model<dim> &model_;
+  HeldExchanges<dim> exchange_;
   SaddleSystem<dim> system_;
   SaddleContact<dim> contact_;
   SaddlePoint x_;
@@ -69,8 +81,9 @@ class MonolithicRoute : public Route {
 template <int dim>
 MonolithicRoute<dim>::MonolithicRoute(const Model<dim> &model)
     : model_(model),
+      exchange_(model),
       system_(model.op, model.step, model.prescribed, multiplier_points(model),
-              model.asked.solver.threads),
+              unknowns_of(exchange_.sites()), model.asked.solver.threads),
       contact_(model, system_) {
   x_.multipliers = VectorXd::Zero(static_cast<Index>(system_.n_multipliers()));
 }
@@ -93,17 +106,18 @@ StepOutcome MonolithicRoute<dim>::advance(double time, std::span<const double> r
   contact_.begin_step(time, before);
   const std::vector<double> rest = contact_.rest();
   std::vector<AugmentedLagrangian> laws = contact_.laws(carried, state, rest);
-  const StepData data{right_side, carried, rest, laws};
+  std::vector<double> held(right_side.begin(), right_side.end());
+  const StepData data{held, carried, rest, laws};
   StepOutcome outcome;
-  if (model_.laws.friction_depends_on_pressure())
-    find_with_bounds(time, data, laws, prediction(before, state), outcome);
-  else
-    find(time, data, prediction(before, state), outcome);
+  find_with_exchanges(time, data, laws, held, prediction(before, state), outcome);
   outcome.status = contact_.status(data, x_);
   if (model_.asked.solver.multiplier == "nodal")
     contact_.settle(data, outcome.status, x_);
   contact_.share_forces(data, x_, outcome);
   contact_.end_step(data, x_, outcome);
+  const auto crossing = contact_.states_for_exchange(data, x_);
+  exchange_.end_step(
+      x_.body, [&](std::size_t node) { return crossing[node]; }, outcome);
   std::copy(x_.body.begin(), x_.body.end(), state.begin());
   if (outgrew_measured<dim>(state))
     see_forward_error(accuracy(right_side, state, outcome).forward_error);
@@ -122,6 +136,37 @@ void MonolithicRoute<dim>::find(double time, const StepData &data, SaddlePoint s
   outcome.newton_iterations += newton.iterations();
   outcome.residual = verdict.worst();
   force_size_ = verdict.force_size;
+}
+
+// `laws` and `right_side` are those of `data`: what crosses by the contact's state is held, the
+// step solved, and so on.
+template <int dim>
+void MonolithicRoute<dim>::find_with_exchanges(double time, const StepData &data,
+                                               std::vector<AugmentedLagrangian> &laws,
+                                               std::span<double> right_side, SaddlePoint start,
+                                               StepOutcome &outcome) {
+  const std::vector<AugmentedLagrangian> own = laws;
+  const std::vector<double> loads(right_side.begin(), right_side.end());
+  exchange_.begin_step(time, start.body);
+  while (true) {
+    laws = own;
+    std::copy(loads.begin(), loads.end(), right_side.begin());
+    exchange_.add_rests(right_side);
+    system_.set_slopes(exchange_.slopes());
+    if (model_.laws.friction_depends_on_pressure())
+      find_with_bounds(time, data, laws, start, outcome);
+    else
+      find(time, data, start, outcome);
+    if (exchange_.is_empty())
+      return;
+    start = x_;
+    const auto states = contact_.states_for_exchange(data, x_);
+    if (exchange_.settle(
+            time, x_.body, [&](std::size_t node) { return states[node]; },
+            model_.asked.solver.tolerance))
+      break;
+  }
+  outcome.stage = ContactStage::fixed_point;
 }
 
 // `laws` are those of `data`: friction is held, the step solved, and so on.
@@ -170,8 +215,10 @@ Accuracy MonolithicRoute<dim>::accuracy(std::span<const double> right_side,
     return accuracy_so_far();
   SaddlePoint residual{std::vector<double>(state.size()), VectorXd::Zero(x_.multipliers.size())};
   model_.cells.multiply(model_.step, state, residual.body);
+  std::vector<double> b(right_side.begin(), right_side.end());
+  exchange_.add_flows(outcome, b);
   for (std::size_t i = 0; i < state.size(); ++i)
-    residual.body[i] -= right_side[i];
+    residual.body[i] -= b[i];
   for (std::size_t n = 0; n < model_.interface.size(); ++n)
     for (int c = 0; c < dim; ++c)
       residual.body[body::unknown<dim>(model_.interface[n].node, c)] -=
@@ -215,12 +262,14 @@ template <int dim>
 void MonolithicRoute<dim>::save_memory(output::SavedNumbers &numbers) const {
   numbers.put("multipliers", x_.multipliers);
   contact_.save(numbers);
+  exchange_.save(numbers);
 }
 
 template <int dim>
 void MonolithicRoute<dim>::restore_memory(const output::SavedNumbers &numbers) {
   numbers.fill("multipliers", x_.multipliers);
   contact_.restore(numbers);
+  exchange_.restore(numbers);
 }
 
 }  // namespace

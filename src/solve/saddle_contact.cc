@@ -114,6 +114,22 @@ std::vector<HeldBounds::State> SaddleContact<dim>::states(const StepData &data,
 }
 
 template <int dim>
+std::vector<contact::ContactState> SaddleContact<dim>::states_for_exchange(
+    const StepData &data, const SaddlePoint &x) const {
+  const std::vector<HeldBounds::State> found = states(data, x);
+  std::vector<contact::ContactState> all;
+  for (std::size_t p = 0; p < found.size(); ++p) {
+    const AugmentedLagrangian &law = data.laws[p];
+    const Local y = system_.displacement(p, x, data);
+    contact::Tangent slip = y.tail(y.size() - system_.points()[p].has_normal);
+    if (found[p].slip == 0)
+      slip.setZero();
+    all.push_back({found[p].pressure, closing(x, p), law.friction.dissipation(slip)});
+  }
+  return all;
+}
+
+template <int dim>
 std::vector<ContactStatus> SaddleContact<dim>::status(const StepData &data,
                                                       const SaddlePoint &x) const {
   std::vector<ContactStatus> status(model_.interface.size(), ContactStatus::stick);

@@ -40,6 +40,9 @@ class SaddleContact {
   /// What they depend on: as x, the end of the last step, leaves it, and as x has it now.
   std::vector<HeldBounds::State> first_states(const SaddlePoint &x) const;
   std::vector<HeldBounds::State> states(const StepData &data, const SaddlePoint &x) const;
+  /// What crosses the contact depends on, by point.
+  std::vector<contact::ContactState> states_for_exchange(const StepData &data,
+                                                         const SaddlePoint &x) const;
 
   /// A node slips when the multiplier's point does: itself, or any of the facets around it.
   std::vector<ContactStatus> status(const StepData &data, const SaddlePoint &x) const;

@@ -35,8 +35,13 @@ MatrixXd jacobian(const contact::MultiplierPoint<dim> &point) {
 template <int dim>
 SaddleSystem<dim>::SaddleSystem(const body::Operator<dim> &op, double step,
                                 const std::vector<body::Prescribed> &prescribed,
-                                std::vector<Point> points, int threads)
-    : operator_(op), step_(step), points_(std::move(points)) {
+                                std::vector<Point> points, const std::vector<std::size_t> &crossing,
+                                int threads)
+    : operator_(op),
+      step_(step),
+      points_(std::move(points)),
+      crossing_(crossing),
+      slope_(Eigen::VectorXd::Zero(static_cast<Index>(crossing.size()))) {
   const std::vector<double> diagonal = op.diagonal(step);
   field_scale_ = body::Operator<dim>::scales(diagonal);
   number(prescribed);
@@ -52,6 +57,7 @@ SaddleSystem<dim>::SaddleSystem(const body::Operator<dim> &op, double step,
       condensation::scaled_matrix(operator_, step_, variable_of_, scale_);
   n_body_entries_ = matrix.value.size();
   add_contact_pattern(matrix);
+  add_crossing_pattern(matrix);
   factorisation_.emplace(std::move(matrix), elimination_order(), threads);
 }
 
@@ -111,6 +117,15 @@ void SaddleSystem<dim>::add_contact_pattern(condensation::SymmetricMatrix &matri
           matrix.column.push_back(std::min(variables[a], variables[b]) + 1);
           matrix.value.push_back(0);
         }
+  }
+}
+
+template <int dim>
+void SaddleSystem<dim>::add_crossing_pattern(condensation::SymmetricMatrix &matrix) const {
+  for (const std::size_t unknown : crossing_) {
+    matrix.row.push_back(variable_of_[unknown] + 1);
+    matrix.column.push_back(variable_of_[unknown] + 1);
+    matrix.value.push_back(0);
   }
 }
 
@@ -187,6 +202,8 @@ template <int dim>
 std::vector<double> SaddleSystem<dim>::body_times(const std::vector<double> &x) const {
   std::vector<double> y(x.size());
   operator_.multiply(step_, x, y);
+  for (std::size_t k = 0; k < crossing_.size(); ++k)
+    y[crossing_[k]] -= slope_[static_cast<Index>(k)] * x[crossing_[k]];
   return y;
 }
 
@@ -202,7 +219,9 @@ double SaddleSystem<dim>::largest_displacement(const SaddlePoint &x) const {
 template <int dim>
 typename SaddleSystem<dim>::RowSizes SaddleSystem<dim>::row_sizes(const StepData &data,
                                                                   const SaddlePoint &x) const {
-  const std::vector<double> terms = operator_.sizes(step_, x.body);
+  std::vector<double> terms = operator_.sizes(step_, x.body);
+  for (std::size_t k = 0; k < crossing_.size(); ++k)
+    terms[crossing_[k]] += std::abs(slope_[static_cast<Index>(k)] * x.body[crossing_[k]]);
   const auto size = [&](std::size_t i) { return std::abs(data.right_side[i]) + terms[i]; };
   RowSizes sizes;
   for (const std::size_t i : unknown_of_) {
@@ -237,8 +256,8 @@ MatrixXd SaddleSystem<dim>::local_tangent(
   return point.weight * tangent;
 }
 
-// The body's part of the tangent never changes; the contact tangent T stands behind it and is
-// written anew in the order of `add_contact_pattern`, on the first rank: entries of all ranks are
+// The body's part of the tangent never changes; the contact tangent T and slopes stand behind it
+// and are written anew in the order of their patterns, on the first rank: entries of all ranks are
 // added.
 template <int dim>
 void SaddleSystem<dim>::factorise(const StepData &data, const SaddlePoint &x) {
@@ -254,6 +273,9 @@ void SaddleSystem<dim>::factorise(const StepData &data, const SaddlePoint &x) {
           values[entry++] = tangent(static_cast<Index>(a), static_cast<Index>(b)) *
                             scale_[variables[a]] * scale_[variables[b]];
   }
+  for (std::size_t k = 0; parallel::is_first() && k < crossing_.size(); ++k)
+    values[entry++] = -slope_[static_cast<Index>(k)] *
+                      std::pow(scale_[static_cast<std::size_t>(variable_of_[crossing_[k]])], 2);
   factorisation_->factorise();
 }
 

@@ -41,9 +41,13 @@ class SaddleSystem {
  public:
   using Point = contact::MultiplierPoint<dim>;
 
+  /// `crossing`: free unknowns theta and phi that `set_slopes` acts on.
   SaddleSystem(const body::Operator<dim> &op, double step,
                const std::vector<body::Prescribed> &prescribed, std::vector<Point> points,
-               int threads);
+               const std::vector<std::size_t> &crossing, int threads);
+
+  /// From now on K is less these on the diagonal of the crossing unknowns.
+  void set_slopes(const Eigen::VectorXd &slopes) { slope_ = slopes; }
 
   const std::vector<Point> &points() const { return points_; }
   contact::Local displacement(std::size_t point, const SaddlePoint &x, const StepData &data) const;
@@ -68,7 +72,7 @@ class SaddleSystem {
   /// -tangent^-1 residual (44), zero in prescribed unknowns.
   SaddlePoint increment(const SaddlePoint &residual);
 
-  /// K x, the body's part of the tangent.
+  /// K x, less slopes: the body's part of the tangent.
   std::vector<double> body_times(const std::vector<double> &x) const;
   double largest_displacement(const SaddlePoint &x) const;  ///< of a component [m]
 
@@ -87,6 +91,7 @@ class SaddleSystem {
   void number(const std::vector<body::Prescribed> &prescribed);
   void set_scales();
   void add_contact_pattern(condensation::SymmetricMatrix &matrix) const;
+  void add_crossing_pattern(condensation::SymmetricMatrix &matrix) const;
   std::vector<int> elimination_order() const;
   std::vector<int> local_variables(std::size_t point) const;
   Eigen::MatrixXd local_tangent(const Point &point,
@@ -97,6 +102,8 @@ class SaddleSystem {
   const body::Operator<dim> &operator_;
   double step_;
   std::vector<Point> points_;
+  std::vector<std::size_t> crossing_;
+  Eigen::VectorXd slope_;                // by crossing unknown
   std::vector<std::size_t> offset_;      // of each point's multipliers
   std::vector<int> variable_of_;         // by unknown of the body; -1: prescribed
   std::vector<std::size_t> unknown_of_;  // by variable; multipliers follow

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "equal_quantities.h"
 #include "run_case.h"
 #include "tourmaline/error.h"
 
@@ -225,11 +226,80 @@ void expect_refused(const std::string &file, const Overrides &overrides, const s
   }
 }
 
-TEST(Exchange, IsRefusedByRoutesThatDoNotHaveIt) {
-  expect_refused("cases/verification/friction-heat.toml", {"solver.method=monolithic"},
-                 "contact with heat.friction_share is not available with \"monolithic\"");
-  expect_refused(barber, {"solver.body=iterative"},
-                 "contact with heat.pressure is not available with \"iterative\"");
+TEST(Exchange, IsRefusedOnMultipliersOfFacets) {
+  expect_refused("cases/verification/friction-heat.toml",
+                 {"solver.method=monolithic", "solver.multiplier=piecewise-constant",
+                  "contact.normal=bilateral", "contact.friction={law='tresca',bound=1e6}"},
+                 "contact with heat.friction_share is not available with solver.multiplier");
+}
+
+// 5. Every route. Contact that rubs, warms and lets go, with nodes that symmetry holds partly.
+
+const char *const rubbed = R"toml(
+mesh.box = { min = [0, 0], max = [0.02, 0.01], cells = [10, 5] }
+material = { library = "BaTiO3-Liu2014", pyroelectric = [0, 1e-4] }
+time = { end = 1, steps = 4 }
+boundary = [ { on = "left", displacement = [0, "free"] },
+             { on = "top", displacement = ["free", "-2e-7*t + 3e-5*(x - 0.01)*t^2"], potential = 0, temperature = 0 } ]
+[contact]
+on = "bottom"
+normal = "unilateral"
+foundation_displacement = ["1e-6*sin(4*t)", 0]
+friction = { law = "coulomb", coefficient = 0.4 }
+heat = { law = "exchange", coefficient = 2e4, foundation_temperature = "20*t", friction_share = 0.5, ramp = 3e-7, pressure = { coefficient = 3e4, reference = 1e7, exponent = 0.95 } }
+electric = { law = "leak", coefficient = 1e-6, foundation_potential = "50*t", ramp = 2e-7 }
+)toml";
+
+const char *const rubbed_block = R"toml(
+mesh.box = { min = [0, 0, 0], max = [0.02, 0.015, 0.01], cells = [4, 3, 3], cell = "hexahedron" }
+mesh.degree = 2
+time = { end = 1, steps = 3 }
+region = [ { where = "z < 0.005", material = { library = "BaTiO3-Liu2014", pyroelectric = [0, 0, 1e-4] } },
+           { where = "z >= 0.005", material.library = "BaTiO3-Liu2014" } ]
+boundary = [ { on = "left", displacement = [0, "free", "free"] },
+             { on = "top", displacement = [0, 0, "-2e-7*t + 2e-5*(x - 0.01)*t"], temperature = 0 } ]
+electrode = [ { name = "top", on = "top", voltage = "20*t" } ]
+[contact]
+on = "bottom"
+normal = { law = "compliance", coefficient = 1e14, exponent = 1 }
+foundation_displacement = ["2e-7*t", "3e-7*sin(4*t)", 0]
+friction = { law = "coulomb", coefficient = 0.4 }
+heat = { law = "exchange", coefficient = 2e4, foundation_temperature = "20*t", friction_share = 0.5, ramp = 3e-7 }
+electric = { law = "exchange", coefficient = 1e-8, foundation_potential = "5*t", ramp = 2e-7 }
+)toml";
+
+void expect_one_answer(const char *text) {
+  const RunCase condensed = run_text(text);
+  expect_balances(condensed.history());
+  EXPECT_GT(largest(condensed.history(), "friction_heat_body"), 0);
+  EXPECT_GT(largest(condensed.contact(), "charge_flux"), 0);
+  for (const Overrides &route :
+       {Overrides{"solver.method=monolithic", "solver.tolerance=1e-12"},
+        Overrides{"solver.body=iterative", "solver.linear_tolerance=1e-13"}}) {
+    SCOPED_TRACE(route.front());
+    const RunCase other = run_text(text, route);
+    EXPECT_EQ(other.contact().columns.at("status"), condensed.contact().columns.at("status"));
+    expect_equal_quantities(other.contact(), condensed.contact(),
+                            {{"temperature"},
+                             {"potential"},
+                             {"heat_flux"},
+                             {"charge_flux"},
+                             {"normal_traction"},
+                             {"tangential_traction_x"},
+                             {"gap"}});
+    expect_equal_quantities(
+        other.history(), condensed.history(),
+        {{"friction_heat_body", "friction_heat_foundation"}, {"charge_bottom"}, {"heat_bottom"}});
+    expect_balances(other.history(), 1e-9);
+  }
+}
+
+TEST(EveryRoute, LetsHeatAndChargeCrossAPlaneContactByItsState) {
+  expect_one_answer(rubbed);
+}
+
+TEST(EveryRoute, LetsHeatAndChargeCrossAContactOfASolidByItsState) {
+  expect_one_answer(rubbed_block);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ struct Table {
   std::vector<double> numbers(const std::string &column) const {
     std::vector<double> values;
     for (const std::string &cell : columns.at(column))
-      values.push_back(std::stod(cell));
+      values.push_back(std::strtod(cell.c_str(), nullptr));  // stod throws for 1e-310
     return values;
   }
 };

@@ -154,8 +154,14 @@ TEST_F(Interrupted, WhatCrossesTheContactGoesOn) {
 heat = { law = "exchange", coefficient = 2e4, foundation_temperature = "20*t", ramp = 3e-7, friction_share = 0.5 }
 electric = { law = "leak", coefficient = 1e-6, foundation_potential = 5, ramp = 2e-7 }
 )toml";
-  expect_to_go_on("crossing.toml");
-  EXPECT_THAT(content_of(here() / "other/results/history.csv"), HasSubstr("friction_heat_body"));
+  for (const char *route :
+       {"", " --set solver.method=monolithic", " --set solver.body=iterative"}) {
+    SCOPED_TRACE(route);
+    expect_to_go_on(std::string("crossing.toml") + route);
+    EXPECT_THAT(content_of(here() / "other/results/history.csv"), HasSubstr("friction_heat_body"));
+    fs::remove_all(here() / "one");
+    fs::remove_all(here() / "other");
+  }
 }
 
 TEST_F(Interrupted, FrictionThatRemembersItsSlipGoesOnIteratively) {

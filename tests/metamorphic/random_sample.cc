@@ -231,10 +231,10 @@ void add_contact(Builder &add, Sample &sample, int side, const ContactWish &here
     sample.laws["contact.heat"] = "exchange";
     add.add_law("contact.heat", "coefficient", "exchanged heat");
     add.add("contact.heat", -1, "foundation_temperature");
-    if (wish.exchange && here.rubs && random.chance(0.7))
+    if (!wish.linear && here.rubs && random.chance(0.7))
       add_heat(add, sample, random);
   }
-  if (wish.exchange && here.rubs && random.chance(0.6))
+  if (!wish.linear && here.rubs && random.chance(0.6))
     add_charge(add, sample, random);
 }
 

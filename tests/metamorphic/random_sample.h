@@ -7,9 +7,9 @@ namespace tourmaline::testing {
 
 /// What a relation asks of its cases.
 struct Wish {
-  bool linear = false;    ///< no friction, or so much that all that can stick does
+  /// No friction, or so much that all that can stick does; nothing crosses by the contact's state.
+  bool linear = false;
   bool resistors = true;  ///< electrodes may have resistors, which the condensed route alone takes
-  bool exchange = true;   ///< heat and charge may cross by the contact's state: likewise
 };
 
 /// A small case whose strains, fields and temperatures are such that every coupling matters, and

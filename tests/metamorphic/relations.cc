@@ -22,9 +22,7 @@ constexpr unsigned int n_cases = 35;  // of each
 
 Wish wish_of(unsigned int seed) {
   const unsigned int relation = seed / 1000;
-  return {.linear = relation == superposition,
-          .resistors = relation < newton,
-          .exchange = relation < newton && relation != superposition};
+  return {.linear = relation == superposition, .resistors = relation < newton};
 }
 
 // The parameter is the seed.
@@ -148,7 +146,7 @@ std::map<std::string, bool> features(const Sample &sample, const Wish &wish) {
                 {"compliance", law("normal", "compliance")},
                 {"damped contact", law("normal", "damped")},
                 {"Coulomb's friction", law("friction", "coulomb")}});
-  if (wish.exchange)
+  if (!wish.linear)
     all.insert({{"heat of friction", sample.numbers.contains("contact.heat.friction_share")},
                 {"heat by pressure", sample.numbers.contains("contact.heat.pressure.reference")},
                 {"fading exchange", sample.numbers.contains("contact.heat.ramp")},

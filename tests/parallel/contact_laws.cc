@@ -103,18 +103,20 @@ const char *const crossing =
     " --set "
     "contact.electric='{law=\"leak\",coefficient=1e-6,foundation_potential=\"50*t\",ramp=2e-7}'";
 
-TEST_P(Ranks, WhatCrossesTheContactByItsStateIsTheSame) {
-  for (const auto &[text, dim] : {std::pair(rubbed, 2), std::pair(rubbed_block, 3)}) {
-    ASSERT_NO_FATAL_FAILURE(run_twice(file_of(text) + crossing));
-    expect_same_rubbing(one_, several_, dim);
-    expect_equal_quantities(several_.contact, one_.contact, {{"charge_flux"}});
-    expect_equal_quantities(
-        several_.history, one_.history,
-        {{"friction_heat_body", "friction_heat_foundation"}, {"charge_bottom"}, {"heat_bottom"}});
-  }
-}
-
 const char *const iteratively = " --set solver.body=iterative --set solver.linear_tolerance=1e-13";
+
+TEST_P(Ranks, WhatCrossesTheContactByItsStateIsTheSame) {
+  for (const std::string route : {"", " --set solver.method=monolithic", iteratively})
+    for (const auto &[text, dim] : {std::pair(rubbed, 2), std::pair(rubbed_block, 3)}) {
+      SCOPED_TRACE(route);
+      ASSERT_NO_FATAL_FAILURE(run_twice(file_of(text) + crossing + route));
+      expect_same_rubbing(one_, several_, dim);
+      expect_equal_quantities(several_.contact, one_.contact, {{"charge_flux"}});
+      expect_equal_quantities(
+          several_.history, one_.history,
+          {{"friction_heat_body", "friction_heat_foundation"}, {"charge_bottom"}, {"heat_bottom"}});
+    }
+}
 
 TEST_P(Ranks, ARubbedBodyThatComesOffIsTheSameIteratively) {
   ASSERT_NO_FATAL_FAILURE(run_twice(file_of(rubbed) + iteratively));

@@ -328,7 +328,7 @@ void expect_tangent_is_the_derivative(const char *text, bool facets) {
   SaddleSystem<dim> system(model.op, model.step, model.prescribed,
                            facets ? contact::facet_multipliers(model.body, {"left"}, nothing)
                                   : contact::nodal_multipliers(model.interface, nothing),
-                           1);
+                           {}, 1);
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
   // Displacements (or forces) and multipliers (or displacements times area); potential and
