@@ -1,5 +1,5 @@
 // Along the contact boundary of a plane body, each connected piece apart: opening and tractions with the bound, slip,
-// temperature, and a map of stick and slip over place and time.
+// temperature and potential, what crosses, and a map of stick and slip over place and time.
 import { allZero, Chart, Curve } from './chart';
 import { ContactLine, contactLines, contactNodes, stepAt, stepEnds } from './contact_line';
 import { ContactNode, hasDiagrams } from './contact_node';
@@ -58,6 +58,10 @@ export class Contact {
     add('Temperature', 'K', [{ label: 'θ', values: this.of('temperature'), colour: lineColours[3] }], theta);
     if (this.result.contact!.column('heat_flux')!.some((v) => v !== 0))
       add('Heat flux out of the body', 'W/m²', [{ label: 'q·ν', values: this.of('heat_flux'), colour: lineColours[3] }], theta);
+    const phi = !!this.result.field('potential')?.belowRoundOff;
+    add('Potential', 'V', [{ label: 'φ', values: this.of('potential'), colour: lineColours[4] }], phi);
+    if (this.result.contact!.column('charge_flux')?.some((v) => v !== 0))
+      add('Charge out of the body', 'C/m²', [{ label: 'D·ν', values: this.of('charge_flux'), colour: lineColours[4] }], phi);
     const map = new StatusMap(this.result, line, this.nodes, this.ends, this.timeline);
     charts.push(map.box);
     this.updates.push(() => map.redraw());

@@ -51,6 +51,9 @@ function groups(history: Table, dimension: 2 | 3): Group[] {
     { title: 'Friction dissipation and power of the loads', unit: 'W' + per,
       columns: [['friction_dissipation', 'friction'], ['load_power', 'loads'], ['foundation_power', 'foundation'],
         ['contact_dissipation', 'damped contact']] },
+    { title: 'Heat of friction', unit: 'W' + per, columns: history.names.includes('friction_heat_body')
+      ? [['friction_dissipation', 'made'], ['friction_heat_body', 'into the body'],
+        ['friction_heat_foundation', 'into the foundation']] : [] },
     { title: 'Power and losses', unit: 'W' + per, columns: [['stored_energy_rate', 'stored'], ['thermal_power', 'thermal'],
       ['conduction_loss', 'conduction'], ['time_step_loss', 'time step']] },
     { title: 'Newton iterations', unit: '', columns: [['newton_iterations', 'iterations']], bars: true },

@@ -661,6 +661,25 @@ await inBrowser(desktop, async (context) => {
   await test('of contact that opens nothing is complained of', () => assert.deepEqual(complaints, []));
 });
 
+const crossed = runText('crossed', lifting('{ min = [0, 0], max = [0.02, 0.01], cells = [20, 10], cell = "quadrilateral" }',
+  '["1e-6*sin(2*t)", "-5e-7*t"]') + 'electric = { law = "leak", coefficient = 1e-6, foundation_potential = 5, ramp = 2e-7 }\n',
+  'contact.heat.friction_share=0.5');
+await inBrowser(desktop, async (context) => {
+  const { tab, complaints } = await open(context, join(crossed, 'report.html'));
+  await test('heat of friction with its two shares, the potential and the charge at the contact are drawn', async () => {
+    assert.deepEqual(await tab.locator('#history .chart', { hasText: 'Heat of friction' }).locator('.u-label').allTextContents(),
+      ['t [s]', 'made', 'into the body', 'into the foundation']);
+    const titles = await tab.locator('[data-piece] figcaption').allTextContents();
+    for (const title of ['Temperature', 'Heat flux out of the body', 'Potential', 'Charge out of the body'])
+      assert.ok(titles.includes(title), `no "${title}" in ${titles}`);
+    assert.deepEqual(complaints, []);
+  });
+  await test('without friction heat there is no chart of it', async () => {
+    const other = await open(context, join(plane, 'report.html'));
+    assert.ok(!(await other.tab.locator('#history figcaption').allTextContents()).includes('Heat of friction'));
+  });
+});
+
 await inBrowser(desktop, async (context) => {
   const { tab, complaints } = await open(context, join(thick, 'report.html'));
   const rows = tableOf(thick, 'contact.csv').filter((r) => r.step === 5);
