@@ -222,10 +222,12 @@ struct Hertz {
   double half_width, largest_pressure;  // errors
 };
 
-Hertz hertz(const std::string &name, double reduced, int cells) {
+Hertz hertz(const std::string &name, double reduced, int cells,
+            const std::vector<std::string> &more = {}) {
   constexpr double force = 1e6, radius = 1;
-  const RunCase run("cases/hertz/" + name + ".toml",
-                    {fmt::format("mesh.box.cells=[{0},{0}]", cells)});
+  std::vector<std::string> overrides{fmt::format("mesh.box.cells=[{0},{0}]", cells)};
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  const RunCase run("cases/hertz/" + name + ".toml", overrides);
   const Table contact = run.contact();
   const std::vector<double> x = contact.numbers("x"), traction = contact.numbers("normal_traction");
   double sum = 0, second = 0;
@@ -261,6 +263,29 @@ TEST(HertzLine, HalfWidthAndPressureConverge) {
 
 TEST(HertzLine, OfAPiezoelectricHalfPlaneConvergesToTheStiffenedModulus) {
   expect_hertz("piezoelectric", 1.468047e11);
+}
+
+// Charge that crosses where the contact is closed softens: E* falls from that of an insulating
+// cylinder to that of a conducting one, 2/[(L^-1)_nn - (L^-1)_nphi^2/(L^-1)_phiphi].
+TEST(HertzLine, OfAPiezoelectricHalfPlaneSoftensTheMoreChargeCrosses) {
+  constexpr double insulated = 1.468047e11, conducting = 1.291435e11;
+  const auto modulus = [](double coefficient) {
+    const double half_width =
+        1 + hertz("piezoelectric", insulated, 64,
+                  {fmt::format("contact.electric={{law='exchange', coefficient={}, "
+                               "foundation_potential=0, ramp=1e-9}}",
+                               coefficient)})
+                .half_width;
+    return insulated / (half_width * half_width);
+  };
+  double last = modulus(0);
+  EXPECT_NEAR(last, insulated, 1e-2 * insulated);
+  for (const double coefficient : {1e-7, 1e-6, 1e-5, 1e-3, 1.}) {
+    const double now = modulus(coefficient);
+    EXPECT_LT(now, last) << coefficient;
+    last = now;
+  }
+  EXPECT_NEAR(last, conducting, 1e-2 * conducting);
 }
 
 // In one case, without the other's modulus.
