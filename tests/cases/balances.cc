@@ -1,4 +1,5 @@
 #include "closed_balances.h"
+#include "partly_held.h"
 #include "run_case.h"
 
 namespace tourmaline::testing {
@@ -44,6 +45,34 @@ TEST(Dissipation, OfFrictionIsTheBoundTimesTheSlipRateOfEverySlippingNode) {
     for (std::size_t i = 0; i < 17; ++i)
       by_hand += 15 * rate[17 * n + i] * (i == 0 || i == 16 ? 0.5 : 1) * 0.1 / 16;
     EXPECT_NEAR(dissipated[n], by_hand, 1e-9 * by_hand);
+  }
+}
+
+// Components that are prescribed slip, too: 1e4 N/m^2 on 0.1 m at 1e-6 m/s, but for what the heat
+// of the deformation still moves.
+TEST(Dissipation, OfABlockThatIsDraggedAlongHasItsHeldCornerToo) {
+  const RunCase run = run_text(R"toml(
+mesh.box = { min = [0, 0], max = [0.1, 0.1], cells = [16, 16] }
+material.library = "BaTiO3-Liu2014"
+time = { end = 10, steps = 10 }
+boundary = [ { on = "right", displacement = ["1e-6*t", "free"], potential = 0, temperature = 0 },
+             { on = "top", displacement = ["free", 0] } ]
+contact = { on = "bottom", friction = { law = "tresca", bound = 1e4 } }
+)toml");
+  EXPECT_NEAR(run.history().numbers("friction_dissipation").back(), 1e-3, 1e-9);
+  expect_closed_balances(run.history());
+}
+
+TEST(Dissipation, IsNeverNegativeWhereNormalsAreTiltedToWhatIsHeld) {
+  for (const char *route :
+       {"solver.method=condensed", "solver.method=monolithic", "solver.body=iterative"}) {
+    const Table history =
+        RunCase(casefile::read_text(rimmed_sleeve, "case.toml", {route}, mesh::read_mesh_file))
+            .history();
+    EXPECT_GT(largest(history, "friction_dissipation"), 0) << route;
+    for (const double dissipated : history.numbers("friction_dissipation"))
+      EXPECT_GE(dissipated, 0) << route;
+    expect_closed_balances(history, 1e-9);
   }
 }
 
