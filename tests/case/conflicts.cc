@@ -75,15 +75,18 @@ TEST(Conflicts, WhereChargeCrossesTheContactNothingPrescribesIt) {
               HasSubstr("it is in a contact with electric.law = \"exchange\""));
 }
 
-TEST(Conflicts, HeatThatCrossesByTheContactsStateIsNotForEveryRoute) {
-  const std::string share = "contact.heat.friction_share=0.5";
-  EXPECT_EQ(error_of({share}), "no error");
-  EXPECT_THAT(error_of({share, "solver.method=monolithic"}),
+TEST(Conflicts, WhatCrossesByTheContactsStateHasNodalMultipliers) {
+  const std::string facets = "solver={method='monolithic', multiplier='piecewise-constant'}",
+                    leak =
+                        "contact.electric={law='leak', coefficient=1, foundation_potential=0, "
+                        "ramp=1e-7}";
+  for (const std::string crossing : {std::string("contact.heat.friction_share=0.5"), leak}) {
+    EXPECT_EQ(error_of({crossing, "solver.method=monolithic"}), "no error");
+    EXPECT_EQ(error_of({crossing, "solver.body=iterative"}), "no error");
+  }
+  EXPECT_THAT(error_of({"contact.heat.friction_share=0.5", facets}),
               HasSubstr("contact with heat.friction_share is not available"));
-  EXPECT_THAT(error_of({"contact.electric={law='leak', coefficient=1, foundation_potential=0, "
-                        "ramp=1e-7}",
-                        "solver.body=iterative"}),
-              HasSubstr("contact with electric.ramp is not available"));
+  EXPECT_THAT(error_of({leak, facets}), HasSubstr("contact with electric.ramp is not available"));
 }
 
 TEST(Conflicts, WithoutFrictionThereIsNoHeatOfItToShare) {
