@@ -80,7 +80,7 @@ TEST(Conflicts, WhatCrossesByTheContactsStateHasNodalMultipliers) {
                     leak =
                         "contact.electric={law='leak', coefficient=1, foundation_potential=0, "
                         "ramp=1e-7}";
-  for (const std::string crossing : {std::string("contact.heat.friction_share=0.5"), leak}) {
+  for (const std::string &crossing : {std::string("contact.heat.friction_share=0.5"), leak}) {
     EXPECT_EQ(error_of({crossing, "solver.method=monolithic"}), "no error");
     EXPECT_EQ(error_of({crossing, "solver.body=iterative"}), "no error");
   }
