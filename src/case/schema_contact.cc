@@ -342,7 +342,7 @@ std::string law_of_the_state(const std::vector<ContactCase> &contacts) {
       return "normal = \"" + contact.normal.law + "\"";
     if (contact.friction.law == "coulomb")
       return "friction.law = \"coulomb\"";
-    if (const std::string key = contact.crosses_by_state(); !key.empty())
+    if (std::string key = contact.crosses_by_state(); !key.empty())
       return key;
   }
   return "";

@@ -374,8 +374,8 @@ void BodySystem<dim>::set_contact(const std::vector<NodeTangent<dim>> &asked) {
 }
 
 template <int dim>
-void BodySystem<dim>::set_crossing(std::vector<Eigen::Vector2d> crossing) {
-  parts_->crossing = std::move(crossing);
+void BodySystem<dim>::set_crossing(const std::vector<Eigen::Vector2d> &crossing) {
+  parts_->crossing = crossing;
 }
 
 template <int dim>

@@ -61,7 +61,7 @@ class BodySystem {
   /// The preconditioner stays where only stiffnesses differ.
   void set_contact(const std::vector<NodeTangent<dim>> &contact);
   /// Slopes of what crosses, by contact node, which `set_contact` gives its own from now on.
-  void set_crossing(std::vector<Eigen::Vector2d> crossing);
+  void set_crossing(const std::vector<Eigen::Vector2d> &crossing);
   /// From now on the iteration solves Q (K + C) Q x + E K Q x + G Q x = Q r, with E and G of these,
   /// one for each contact node, or of none; the preconditioner stays. `set_contact` comes first.
   void set_coupling(std::vector<NodeCoupling<dim>> coupling);

@@ -70,7 +70,7 @@ void BodyEquations<dim>::hold(const HeldExchanges<dim> &exchange) {
     slopes_.emplace_back(site.unknown, slope);
     crossing[site.node][body::field_of<dim>(site.unknown) - 1] = slope;
   }
-  system_.set_crossing(std::move(crossing));
+  system_.set_crossing(crossing);
 }
 
 template <int dim>
