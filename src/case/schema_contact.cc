@@ -183,14 +183,16 @@ void declare(Visitor &v, PressureConductanceCase &pressure) {
 }
 
 Key ramp_key(const std::string &what, const Use &used) {
-  return {.name = "ramp",
-          .description = what +
-                         " by clamp(1 - gap/ramp, 0, 1), gap being the opening at the end of "
-                         "the step, so that it ends where the opening reaches this",
-          .unit = "m",
-          .range = positive(sense::slip),
-          .default_words = "it does not fade",
-          .used = used};
+  return {
+      .name = "ramp",
+      .description = what +
+                     " by clamp(1 - gap/ramp, 0, 1), gap being the opening at the end of "
+                     "the step, so that it ends where the opening reaches this; what crosses is "
+                     "then summed at the nodes, not integrated facet by facet",
+      .unit = "m",
+      .range = positive(sense::slip),
+      .default_words = "it does not fade",
+      .used = used};
 }
 
 void declare(Visitor &v, HeatExchangeCase &heat) {
@@ -218,13 +220,14 @@ void declare(Visitor &v, HeatExchangeCase &heat) {
          .used = exchange,
          .also = {"theta_f"}},
         &heat.foundation_temperature);
-  v.optional_table({.name = "pressure",
-                    .description = "Exchange that grows with the contact pressure p = -sigma_nu: "
-                                   "coefficient (p/reference)^exponent is added to k_c",
-                    .used = exchange,
-                    .also = {"pressure_dependent"}},
-                   heat.pressure,
-                   [](Visitor &inner, PressureConductanceCase &value) { declare(inner, value); });
+  v.optional_table(
+      {.name = "pressure",
+       .description = "Exchange that grows with the contact pressure p = -sigma_nu: "
+                      "coefficient (p/reference)^exponent is added to k_c; what crosses is then "
+                      "summed at the nodes, not integrated facet by facet",
+       .used = exchange,
+       .also = {"pressure_dependent"}},
+      heat.pressure, [](Visitor &inner, PressureConductanceCase &value) { declare(inner, value); });
   v.optional(ramp_key("k_c fades as the contact opens,", exchange), heat.ramp);
   v.optional({.name = "friction_share",
               .description = "share of the power of friction that warms the body at the contact; "

@@ -9,6 +9,7 @@
 #include "gmres.h"
 #include "larger.h"
 #include "parallel/ranks.h"
+#include "tourmaline/error.h"
 
 namespace tourmaline::condensation {
 
@@ -27,6 +28,11 @@ CondensedBody<dim>::CondensedBody(const body::Operator<dim> &op, double step,
   std::vector<double> scales;
   for (const std::size_t i : unknown_of_)
     scales.push_back(scale(i));
+  // MUMPS on two ranks waits for ever where nothing is eliminated.
+  if (parallel::n_ranks() > 1 && contact_variables_.size() == unknown_of_.size())
+    throw CaseError(
+        "[mesh] no unknown of the body is free beside those of its contact: such a mesh is not "
+        "available on several MPI ranks; start the program without mpirun, or take finer cells");
   factorisation_.emplace(scaled_matrix(op, step, variable_of_, scales), elimination_order(),
                          contact_variables_, threads);
   const auto n =

@@ -43,7 +43,9 @@ struct BodySystem<dim>::Parts {
   Parts &operator=(const Parts &) = delete;
 
   void preallocate();
-  void make_solver(const std::vector<Vector3> &points);
+  void split(const std::vector<Vector3> &points);
+  void make_solver();
+  void orthogonalise_twice();
   void attach_rigid_motions(IS displacements, const std::vector<Vector3> &points) const;
   Block projector(Node node) const;
   void assemble();
@@ -73,6 +75,11 @@ struct BodySystem<dim>::Parts {
   Mat matrix = nullptr;  // Q (K + C) Q + 1 - Q, as the preconditioner needs it
   Mat free = nullptr;    // its product with Q x, which the Krylov iteration takes
   Vec right_side = nullptr, solution = nullptr, projected = nullptr;
+  struct Field {
+    const char *name = nullptr;
+    IS own = nullptr;
+  };
+  std::array<Field, 3> fields;  // u, phi, theta
   KSP solver = nullptr;
   double set_up_seconds = 0;
   int set_ups = 0;
@@ -89,6 +96,8 @@ BodySystem<dim>::Parts::Parts(const body::Operator<dim> &the_operator, double th
 template <int dim>
 BodySystem<dim>::Parts::~Parts() {
   KSPDestroy(&solver);
+  for (Field &field : fields)
+    ISDestroy(&field.own);
   VecDestroy(&projected);
   VecDestroy(&solution);
   VecDestroy(&right_side);
@@ -144,23 +153,33 @@ void BodySystem<dim>::Parts::attach_rigid_motions(IS displacements,
 }
 
 template <int dim>
-void BodySystem<dim>::Parts::make_solver(const std::vector<Vector3> &points) {
+void BodySystem<dim>::Parts::split(const std::vector<Vector3> &points) {
+  fields = {{{"u", rows.own(n, 0, dim)},
+             {"phi", rows.own(n, Fields<dim>::potential, 1)},
+             {"theta", rows.own(n, Fields<dim>::temperature, 1)}}};
+  attach_rigid_motions(fields[0].own, points);
+}
+
+// Always a new one: what GAMG makes of a matrix differs in the last digits by what it has made of
+// others, and a run that goes on would not come to the same bytes.
+template <int dim>
+void BodySystem<dim>::Parts::make_solver() {
+  check(KSPDestroy(&solver));
   check(KSPCreate(PETSC_COMM_WORLD, &solver));
   check(KSPSetFromOptions(solver));
   PC preconditioner = nullptr;
   check(KSPGetPC(solver, &preconditioner));
-  const struct {
-    const char *name;
-    int first, count;
-  } fields[] = {
-      {"u", 0, dim}, {"phi", Fields<dim>::potential, 1}, {"theta", Fields<dim>::temperature, 1}};
-  for (const auto &f : fields) {
-    IS own = rows.own(n, f.first, f.count);
-    if (f.count == dim)
-      attach_rigid_motions(own, points);
-    check(PCFieldSplitSetIS(preconditioner, f.name, own));
-    check(ISDestroy(&own));
-  }
+  for (const Field &field : fields)
+    check(PCFieldSplitSetIS(preconditioner, field.name, field.own));
+  if (cells != nullptr)
+    orthogonalise_twice();
+}
+
+// Stiff parts on soft ones take the basis its orthogonality: without this the iteration sees a
+// residual that is not there.
+template <int dim>
+void BodySystem<dim>::Parts::orthogonalise_twice() {
+  check(KSPGMRESSetCGSRefinementType(solver, KSP_GMRES_CGS_REFINE_ALWAYS));
 }
 
 template <int dim>
@@ -321,6 +340,7 @@ void BodySystem<dim>::Parts::put_contact() {
 
 template <int dim>
 void BodySystem<dim>::Parts::precondition() {
+  make_solver();
   check(KSPSetOperators(solver, free, matrix));
   check(KSPSetReusePreconditioner(solver, PETSC_FALSE));
   check(KSPSetUp(solver));
@@ -339,7 +359,7 @@ BodySystem<dim>::BodySystem(const body::Operator<dim> &op, double step,
   Stopwatch watch;
   parts_->is_prescribed = body::mask_of(prescribed, op.graph().n_nodes() * Parts::n);
   parts_->preallocate();
-  parts_->make_solver(points);
+  parts_->split(points);
   parts_->set_up_seconds = watch.lap();
 }
 
@@ -394,9 +414,8 @@ void BodySystem<dim>::refresh() {
 template <int dim>
 void BodySystem<dim>::refine(const body::CellProducts<dim> &cells) {
   parts_->cells = &cells;
-  // Stiff parts on soft ones take the basis its orthogonality: without this the iteration sees a
-  // residual that is not there.
-  check(KSPGMRESSetCGSRefinementType(parts_->solver, KSP_GMRES_CGS_REFINE_ALWAYS));
+  if (parts_->solver != nullptr)
+    parts_->orthogonalise_twice();
 }
 
 template <int dim>

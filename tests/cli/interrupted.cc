@@ -170,6 +170,22 @@ TEST_F(Interrupted, FrictionThatRemembersItsSlipGoesOnIteratively) {
   EXPECT_THAT(content_of(here() / "other/results/contact.csv"), HasSubstr("accumulated_slip"));
 }
 
+// Several preconditioners, each of which depends on its own matrix alone.
+TEST_F(Interrupted, SlipsThatSetInOneAfterTheOtherGoOnIteratively) {
+  std::ofstream(here() / "rubbed.toml") << R"toml(
+mesh.box = { min = [0, 0], max = [0.02, 0.01], cells = [24, 12], cell = "quadrilateral" }
+material = { library = "BaTiO3-Liu2014", pyroelectric = [0, 1e-4] }
+time = { end = 2, steps = 60 }
+boundary = [ { on = "top", displacement = ["1e-6*sin(t)", "-3e-7*t"], temperature = 0, potential = 0 } ]
+[contact]
+on = "bottom"
+gap = "1e-5*(x - 0.005)"
+foundation_displacement = ["-1e-5*t", 0]
+friction = { law = "tresca", bound = 1e6 }
+)toml";
+  expect_to_go_on("rubbed.toml --set solver.body=iterative");
+}
+
 TEST_F(Interrupted, ADampedFoundationGoesOn) {
   std::string text = weakening;
   const std::string normal = "normal = \"unilateral\"";

@@ -128,6 +128,17 @@ TEST_P(Ranks, ARubbedBlockThatComesOffIsTheSameIteratively) {
   expect_same_rubbing(one_, several_, 3);
 }
 
+TEST_P(Ranks, AMeshOfWhichNothingIsFreeBesideItsContactIsRefused) {
+  expect_told_once(file_of(R"toml(
+mesh.box = { min = [0, 0, 0], max = [0.01, 0.01, 0.01], cells = [3, 1, 1], cell = "tetrahedron" }
+material.library = "BaTiO3-Liu2014"
+time = { end = 1, steps = 2 }
+boundary = [ { on = ["bottom", "top"], displacement = [0, 0, 0], potential = 0, temperature = 0 } ]
+contact.on = "right"
+)toml"),
+                   2, "no unknown of the body is free beside those of its contact");
+}
+
 TEST_P(Ranks, ABodyThatItsContactLetsGoIsToldOnce) {
   expect_told_once(
       file_of(rubbed) + " --set 'boundary=[{on=\"top\",traction=[0,1e5],potential=0}]'", 3,
