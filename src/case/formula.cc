@@ -10,9 +10,9 @@
 #include <mutex>
 #include <utility>
 
+#include "case/double_range.h"
 #include "case/nearest.h"
 #include "case/toml_text.h"
-#include "case/too_large.h"
 #include "formula_branches.h"
 #include "tourmaline/error.h"
 
@@ -167,6 +167,8 @@ std::string misreading(const std::string &text) {
   const auto is_control = [](unsigned char c) { return std::iscntrl(c) != 0 && !std::isspace(c); };
   if (std::any_of(text.begin(), text.end(), is_control))
     return "not a formula: it has a control character";
+  if (std::string small = too_small(text); !small.empty())
+    return small;
   if (has_assignment(text))
     return "not a formula: a single \"=\"; two values are compared with \"==\"";
   constexpr int deepest = 200, most_conditions = 1000;
@@ -230,7 +232,16 @@ std::string place_words(const std::array<bool, 4> &uses, const std::array<double
 
 }  // namespace
 
+Formula Formula::found(std::shared_ptr<const double> value) {
+  Formula formula;
+  formula.found_ = std::move(value);
+  formula.uses_[3] = true;
+  return formula;
+}
+
 double Formula::value(const std::array<double, 3> &point, double time) const {
+  if (found_)
+    return *found_;
   if (!expression_)
     return number_;
   const Evaluated found = expression_->evaluate(point, time);

@@ -173,7 +173,8 @@ void check_holding(const Case &asked) {
                     return electrode.is_driven() || (electrode.is_loaded() && !electrode.to);
                   }) ||
       std::any_of(asked.contacts.begin(), asked.contacts.end(), [](const ContactCase &contact) {
-        return contact.electric.exchanges() && !contact.electric.ramp;
+        return contact.electric.exchanges() && !contact.electric.ramp &&
+               (!contact.electric.circuit || contact.electric.circuit->is_loaded());
       });
   if (!grounded)
     throw CaseError(asked.source +

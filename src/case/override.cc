@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "case/double_range.h"
 #include "case/given_table.h"
 #include "case/toml_text.h"
-#include "case/too_large.h"
 #include "case/utf8.h"
 #include "tourmaline/error.h"
 #include "value.h"
@@ -106,6 +106,8 @@ bool is_bare(const std::string &value) {
 }
 
 toml::table value_of(const Override &asked) {
+  if (const auto small = too_small_in_toml(asked.value))
+    fail(asked, small->reason);
   std::string reason;
   if (auto table = parsed(asked.value, asked.place, &reason))
     return std::move(*table);

@@ -10,6 +10,7 @@
 
 #include "case/conflicts.h"
 #include "case/contacts.h"
+#include "case/double_range.h"
 #include "case/electrodes.h"
 #include "case/given_table.h"
 #include "case/holding.h"
@@ -250,6 +251,8 @@ toml::table case_table(const std::string &text, const std::string &name) {
   require_utf8(text, name);
   if (text.find_first_not_of(" \t\r\n") == std::string::npos)
     throw CaseError(name + ": is empty; a case needs at least [mesh], [material] and [time]");
+  if (const auto small = too_small_in_toml(text))
+    throw CaseError(fmt::format("{}:{}: {}", name, small->line, small->reason));
   try {
     return toml::parse(text, std::string_view(name));
   } catch (const toml::parse_error &error) {

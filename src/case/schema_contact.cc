@@ -244,6 +244,54 @@ std::string unit_of_charge_exchange(const std::string &law) {
   return law == "leak" ? "S/m^2" : "F/m^2 or S/m^2";
 }
 
+std::string complaint_about(const FoundationCircuitCase &circuit) {
+  if (circuit.voltage.depends_on_place() || (circuit.charge && circuit.charge->depends_on_place()))
+    return "depends on the place; a foundation has one potential and one charge, which may depend "
+           "on t only";
+  if (circuit.charge && (circuit.is_loaded() || !circuit.voltage.is_zero()))
+    return "the foundation's charge is given, so neither a voltage nor a resistor or capacitor can "
+           "be";
+  if (!circuit.voltage.is_zero() && !circuit.is_loaded())
+    return "a voltage is that of the other end of a resistor or capacitor, and there is none; for "
+           "a foundation that has this potential itself give foundation_potential instead of "
+           "circuit";
+  return "";
+}
+
+void declare(Visitor &v, FoundationCircuitCase &circuit) {
+  v.optional({.name = "charge",
+              .description = "charge on the foundation over time, -integral of D.nu",
+              .unit = "C (2D: C/m)",
+              .range = any(sense::charge)},
+             circuit.charge);
+  v.optional({.name = "resistor",
+              .description = "resistance between the foundation and `voltage`",
+              .unit = "ohm (2D: ohm m)",
+              .range = positive(sense::resistance)},
+             circuit.resistor);
+  v.optional({.name = "capacitor",
+              .description = "capacitance between the same two, parallel to the resistor",
+              .unit = "F (2D: F/m)",
+              .range = positive(sense::capacitance)},
+             circuit.capacitor);
+  v.key({.name = "voltage",
+         .description = "voltage of the other end of resistor and capacitor over time",
+         .unit = "V",
+         .range = any(sense::potential)},
+        &circuit.voltage);
+  v.check("", [&] { return complaint_about(circuit); });
+}
+
+std::string potential_complaint(const ChargeExchangeCase &electric) {
+  if (electric.exchanges() && !electric.circuit && !electric.foundation_potential)
+    return "`foundation_potential` is missing, the potential of the foundation [V], or `circuit`, "
+           "what is connected to one whose potential is to be found";
+  if (electric.circuit && electric.foundation_potential)
+    return "both `foundation_potential` and `circuit` are given; the potential follows from the "
+           "circuit";
+  return "";
+}
+
 void declare(Visitor &v, ChargeExchangeCase &electric) {
   v.key({.name = "law",
          .description = "insulated: no charge crosses; exchange: a capacitor, D.nu = c (phi - "
@@ -262,14 +310,26 @@ void declare(Visitor &v, ChargeExchangeCase &electric) {
          .used = crosses,
          .also = {"k", "k_e", "c"}},
         &electric.coefficient);
-  v.key({.name = "foundation_potential",
-         .description = "potential phi_f of the foundation",
-         .unit = "V",
-         .required = true,
-         .range = any(sense::potential),
-         .used = crosses,
-         .also = {"phi_f", "phi_0"}},
-        &electric.foundation_potential);
+  v.optional_table(
+      {.name = "circuit",
+       .description =
+           "A foundation that conducts and whose potential phi_f follows from what is connected to "
+           "it: instead of foundation_potential. With `charge` it floats with that charge; a "
+           "resistor or capacitor leads to ground or to a given voltage; with nothing it is open "
+           "and keeps its charge at the time 0, at which its potential is 0. In 2D charges, "
+           "resistances and capacitances are those of one metre of thickness",
+       .used = crosses,
+       .also = {"floating", "free"}},
+      electric.circuit,
+      [](Visitor &inner, FoundationCircuitCase &circuit) { declare(inner, circuit); });
+  v.optional({.name = "foundation_potential",
+              .description = "potential phi_f of the foundation; it or `circuit` is given",
+              .unit = "V",
+              .range = any(sense::potential),
+              .used = crosses,
+              .also = {"phi_f", "phi_0"}},
+             electric.foundation_potential);
+  v.check("", [&] { return potential_complaint(electric); });
   v.optional(ramp_key("c fades as the contact opens,", crosses), electric.ramp);
 }
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <sstream>
 
+#include "case/double_range.h"
 #include "case/nearest.h"
 #include "case/toml_text.h"
-#include "case/too_large.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::casefile {

@@ -37,11 +37,26 @@ std::string heat_text(const casefile::HeatExchangeCase &heat) {
   return text;
 }
 
+std::string circuit_text(const casefile::FoundationCircuitCase &circuit) {
+  std::string text = "a foundation ";
+  if (circuit.charge)
+    return text + "with the charge " + circuit.charge->text() + " C";
+  if (!circuit.is_loaded())
+    return text + "that is open";
+  text += "behind ";
+  if (circuit.resistor)
+    text += number_text(*circuit.resistor, 6) + " Ω";
+  if (circuit.capacitor)
+    text += (circuit.resistor ? " and " : "") + number_text(*circuit.capacitor, 6) + " F";
+  return text + " to " + circuit.voltage.text() + " V";
+}
+
 std::string charge_text(const casefile::ChargeExchangeCase &electric) {
   std::string text = fmt::format(
-      "{}, c = {} {}, with {} V", electric.law == "leak" ? "leaking charge" : "charge exchange",
+      "{}, c = {} {}, with {}", electric.law == "leak" ? "leaking charge" : "charge exchange",
       text_of(electric.coefficient), electric.law == "leak" ? "S/m²" : "F/m²",
-      electric.foundation_potential.text());
+      electric.circuit ? circuit_text(*electric.circuit)
+                       : electric.foundation_potential->text() + " V");
   if (electric.ramp)
     text += fmt::format(", fading over {} m", number_text(*electric.ramp, 6));
   return text;

@@ -97,7 +97,8 @@ std::optional<body::SurfaceExchange> ContactLaws::linear(Crossing what) const {
              heat.foundation_temperature}};
   if (what == Crossing::charge && electric.exchanges() && !crosses_by_state(what))
     return {{body::SurfaceExchange::potential, asked_.on, electric.coefficient,
-             electric.foundation_potential, remembers_charge() ? step_ : 1., remembers_charge()}};
+             electric.foundation_potential.value_or(0.), remembers_charge() ? step_ : 1.,
+             remembers_charge()}};
   return std::nullopt;
 }
 
@@ -132,7 +133,7 @@ std::shared_ptr<const Exchange> ContactLaws::charge_exchange(const Vector3 &poin
   ChargeExchange::Parameters is;
   is.coefficient = not_negative(asked.coefficient, point, 0, "the coefficient of charge exchange");
   is.ramp = Ramp(asked.ramp);
-  is.foundation = asked.foundation_potential.value(point, time);
+  is.foundation = asked.foundation_potential.value_or(0.).value(point, time);
   if (remembers_charge()) {
     is.coefficient *= step_;
     is.before = before;

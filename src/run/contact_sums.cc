@@ -79,6 +79,13 @@ template <int dim>
 void add_contact_sums(const solve::Model<dim> &model, const solve::StepOutcome &outcome,
                       Quantities &quantities) {
   const std::vector<casefile::ContactCase> &contacts = model.asked.contacts;
+  for (const solve::StepOutcome::Foundation &is : outcome.foundations) {
+    const std::string name =
+        contacts.size() > 1 ? "_" + contacts[is.contact].called() : std::string();
+    quantities.insert(quantities.end(), {{"foundation_voltage" + name, is.voltage},
+                                         {"foundation_charge" + name, is.charge},
+                                         {"foundation_current" + name, is.current}});
+  }
   for (std::size_t i = 0; contacts.size() > 1 && i < contacts.size(); ++i) {
     const std::string name = "_" + contacts[i].called();
     add_sums<dim>(sums_of(model, outcome, i), name, quantities);

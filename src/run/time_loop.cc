@@ -66,6 +66,7 @@ TimeLoop<dim>::TimeLoop(const casefile::Case &asked, const std::filesystem::path
       most_strained_(model_.n_unknowns()),
       adrift_(model_) {
   state_ = body::initial_state(model_.body, asked.initial);
+  foundations_.emplace(model_, state_);
   rehearse(model_, 1);
   if (options.friction) {
     model_.friction = contact::checked(options.friction, options.friction_name);
@@ -120,9 +121,22 @@ void TimeLoop<dim>::sum_loads(double time) {
   model_.loads.integrate(time, loads_);
 }
 
+// Again with other potentials of foundations, until they have the charges that their circuits say.
 template <int dim>
-void TimeLoop<dim>::step(int n) {
-  Stopwatch watch;
+solve::StepOutcome TimeLoop<dim>::advance(int n) {
+  next_ = state_;
+  for (;;) {
+    prescribe(model_.time(n), next_);
+    sum_right_side(n);
+    solve::StepOutcome outcome = route_->advance(n, right_side_, state_, next_);
+    if (foundations_->settle(model_.time(n), next_, outcome))
+      return outcome;
+    route_->route().take_back();
+  }
+}
+
+template <int dim>
+void TimeLoop<dim>::sum_right_side(int n) {
   sum_loads(model_.time(n));
   StepCheck(n, model_.time(n)).loads(dim, model_.body.points(), loads_);
   right_side_ = loads_;
@@ -131,9 +145,12 @@ void TimeLoop<dim>::step(int n) {
     model_.cells.add_history(state_, right_side_);
   else
     model_.op.add_history(state_, right_side_);
-  next_ = state_;
-  prescribe(model_.time(n), next_);
-  solve::StepOutcome outcome = route_->advance(n, right_side_, state_, next_);
+}
+
+template <int dim>
+void TimeLoop<dim>::step(int n) {
+  Stopwatch watch;
+  solve::StepOutcome outcome = advance(n);
   leaked_.describe(outcome);
   account_.step(n, outcome, watch.lap());
   adrift_.step(n, outcome);
@@ -283,6 +300,7 @@ void TimeLoop<dim>::save(int n) {
     output::SavedNumbers &numbers = checkpoint.numbers;
     numbers.put("state", state_);
     leaked_.save(numbers);
+    foundations_->save(numbers);
     account_.save(numbers);
     adrift_.save(numbers);
     route_->save(numbers);
@@ -300,6 +318,7 @@ void TimeLoop<dim>::restore() {
   const output::SavedNumbers &numbers = checkpoint_->numbers;
   numbers.fill("state", state_);
   leaked_.restore(numbers);
+  foundations_->restore(numbers);
   account_.restore(numbers);
   adrift_.restore(numbers);
   route_->restore(numbers);

@@ -20,6 +20,7 @@
 #include "run/recorder.h"
 #include "run/schedule.h"
 #include "run/temperatures.h"
+#include "solve/foundation_circuits.h"
 #include "solve/leaked_charge.h"
 #include "solve/model.h"
 #include "tourmaline/case/case.h"
@@ -49,6 +50,8 @@ class TimeLoop {
   output::Summary take_steps(int first, Schedule &schedule);
   void prescribe(double time, std::vector<double> &state) const;
   void sum_loads(double time);
+  void sum_right_side(int n);
+  solve::StepOutcome advance(int n);
   void step(int n);
   output::HistoryRow record(int n, const solve::StepOutcome &outcome);
   void pause(int n, const Schedule::Pause &pause);
@@ -73,6 +76,7 @@ class TimeLoop {
   solve::Model<dim> model_;
   solve::LeakedCharge<dim> leaked_;  // by the last step that is done
   std::vector<double> state_;        // of that step
+  std::optional<solve::FoundationCircuits<dim>> foundations_;
   std::vector<double> next_, loads_, right_side_;
   std::optional<output::ResultFolder> folder_;
   std::optional<Recorder<dim>> recorder_;

@@ -8,6 +8,7 @@
 #include "larger.h"
 #include "parallel/ranks.h"
 #include "solve/electrodes.h"
+#include "solve/exchange_weights.h"
 
 namespace tourmaline::solve {
 
@@ -78,7 +79,7 @@ Balance<dim>::Balance(const Model<dim> &model, std::span<const double> initial)
       const bool is_heat = linear.field == body::SurfaceExchange::temperature;
       add_once(is_heat ? heat_boundaries_ : charge_boundaries_, name);
       (is_heat ? exchange_ : capacitors_)[name] =
-          exchange_weights(name, linear.coefficient, linear.factor);
+          exchange_weights(model.body, {name}, linear.coefficient, linear.factor);
     }
   for (const contact::Crossing what : {contact::Crossing::heat, contact::Crossing::charge})
     find_crossings(what);
@@ -127,24 +128,6 @@ double Balance<dim>::smallest_heat() const {
   for (std::size_t i = Fields<dim>::temperature; i < warm.size(); i += Fields<dim>::count)
     heat += product[i];
   return std::abs(heat) * model_.op.reference_temperature() / model_.step;
-}
-
-// The integral of k_c times each node's shape function over a boundary.
-template <int dim>
-typename Balance<dim>::NodeWeights Balance<dim>::exchange_weights(
-    const std::string &boundary, const casefile::Formula &coefficient, double factor) const {
-  std::vector<double> by_node(model_.body.n_nodes(), 0.);
-  model_.body.for_each_facet({boundary}, [&](const body::Quadrature<dim> &facet) {
-    for (std::size_t q = 0; q < facet.jxw.size(); ++q)
-      for (std::size_t a = 0; a < facet.nodes.size(); ++a)
-        by_node[facet.nodes[a]] +=
-            factor * coefficient.value(facet.points[q], 0) * facet.jxw[q] * facet.value(q, a);
-  });
-  parallel::sum(by_node);
-  NodeWeights weights;
-  for (const body::Node node : model_.body.nodes_on({boundary}))
-    weights.emplace_back(node, by_node[node]);
-  return weights;
 }
 
 template <int dim>

@@ -67,8 +67,6 @@ class Balance {
                         const std::array<double, 3> &lost,
                         const std::array<std::vector<double>, 3> &works) const;
   using NodeWeights = std::vector<std::pair<body::Node, double>>;
-  NodeWeights exchange_weights(const std::string &boundary, const casefile::Formula &coefficient,
-                               double factor) const;
   /// Whether the foundation is more than the paper's.
   bool has_foundation_columns() const {
     return model_.laws.has_moving_foundation() || model_.laws.has_normal_unknowns();

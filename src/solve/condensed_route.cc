@@ -69,12 +69,17 @@ class CondensedRoute : public Route {
                       std::span<const double> before, std::span<double> state) override;
   Accuracy accuracy(std::span<const double> right_side, std::span<const double> state,
                     const StepOutcome &outcome) override;
+  void take_back() override {
+    condensed_.take_back();
+    take_contact_back();
+  }
   bool is_refined() const override { return condensed_.body().is_refined(); }
   void go_on_from(const VectorXd &accumulated_slip) override {
     contact_->set_accumulated_slip(accumulated_slip);
   }
 
  private:
+  void take_contact_back();
   void condense_onto_slips();
   double error_of_slips() const;
   void refine();
@@ -400,15 +405,20 @@ StepOutcome CondensedRoute<dim>::advance(double time, std::span<const double> ri
       return outcome;
     refine();
     last_increment_ = start;
-    if (contact_) {
-      contact_->take_back();
-      exchange_->take_back();
-    }
+    take_contact_back();
     outcome = solve(time, right_side, before, state);
     forget_errors();
     measure(right_side, state, outcome);
   }
   return outcome;
+}
+
+template <int dim>
+void CondensedRoute<dim>::take_contact_back() {
+  if (!contact_)
+    return;
+  contact_->take_back();
+  exchange_->take_back();
 }
 
 template <int dim>

@@ -90,8 +90,7 @@ void ConnectedBody<dim>::refine() {
   response_.clear();
   reaction_.clear();
   add_responses();
-  charges_ = charges_before_;
-  voltages_ = voltages_before_;
+  take_back();
 }
 
 template <int dim>

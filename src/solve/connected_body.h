@@ -39,6 +39,12 @@ class ConnectedBody {
   /// Ends the step: its charges and voltages are what the next one starts from.
   void expand(const Eigen::VectorXd &c, std::span<double> state);
 
+  /// The step that was ended is to be solved again.
+  void take_back() {
+    charges_ = charges_before_;
+    voltages_ = voltages_before_;
+  }
+
   /// As of `CondensedBody`; the step at hand is to be solved again, from `reduce` on.
   void refine();
 

@@ -69,6 +69,10 @@ class ContactBySolutions : public IterativeRoute<dim> {
   }
   void set_contact() override { body_.system().set_contact(seen_.held()); }
   StepOutcome outcome() override;
+  void take_contact_back() override {
+    contact_.take_back();
+    exchange_.take_back();
+  }
   std::string unheld() const override {
     return unheld_motions(model_, contact_, solution_.interface.status);
   }

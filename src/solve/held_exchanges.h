@@ -43,6 +43,7 @@ class HeldExchanges {
 
   /// What has crossed.
   void end_step(std::span<const double> state, const StateAtNode &state_at, StepOutcome &outcome);
+  void take_back() { nodes_.take_back(); }
   /// Adds that to b.
   void add_flows(const StepOutcome &outcome, std::span<double> right_side) const;
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "case/holding.h"
 #include "larger.h"
@@ -35,10 +36,17 @@ double IterativeRoute<dim>::contact_tolerance() const {
   return 10 * std::max(model_.asked.solver.tolerance, model_.asked.solver.linear_tolerance);
 }
 
+// The state at hand is near what is looked for.
+template <int dim>
+void IterativeRoute<dim>::take_back() {
+  is_predicted_ = true;
+  take_contact_back();
+}
+
 // The change of the last step once more.
 template <int dim>
 void IterativeRoute<dim>::predict(std::span<const double> before) {
-  if (!two_before_.empty())
+  if (!two_before_.empty() && !std::exchange(is_predicted_, false))
     for (std::size_t i = 0; i < state_.size(); ++i)
       if (!is_prescribed_[i])
         state_[i] += before[i] - two_before_[i];

@@ -22,6 +22,7 @@ class IterativeRoute : public Route {
  public:
   StepOutcome advance(double time, std::span<const double> right_side,
                       std::span<const double> before, std::span<double> state) override;
+  void take_back() override;
   Accuracy accuracy(std::span<const double>, std::span<const double>,
                     const StepOutcome &) override {
     return accuracy_so_far();
@@ -59,6 +60,8 @@ class IterativeRoute : public Route {
   /// Sets the body's matrix to that of the contact as it was found.
   virtual void set_contact() = 0;
   virtual StepOutcome outcome() = 0;
+  /// As of `Route`.
+  virtual void take_contact_back() {}
   /// The rigid motions that neither supports nor the contact as it was found keep the body from, as
   /// a phrase; empty: it is not known better than by `left_to_contact_`.
   virtual std::string unheld() const { return ""; }
@@ -74,6 +77,7 @@ class IterativeRoute : public Route {
   void restore_memory(const output::SavedNumbers &numbers) override;
 
   std::vector<double> two_before_;
+  bool is_predicted_ = false;  // the state that the next step is taken from
 };
 
 /// With the way to find the contact that its laws need. `model` outlives the route.

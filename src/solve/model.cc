@@ -17,6 +17,23 @@ mesh::Mesh<dim> shared_out(mesh::Mesh<dim> mesh) {
   return mesh;
 }
 
+std::vector<std::shared_ptr<double>> places_of_potentials(
+    const std::vector<casefile::ContactCase> &contacts) {
+  std::vector<std::shared_ptr<double>> places;
+  for (const casefile::ContactCase &contact : contacts)
+    places.push_back(contact.electric.circuit ? std::make_shared<double>(0.) : nullptr);
+  return places;
+}
+
+std::vector<casefile::ContactCase> with_potentials(
+    std::vector<casefile::ContactCase> contacts,
+    const std::vector<std::shared_ptr<double>> &places) {
+  for (std::size_t c = 0; c < contacts.size(); ++c)
+    if (places[c])
+      contacts[c].electric.foundation_potential = casefile::Formula::found(places[c]);
+  return contacts;
+}
+
 }  // namespace
 
 template <int dim>
@@ -52,7 +69,8 @@ Model<dim>::Model(const casefile::Case &asked_for, Built built)
       cells(body, composition, op.modes()),
       prescribed(body::prescribed_unknowns(body, asked.boundaries, asked.electrodes)),
       electrodes(body::electrode_nodes<dim>(prescribed, asked.electrodes)),
-      laws(asked.contacts, step),
+      found_potentials(places_of_potentials(asked.contacts)),
+      laws(with_potentials(asked.contacts, found_potentials), step),
       linear_exchanges(laws.linear_exchanges()),
       loads(body, asked, step, composition.reference_temperature(), linear_exchanges),
       mesh_seconds(built.mesh_seconds) {

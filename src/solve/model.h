@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -31,7 +32,9 @@ struct Model {
   body::Operator<dim> op;
   body::CellProducts<dim> cells;  ///< the products of `op`, cell by cell
   std::vector<body::Prescribed> prescribed;
-  std::vector<std::vector<body::Node>> electrodes;      ///< nodes by electrode of the case
+  std::vector<std::vector<body::Node>> electrodes;  ///< nodes by electrode of the case
+  /// By contact: where the potential of its foundation is found, else nothing.
+  std::vector<std::shared_ptr<double>> found_potentials;
   contact::Contacts laws;                               ///< the case's
   std::vector<body::SurfaceExchange> linear_exchanges;  ///< in operator and loads
   body::Loads<dim> loads;

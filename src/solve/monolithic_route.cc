@@ -55,6 +55,10 @@ class MonolithicRoute : public Route {
                       std::span<const double> before, std::span<double> state) override;
   Accuracy accuracy(std::span<const double> right_side, std::span<const double> state,
                     const StepOutcome &outcome) override;
+  void take_back() override {
+    contact_.take_back();
+    exchange_.take_back();
+  }
 
  private:
   void find(double time, const StepData &data, SaddlePoint start, StepOutcome &outcome);

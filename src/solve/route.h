@@ -44,6 +44,12 @@ struct StepOutcome {
   /// by interface node, what crossed leaks in the steps before, where these are in the operator
   Eigen::VectorXd leaked_charge;  ///< integrated against the shape functions [C]
   Eigen::VectorXd leaked_flux;    ///< [C/m^2]
+  /// by contact, of foundations whose potential is found; else empty
+  struct Foundation {
+    std::size_t contact = 0;
+    double voltage = 0, charge = 0, current = 0;  ///< [V, C, A]
+  };
+  std::vector<Foundation> foundations;
   /// Whether friction fell faster with the slip of this step, where it began, than the body
   /// unloads: then the slip is a jump. Looked for in the condensed route, on contacts of less than
   /// a thousand slipping unknowns.
@@ -93,6 +99,11 @@ class Route {
   /// the state of the last step. Throws SolveError when the iteration does not converge.
   virtual StepOutcome advance(double time, std::span<const double> right_side,
                               std::span<const double> before, std::span<double> state) = 0;
+
+  /// The step that `advance` has just taken will be taken again, from the same `before` with
+  /// another right-hand side, its `state` (with the prescribed values anew) being the start: what
+  /// it has added to the route's memory of the steps is forgotten.
+  virtual void take_back() = 0;
 
   /// Of the step that `advance` has just taken, measured now.
   virtual Accuracy accuracy(std::span<const double> right_side, std::span<const double> state,

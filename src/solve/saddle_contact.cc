@@ -19,7 +19,8 @@ template <int dim>
 SaddleContact<dim>::SaddleContact(const Model<dim> &model, const SaddleSystem<dim> &system)
     : model_(model),
       system_(system),
-      slipped_(VectorXd::Zero(static_cast<Index>(model.interface.size()))) {
+      slipped_(VectorXd::Zero(static_cast<Index>(model.interface.size()))),
+      slipped_before_(slipped_) {
   for (const Point &point : system_.points())
     area_ += point.weight;
   if (!model_.laws.has_normal_unknowns())
@@ -287,6 +288,7 @@ void SaddleContact<dim>::end_step(const StepData &data, const SaddlePoint &x,
                                   StepOutcome &outcome) {
   if (!model_.laws.has_normal_unknowns())
     return;
+  slipped_before_ = slipped_;
   for (std::size_t p = 0; p < data.laws.size(); ++p) {
     if (outcome.status[p] != ContactStatus::slip)
       continue;

@@ -53,6 +53,8 @@ class SaddleContact {
   void share_forces(const StepData &data, const SaddlePoint &x, StepOutcome &outcome) const;
   /// Keeps what the next step's friction depends on.
   void end_step(const StepData &data, const SaddlePoint &x, StepOutcome &outcome);
+  /// The step that has ended is to be taken again.
+  void take_back() { slipped_ = slipped_before_; }
 
   void save(output::SavedNumbers &numbers) const;
   void restore(const output::SavedNumbers &numbers);
@@ -74,8 +76,8 @@ class SaddleContact {
 
   const Model<dim> &model_;
   const SaddleSystem<dim> &system_;
-  double area_ = 0;          // of the contact boundary [m^(dim-1)]
-  Eigen::VectorXd slipped_;  // accumulated slip by node [m]
+  double area_ = 0;                           // of the contact boundary [m^(dim-1)]
+  Eigen::VectorXd slipped_, slipped_before_;  // accumulated slip by node, and a step ago [m]
   // Of the step at hand:
   double time_ = 0;
   std::span<const double> before_;

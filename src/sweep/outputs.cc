@@ -74,6 +74,14 @@ void add_flows(const casefile::Case &asked, List &list) {
     if (laws[i].lets_pass(contact::Crossing::charge))
       list.add_each("charge_", asked.contacts[i].on, charge);
   }
+  for (const casefile::ContactCase &contact : asked.contacts) {
+    if (!contact.electric.circuit)
+      continue;
+    const std::string name = asked.contacts.size() > 1 ? "_" + contact.called() : std::string();
+    list.add("V", {"foundation_voltage" + name});
+    list.add(charge, {"foundation_charge" + name});
+    list.add(whole("A", asked.dimension), {"foundation_current" + name});
+  }
   if (laws.is_warmed_by_friction())
     list.add(heat, {"friction_heat_body", "friction_heat_foundation"});
   for (const casefile::ElectrodeCase &electrode : asked.electrodes) {

@@ -105,7 +105,9 @@ const Mistake numbers[] = {
     {"cells = [64, 64]", "cells = [200000, 200000]", {"[mesh.box] cells", "unknowns"}},
     {"max = [0.1, 0.1]", "max = [0.1, 0]", {"[mesh.box] max", "entry 1 must be greater"}},
     {"max = [0.1, 0.1]", "max = [0.1, 1e-200]", {"entry 1", "a side shorter than 1e-12 m"}},
-    {"max = [0.1, 0.1]", "max = [0.1, 1e-400]", {"entry 1 must be greater"}},
+    {"max = [0.1, 0.1]",
+     "max = [0.1, 1e-400]",
+     {"case.toml:", "the number 1e-400 is closer to 0 than double precision holds"}},
     {"min = [0, 0], max = [0.1, 0.1]",
      "min = [1e8, 0], max = [1.00000000001e8, 0.1]",
      {"double precision"}},
@@ -210,6 +212,9 @@ const Mistake formulas[] = {
      {"case.toml:26:16 [boundary[2]] traction[1] = \"-0.5*\"", "Unexpected end of expression"}},
     {"\"-0.5*t\"", "\"-0.5*tt\"", {"\"tt\" found at position 5", "did you mean \"t\"?"}},
     {"\"-0.5*t\"", "\"1/0\"", {"traction[1] = \"1/0\"", "is not a finite number"}},
+    {"\"-0.5*t\"",
+     "\"-0.5*t + 2.5e-400\"",
+     {"traction[1] =", "the number 2.5e-400 is closer to 0"}},
     {"\"-0.5*t\"", "\"\"", {"traction[1] = \"\"", "empty"}},
     {"\"-0.5*t\"", "\"1\\u00000*t\"", {"traction[1] = \"1\\u00000*t\"", "control character"}},
     {"\"-0.5*t\"", "\"max(1, sqrt(-1))\"", {"uses a value on the way", "nan"}},
@@ -263,6 +268,16 @@ TEST(Errors, ANumberThatIsTooLargeIsNamedInAFileToo) {
   const std::string error = error_in(changed("end = 0.2", "end = 1e400"));
   EXPECT_THAT(error, testing::StartsWith("case.toml:11:"));
   EXPECT_THAT(error, HasSubstr("the number 1e400 is too large"));
+}
+
+TEST(Errors, ANumberThatIsTooSmallIsNamedWithItsLine) {
+  EXPECT_THAT(error_in(changed("end = 0.2", "end = 1e-400")),
+              testing::StartsWith("case.toml:11: the number 1e-400 is closer to 0"));
+  EXPECT_THAT(error_in(changed("\"Thermally conductive foundation\"",
+                               "\"\"\"a \\\" #\n1e-400\"\"\" # 1e-400\nend = 1e-400")),
+              testing::StartsWith("case.toml:3: the number"));
+  EXPECT_THAT(error_in(changed("potential = 0", "potential = 0e-400\nx0e_1e-400 = 0.0")),
+              HasSubstr("x0e_1e-400"));
 }
 
 TEST(Annulus, MistakesAreNamed) {

@@ -164,6 +164,20 @@ electric = { law = "leak", coefficient = 1e-6, foundation_potential = 5, ramp = 
   }
 }
 
+TEST_F(Interrupted, TheCircuitOfAFoundationGoesOn) {
+  std::ofstream(here() / "circuit.toml") << weakening.substr(0, weakening.find("heat")) << R"toml(
+electric = { law = "leak", coefficient = 1e-6, ramp = 2e-7, circuit = { resistor = 1e9, capacitor = 1e-10, voltage = "30*t" } }
+)toml";
+  for (const char *route :
+       {"", " --set solver.method=monolithic", " --set solver.body=iterative"}) {
+    SCOPED_TRACE(route);
+    expect_to_go_on(std::string("circuit.toml") + route);
+    EXPECT_THAT(content_of(here() / "other/results/history.csv"), HasSubstr("foundation_voltage"));
+    fs::remove_all(here() / "one");
+    fs::remove_all(here() / "other");
+  }
+}
+
 TEST_F(Interrupted, FrictionThatRemembersItsSlipGoesOnIteratively) {
   std::ofstream(here() / "weakening.toml") << weakening;
   expect_to_go_on("weakening.toml --set solver.body=iterative");

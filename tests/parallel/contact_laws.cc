@@ -118,6 +118,20 @@ TEST_P(Ranks, WhatCrossesTheContactByItsStateIsTheSame) {
     }
 }
 
+TEST_P(Ranks, TheCircuitOfAFoundationIsTheSame) {
+  for (const std::string route : {"", " --set solver.method=monolithic", iteratively})
+    for (const char *ramp : {"", "ramp=2e-7,"}) {
+      SCOPED_TRACE(route + ramp);
+      ASSERT_NO_FATAL_FAILURE(
+          run_twice(file_of(rubbed) + " --set contact.electric='{law=\"leak\"," + ramp +
+                    "coefficient=1e-6,circuit={resistor=1e8,voltage=50}}'" + route));
+      expect_equal_quantities(several_.contact, one_.contact, {{"potential"}, {"charge_flux"}});
+      expect_equal_quantities(
+          several_.history, one_.history,
+          {{"foundation_voltage"}, {"foundation_charge"}, {"foundation_current"}});
+    }
+}
+
 TEST_P(Ranks, ARubbedBodyThatComesOffIsTheSameIteratively) {
   ASSERT_NO_FATAL_FAILURE(run_twice(file_of(rubbed) + iteratively));
   expect_same_rubbing(one_, several_, 2);

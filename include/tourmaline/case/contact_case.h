@@ -56,10 +56,23 @@ struct HeatExchangeCase {
   bool exchanges() const { return law != "insulated"; }
 };
 
+/// What is connected to a foundation that conducts, as to an electrode; with nothing it is open and
+/// keeps its charge. Its charge is -integral of D.nu over the contact.
+struct FoundationCircuitCase {
+  std::optional<Formula> charge;    ///< [C]
+  std::optional<double> resistor;   ///< [ohm]
+  std::optional<double> capacitor;  ///< [F], parallel to the resistor
+  Formula voltage = 0;              ///< of their other end [V]
+
+  bool is_loaded() const { return resistor || capacitor; }
+};
+
 struct ChargeExchangeCase {
   std::string law = "insulated";     ///< insulated | exchange | leak
   Formula coefficient = 0;           ///< [F/m^2] of exchange, [S/m^2] of leak, no dependence on t
-  Formula foundation_potential = 0;  ///< phi_f [V]
+  /// phi_f [V], or what it is found from
+  std::optional<Formula> foundation_potential = {};
+  std::optional<FoundationCircuitCase> circuit = {};
   std::optional<double> ramp = {};   ///< opening over which the coefficient fades [m]
 
   bool exchanges() const { return law != "insulated"; }

@@ -28,10 +28,13 @@ class Formula {
   explicit Formula(const std::string &text, std::string where = {}, const Range &range = {},
                    std::string unit = {});
 
+  /// What stands at `value` whenever it is asked: of what a step finds.
+  static Formula found(std::shared_ptr<const double> value);
+
   /// Safe to call from several threads at once.
   double value(const std::array<double, 3> &point, double time) const;
 
-  bool is_number() const { return !expression_; }
+  bool is_number() const { return !expression_ && !found_; }
   bool is_zero() const { return is_number() && number_ == 0; }
   bool depends_on_time() const { return uses_[3]; }
   bool depends_on_place() const { return uses_[0] || uses_[1] || uses_[2]; }
@@ -46,6 +49,7 @@ class Formula {
 
   double number_ = 0;
   std::shared_ptr<const Expression> expression_;
+  std::shared_ptr<const double> found_;
   std::array<bool, 4> uses_{};  // x, y, z, t
   std::string where_;
 };

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "output/checkpoint.h"
+#include "solve/circuit.h"
+#include "solve/model.h"
+#include "solve/route.h"
+#include "solve/stall.h"
+
+namespace tourmaline::solve {
+
+/// Foundations whose potentials follow from circuits. With the charge Q(V) = -integral of D.nu that
+/// a step solved with potentials V has on them, the circuit asks for
+///
+///     R(V) = Q(V) + Y V - j = 0
+///
+/// (`Circuit`). Body and contact are a capacitor whose charge grows with V, so R does as well. It
+/// is found by Broyden's method, whose matrix is kept from step to step: where the contact's status
+/// stays, R is linear, and the second solution of a step is the last one. All ranks do the same.
+template <int dim>
+class FoundationCircuits {
+ public:
+  /// `model` outlives this; its found potentials are set from here. `initial`: the state at t = 0,
+  /// at which they are 0.
+  FoundationCircuits(const Model<dim> &model, std::span<const double> initial);
+
+  /// Takes what the step that ends at `time` has come to with the potentials at hand. True: it
+  /// fits, and `outcome` knows what the foundations have; false: there are other potentials, to
+  /// take the step with again. Throws SolveError after many of them.
+  bool settle(double time, std::span<const double> state, StepOutcome &outcome);
+
+  void save(output::SavedNumbers &numbers) const;
+  void restore(const output::SavedNumbers &numbers);
+
+ private:
+  /// What a contact's charge is summed from.
+  struct Foundation {
+    std::size_t contact = 0;
+    bool is_linear = false, accumulates = false;
+    std::vector<std::pair<body::Node, double>> weights;  // integral of c N_i, or c w_i [F]
+    double capacitance = 0;                              // their sum
+  };
+  static std::vector<casefile::ElectrodeCase> as_electrodes(
+      const std::vector<casefile::ContactCase> &contacts);
+  Foundation foundation(std::size_t contact) const;
+  double initial_charge(const Foundation &of, std::span<const double> initial) const;
+  double crossed(std::size_t f, std::span<const double> state, const StepOutcome &outcome) const;
+  double size(std::size_t f, std::span<const double> state) const;
+  void improve(const Eigen::VectorXd &lacks, double lack);
+  void forget_slope();
+  void put_potentials() const;
+  void end_step(const Eigen::VectorXd &charges, StepOutcome &outcome);
+
+  const Model<dim> &model_;
+  std::vector<Foundation> foundations_;
+  Circuit circuit_;
+  Eigen::VectorXd charges_, before_;  // at the end of the last step: Q [C], V [V]
+  Eigen::MatrixXd slope_;             // of R [F]
+  // Of the step at hand:
+  Eigen::VectorXd potentials_, tried_, lacked_;  // V; V and R of the solution before
+  int rounds_ = 0, newton_iterations_ = 0;
+  Stall stall_;
+};
+
+}  // namespace tourmaline::solve

@@ -1,0 +1,206 @@
+// Label: analytic. Foundations that conduct and whose potential follows from a circuit: the column
+// of docs/exact-solutions.md, 7, and what is the same as a potential that is given.
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "closed_balances.h"
+#include "equal_quantities.h"
+#include "run_case.h"
+#include "tourmaline/error.h"
+
+namespace tourmaline::testing {
+namespace {
+
+using Overrides = std::vector<std::string>;
+
+// A column of 0.01 m x 0.1 m pressed with 1e6 N/m^2, of which D.nu = pressed - capacity phi leaves
+// below.
+constexpr double c33 = 162e9, e33 = 18.6, beta33 = 12.6e-9, area = 0.01;
+constexpr double capacity = (beta33 + e33 * e33 / c33) / 0.1;  // F/m^2
+constexpr double pressed = e33 * 1e6 / c33;                    // C/m^2
+constexpr double c = 1e-7, k = 0.25;                           // F/m^2, s
+
+// On every route, and with a law that asks for the contact's state.
+const std::vector<Overrides> routes = {{},
+                                       {"contact.electric.ramp=1e-6"},
+                                       {"solver.method=monolithic"},
+                                       {"solver.method=monolithic", "contact.electric.ramp=1e-6"},
+                                       {"solver.body=iterative", "solver.linear_tolerance=1e-13"}};
+
+RunCase column(const std::string &circuit, Overrides more) {
+  more.insert(
+      more.begin(),
+      fmt::format("contact.electric={{law='exchange',coefficient={},circuit={}}}", c, circuit));
+  return RunCase("cases/verification/charge-exchange.toml", more);
+}
+
+void expect_column(const std::vector<double> &values, const std::function<double(int)> &expected) {
+  ASSERT_EQ(values.size(), 4U);
+  for (int n = 1; n <= 4; ++n)
+    EXPECT_NEAR(values[static_cast<std::size_t>(n) - 1], expected(n),
+                1e-9 * std::abs(expected(n)) + 1e-18)
+        << n;
+}
+
+TEST(FoundationCircuit, ThatIsOpenHasThePotentialOfTheColumn) {
+  for (const Overrides &route : routes) {
+    const RunCase run = column("{}", route);
+    for (const double phi : run.contact().numbers("potential"))
+      EXPECT_NEAR(phi, pressed / capacity, 1e-7);
+    expect_column(run.history().numbers("foundation_voltage"),
+                  [](int) { return pressed / capacity; });
+    EXPECT_LT(largest(run.history(), "foundation_charge"), 1e-12 * pressed * area);
+    expect_closed_balances(run.history());
+  }
+}
+
+TEST(FoundationCircuit, WithAGivenChargeStandsAboveTheColumnByThatOverItsCapacitance) {
+  const auto charge = [](int n) { return 1e-9 * n * k; };
+  const auto phi = [&](int n) { return (pressed + charge(n) / area) / capacity; };
+  for (const Overrides &route : routes) {
+    const Table history = column("{charge='1e-9*t'}", route).history();
+    expect_column(history.numbers("foundation_charge"), charge);
+    expect_column(history.numbers("foundation_voltage"),
+                  [&](int n) { return phi(n) + charge(n) / area / c; });
+    expect_column(history.numbers("charge_bottom"), [&](int n) { return -charge(n); });
+    expect_closed_balances(history);
+  }
+}
+
+// Backward Euler for R dQ/dt + V = E, with V of the two lines above.
+TEST(FoundationCircuit, BehindAResistorIsChargedAsTheColumnIs) {
+  constexpr double ohms = 2e8, emf = 300, gain = k / ohms;
+  constexpr double per_charge = (1 / capacity + 1 / c) / area;  // V/C
+  const auto charge = [&](int n) {
+    double q = 0;
+    for (int i = 0; i < n; ++i)
+      q = (q + gain * (emf - pressed / capacity)) / (1 + gain * per_charge);
+    return q;
+  };
+  for (const Overrides &route : routes) {
+    const Table history = column("{resistor=2e8,voltage=300}", route).history();
+    expect_column(history.numbers("foundation_charge"), charge);
+    expect_column(history.numbers("foundation_current"),
+                  [&](int n) { return (charge(n) - charge(n - 1)) / k; });
+    expect_column(history.numbers("foundation_voltage"),
+                  [&](int n) { return pressed / capacity + per_charge * charge(n); });
+    expect_closed_balances(history);
+  }
+}
+
+// C (V - E) = -Q with nothing on both at the beginning.
+TEST(FoundationCircuit, BehindACapacitorSharesTheVoltage) {
+  const double charge = -pressed / capacity / (1 / 1e-9 + (1 / capacity + 1 / c) / area);
+  for (const Overrides &route : routes)
+    expect_column(column("{capacitor=1e-9}", route).history().numbers("foundation_charge"),
+                  [&](int) { return charge; });
+}
+
+// What has leaked through the contact is on an open foundation as charge; and its own is 0.
+TEST(FoundationCircuit, ThatIsOpenTakesNoChargeFromALeak) {
+  for (const char *ramp : {"", ",ramp=1e-6"})
+    for (const char *route : {"solver.method=condensed", "solver.method=monolithic"}) {
+      const Table history =
+          RunCase(
+              "cases/verification/charge-exchange.toml",
+              {fmt::format("contact.electric={{law='leak',coefficient=5e-7,circuit={{}}{}}}", ramp),
+               route})
+              .history();
+      expect_column(history.numbers("foundation_voltage"), [](int) { return pressed / capacity; });
+    }
+}
+
+// Two contacts that open, one of which charges what the other floats on.
+const char *const two = R"toml(
+mesh.box = { min = [0, 0], max = [0.02, 0.01], cells = [10, 5] }
+material = { library = "BaTiO3-Liu2014", pyroelectric = [0, 1e-4] }
+time = { end = 1, steps = 4 }
+boundary = [ { on = "left", displacement = [0, "free"], temperature = "3*t", potential = "20*t" } ]
+[[contact]]
+on = "bottom"
+normal = "unilateral"
+foundation_displacement = ["1e-6*sin(4*t)", 0]
+friction = { law = "coulomb", coefficient = 0.4 }
+electric = { law = "leak", coefficient = 1e-6, ramp = 2e-7, circuit = { resistor = 1e9, capacitor = 1e-10, voltage = "30*t" } }
+[[contact]]
+on = "top"
+normal = "unilateral"
+gap = "1e-6*(x-0.01)"
+foundation_displacement = [0, "-3e-7*t"]
+friction = { law = "tresca", bound = 1e5 }
+electric = { law = "exchange", coefficient = 1e-7, ramp = 2e-7, circuit = {} }
+)toml";
+
+TEST(FoundationCircuit, OfTwoContactsIsTheSameOnEveryRoute) {
+  const RunCase condensed = run_text(two);
+  expect_closed_balances(condensed.history());
+  EXPECT_GT(largest(condensed.history(), "foundation_voltage_top"), 1);
+  EXPECT_LT(largest(condensed.history(), "foundation_charge_top"), 1e-20);
+  for (const Overrides &route :
+       {Overrides{"solver.method=monolithic"},
+        Overrides{"solver.body=iterative", "solver.linear_tolerance=1e-13"}}) {
+    const RunCase other = run_text(two, route);
+    EXPECT_EQ(other.contact().columns.at("status"), condensed.contact().columns.at("status"));
+    expect_equal_quantities(other.contact(), condensed.contact(),
+                            {{"potential"}, {"charge_flux"}, {"normal_traction"}});
+    expect_equal_quantities(
+        other.history(), condensed.history(),
+        {{"foundation_voltage_bottom", "foundation_voltage_top"}, {"foundation_charge_bottom"}});
+  }
+}
+
+// The potentials that were found, given to the same contacts, leave everything as it is.
+TEST(FoundationCircuit, FindsThePotentialThatGivenToTheSameContactHasItsCharge) {
+  const std::string text = R"toml(
+mesh.box = { min = [0, 0, 0], max = [0.02, 0.01, 0.01], cells = [4, 2, 2], cell = "hexahedron" }
+mesh.degree = 2
+material = { library = "BaTiO3-Liu2014", pyroelectric = [0, 0, 1e-4] }
+time = { end = 1, steps = 1 }
+boundary = [ { on = "left", displacement = [0, "free", "free"], temperature = 0 },
+             { on = "front", displacement = ["free", 0, "free"] } ]
+electrode = [ { name = "lid", on = "top", resistor = 1e8, voltage = 40 } ]
+[[contact]]
+on = "bottom"
+friction = { law = "tresca", bound = 1e5 }
+foundation_displacement = ["1e-6*t", 0, 0]
+)toml";
+  const RunCase found = run_text(
+      text +
+      "electric={law='exchange',coefficient='1e-7*(1+50*x)',circuit={resistor=3e8,voltage=7}}");
+  const double volts = found.history().numbers("foundation_voltage").back();
+  EXPECT_GT(std::abs(volts - 7), 1e-3);
+  const RunCase given = run_text(
+      text +
+      fmt::format(
+          "electric={{law='exchange',coefficient='1e-7*(1+50*x)',foundation_potential={:.17g}}}",
+          volts));
+  expect_equal_quantities(found.contact(), given.contact(),
+                          {{"potential"}, {"charge_flux"}, {"tangential_traction_x"}});
+  expect_equal_quantities(found.history(), given.history(),
+                          {{"charge_bottom"}, {"electrode_lid_charge"}, {"electrode_lid_voltage"}});
+  expect_closed_balances(found.history());
+}
+
+void expect_refused(const std::string &electric, const std::string &words) {
+  try {
+    RunCase("cases/verification/charge-exchange.toml", {"contact.electric=" + electric});
+    ADD_FAILURE() << "was not refused: " << words;
+  } catch (const CaseError &error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr(words));
+  }
+}
+
+TEST(FoundationCircuit, ThatContradictsItselfIsRefused) {
+  const std::string law = "{law='exchange',coefficient=1e-7,";
+  expect_refused(law + "circuit={},foundation_potential=1}", "both `foundation_potential` and `circuit`");
+  expect_refused(law + "circuit={charge=1e-9,resistor=1}}", "charge is given");
+  expect_refused(law + "circuit={voltage=3}}", "foundation_potential instead");
+  expect_refused(law + "circuit={charge='x'}}", "depends on the place");
+  expect_refused(law + "circuit={resistor=0}}", "resistor");
+}
+
+}  // namespace
+}  // namespace tourmaline::testing
