@@ -195,7 +195,8 @@ void expect_refused(const std::string &electric, const std::string &words) {
 
 TEST(FoundationCircuit, ThatContradictsItselfIsRefused) {
   const std::string law = "{law='exchange',coefficient=1e-7,";
-  expect_refused(law + "circuit={},foundation_potential=1}", "both `foundation_potential` and `circuit`");
+  expect_refused(law + "circuit={},foundation_potential=1}",
+                 "both `foundation_potential` and `circuit`");
   expect_refused(law + "circuit={charge=1e-9,resistor=1}}", "charge is given");
   expect_refused(law + "circuit={voltage=3}}", "foundation_potential instead");
   expect_refused(law + "circuit={charge='x'}}", "depends on the place");
