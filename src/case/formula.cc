@@ -10,6 +10,7 @@
 #include <mutex>
 #include <utility>
 
+#include "case/load_table.h"
 #include "case/nearest.h"
 #include "case/toml_text.h"
 #include "case/too_large.h"
@@ -230,7 +231,14 @@ std::string place_words(const std::array<bool, 4> &uses, const std::array<double
 
 }  // namespace
 
+Formula::Formula(std::shared_ptr<const LoadTable> table, std::string where)
+    : table_(std::move(table)), where_(std::move(where)) {
+  uses_[3] = true;
+}
+
 double Formula::value(const std::array<double, 3> &point, double time) const {
+  if (table_)
+    return table_->value(time);
   if (!expression_)
     return number_;
   const Evaluated found = expression_->evaluate(point, time);
@@ -246,6 +254,8 @@ double Formula::value(const std::array<double, 3> &point, double time) const {
 }
 
 std::string Formula::text() const {
+  if (table_)
+    return table_->text();
   return expression_ ? expression_->text : fmt::format("{}", number_);
 }
 

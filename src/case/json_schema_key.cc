@@ -53,7 +53,27 @@ struct Values {
       schema["enum"] = key.choices;
     return schema;
   }
-  Json formula() const { return {{"anyOf", {number(), {{"type", "string"}, {"minLength", 1}}}}}; }
+  Json formula() const {
+    Json any{number(), {{"type", "string"}, {"minLength", 1}}};
+    if (!key.constant_in_time)
+      any.push_back(table());
+    return {{"anyOf", any}};
+  }
+  // Of values over t: a file's, or points.
+  static Json table() {
+    const Json name{{"type", "string"}, {"minLength", 1}};
+    const Json point{{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 2}};
+    const Json points{{"type", "array"}, {"items", point}, {"minItems", 1}};
+    const Json of_file{{"type", "object"},
+                       {"properties", {{"table", name}, {"column", name}}},
+                       {"required", {"table"}},
+                       {"additionalProperties", false}};
+    const Json of_points{{"type", "object"},
+                         {"properties", {{"points", points}}},
+                         {"required", {"points"}},
+                         {"additionalProperties", false}};
+    return {{"anyOf", {of_file, of_points}}};
+  }
   Json texts() const {
     Json list = list_of(text(), {});
     list["minItems"] = 1;

@@ -73,7 +73,10 @@ TimeLoop<dim>::TimeLoop(const casefile::Case &asked, const std::filesystem::path
   }
   open_folder(directory, std::move(lock));
   recorder_.emplace(model_, *folder_);
-  route_.emplace(model_, iterative_, progress_);
+  if (asked.time.is_static())
+    steady_heat_.emplace(model_, iterative_);
+  route_.emplace(model_, iterative_, progress_,
+                 checkpoint_ ? static_cast<int>(checkpoint_->step) + 1 : 1);
 }
 
 template <int dim>
@@ -109,9 +112,11 @@ int TimeLoop<dim>::begin() {
 }
 
 template <int dim>
-void TimeLoop<dim>::prescribe(double time, std::vector<double> &state) const {
+void TimeLoop<dim>::prescribe(double time, std::vector<double> &state) {
   for (const body::Prescribed &p : model_.prescribed)
     state[p.unknown] = p.value.value(p.point, time);
+  if (steady_heat_)
+    steady_heat_->fill(time, state);
 }
 
 template <int dim>
@@ -123,6 +128,7 @@ void TimeLoop<dim>::sum_loads(double time) {
 template <int dim>
 void TimeLoop<dim>::step(int n) {
   Stopwatch watch;
+  route_->begin_step(n);
   sum_loads(model_.time(n));
   StepCheck(n, model_.time(n)).loads(dim, model_.body.points(), loads_);
   right_side_ = loads_;
@@ -331,7 +337,7 @@ void TimeLoop<dim>::keep_what_there_is() {
 
 template <int dim>
 output::Summary TimeLoop<dim>::summary() const {
-  const solve::RouteReport report = route_->route().report();
+  const solve::RouteReport report = route_->report(done_);
   output::Summary summary;
   summary.title = model_.asked.title;
   summary.friction_name = friction_name_;
@@ -348,6 +354,8 @@ output::Summary TimeLoop<dim>::summary() const {
                    {"factor_flops", static_cast<std::int64_t>(report.factor_flops)},
                    {"steps", model_.asked.time.steps},
                    {"ranks", parallel::n_ranks()}};
+  if (!model_.asked.time.intervals.empty())
+    summary.sizes["step_sizes"] = model_.steps.sizes(done_);
   account_.put(report, model_.asked.time.steps, summary);
   summary.seconds.mesh = model_.mesh_seconds;
   summary.seconds.assemble = model_.assemble_seconds;

@@ -51,7 +51,7 @@ class WayBack : public ::testing::Test {
                 [&](int, auto &&...numbers) { factorised_->advance(model_.time(n), numbers...); });
   }
 
-  const solve::Model<3> model_{with("automatic")};
+  solve::Model<3> model_{with("automatic")};
   const std::unique_ptr<solve::Route> factorised_ = solve::condensed_route(model_);
   const State rest_ = State(model_.n_unknowns(), 0.);
   output::Progress progress_{3, true};
@@ -84,7 +84,7 @@ TEST_F(WayBack, IsRememberedByWhatGoesOn) {
 }
 
 TEST_F(WayBack, IsNotTakenWhereTheCaseAsksForTheIterativeSolution) {
-  const solve::Model<3> model(with("iterative"));
+  solve::Model<3> model(with("iterative"));
   ChosenRoute<3> route(model, true, progress_);
   EXPECT_THROW(step(model, 2, rest_, [&](auto &&...numbers) { route.advance(numbers...); }),
                SolveError);
