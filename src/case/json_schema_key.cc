@@ -56,23 +56,8 @@ struct Values {
   Json formula() const {
     Json any{number(), {{"type", "string"}, {"minLength", 1}}};
     if (!key.constant_in_time)
-      any.push_back(table());
+      any.push_back({{"$ref", std::string("#/$defs/") + values_over_time}});
     return {{"anyOf", any}};
-  }
-  // Of values over t: a file's, or points.
-  static Json table() {
-    const Json name{{"type", "string"}, {"minLength", 1}};
-    const Json point{{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 2}};
-    const Json points{{"type", "array"}, {"items", point}, {"minItems", 1}};
-    const Json of_file{{"type", "object"},
-                       {"properties", {{"table", name}, {"column", name}}},
-                       {"required", {"table"}},
-                       {"additionalProperties", false}};
-    const Json of_points{{"type", "object"},
-                         {"properties", {{"points", points}}},
-                         {"required", {"points"}},
-                         {"additionalProperties", false}};
-    return {{"anyOf", {of_file, of_points}}};
   }
   Json texts() const {
     Json list = list_of(text(), {});
@@ -136,6 +121,24 @@ std::string description_of(const Key &key, const Value &value) {
 }
 
 }  // namespace
+
+// Of a file, or points.
+Json schema_of_values_over_time() {
+  const Json name{{"type", "string"}, {"minLength", 1}};
+  const Json point{
+      {"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 2}};
+  const Json points{{"type", "array"}, {"items", point}, {"minItems", 1}};
+  const Json of_file{{"type", "object"},
+                     {"properties", {{"table", name}, {"column", name}}},
+                     {"required", {"table"}},
+                     {"additionalProperties", false}};
+  const Json of_points{{"type", "object"},
+                       {"properties", {{"points", points}}},
+                       {"required", {"points"}},
+                       {"additionalProperties", false}};
+  return {{"description", "values over the time t, linear between their points"},
+          {"anyOf", {of_file, of_points}}};
+}
 
 Json schema_of_key(const Key &key, const Value &value) {
   Json schema{{"description", description_of(key, value)}};

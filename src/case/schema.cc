@@ -30,6 +30,8 @@ void declare(Visitor &v, IntervalCase &interval) {
 }
 
 std::string intervals_complaint(const std::vector<IntervalCase> &intervals) {
+  if (intervals.empty())
+    return "is an empty list; give at least one interval, or `end` and `steps`";
   double begin = 0;
   std::int64_t steps = 0;
   for (std::size_t i = 0; i < intervals.size(); ++i) {
@@ -49,14 +51,18 @@ std::string intervals_complaint(const std::vector<IntervalCase> &intervals) {
 }
 
 void declare(Visitor &v, TimeCase &time) {
-  v.entries({.name = "interval",
-             .description = "Steps of different sizes, instead of `end` and `steps`: intervals one "
-                            "after the other, each of equal steps. The body is factorised once for "
-                            "each size"},
-            time.intervals,
-            [](Visitor &inner, IntervalCase &interval) { declare(inner, interval); });
-  v.check("interval", [&] { return intervals_complaint(time.intervals); });
-  const Use equal{time.intervals.empty(), "steps of one size, without `interval`"};
+  const Key interval{.name = "interval",
+                     .description = "Steps of different sizes, instead of `end` and `steps`: "
+                                    "intervals one after the other, each of equal steps. The body "
+                                    "is factorised once for each size",
+                     .optional = true};
+  const bool has_intervals = v.given(interval, !time.intervals.empty());
+  if (has_intervals) {
+    v.entries(interval, time.intervals,
+              [](Visitor &inner, IntervalCase &one) { declare(inner, one); });
+    v.check("interval", [&] { return intervals_complaint(time.intervals); });
+  }
+  const Use equal{!has_intervals, "no [[time.interval]]"};
   v.key({.name = "end",
          .description = "time at which the simulation ends; it begins at 0",
          .unit = "s",
@@ -70,7 +76,6 @@ void declare(Visitor &v, TimeCase &time) {
          .range = at_least(1),
          .used = equal},
         &time.steps);
-  v.one_group({{"end", "steps"}, {"interval"}});
   if (!time.intervals.empty()) {
     time.end = time.intervals.back().until;
     time.steps = 0;

@@ -2,7 +2,10 @@
 
 #include "case/load_table.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
+
+#include <functional>
 
 #include "../output/temporary_folder.h"
 #include "case/resolved.h"
