@@ -25,9 +25,8 @@ LoadTable::LoadTable(Points points) : points_(std::move(points)) {
 }
 
 double LoadTable::value(double time) const {
-  const auto later =
-      std::upper_bound(points_.begin(), points_.end(), time,
-                       [](double t, const auto &point) { return t < point.first; });
+  const auto later = std::upper_bound(points_.begin(), points_.end(), time,
+                                      [](double t, const auto &point) { return t < point.first; });
   if (later == points_.begin())
     return later->second;
   const auto &[t0, v0] = *(later - 1);

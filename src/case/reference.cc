@@ -69,15 +69,19 @@ another case for `--resume`.
 std::string formulas() {
   const FormulaNames &names = formula_names();
   return fmt::format(
-      "- variables: {} (place [m] and time [s]; no `z` in two dimensions)\n- constants: {}\n- "
-      "functions: {}\n\n"
-      "`if(c, a, b)` is `c ? a : b`, `log` and `ln` are the natural logarithm, `mod(a, b)` has the "
-      "sign of b.\nOf `if`, `?:`, `&&` and `||` only what decides is evaluated. A formula in which "
-      "any "
-      "value that is evaluated is infinite or not a\nnumber ends the run with an error, as does "
-      "one "
-      "whose value is not in the range of its key.\n",
-      code_list(names.variables), code_list(names.constants), code_list(names.functions)) +
+             "- variables: {} (place [m] and time [s]; no `z` in two dimensions)\n- constants: "
+             "{}\n- "
+             "functions: {}\n\n"
+             "`if(c, a, b)` is `c ? a : b`, `log` and `ln` are the natural logarithm, `mod(a, b)` "
+             "has the "
+             "sign of b.\nOf `if`, `?:`, `&&` and `||` only what decides is evaluated. A formula "
+             "in which "
+             "any "
+             "value that is evaluated is infinite or not a\nnumber ends the run with an error, as "
+             "does "
+             "one "
+             "whose value is not in the range of its key.\n",
+             code_list(names.variables), code_list(names.constants), code_list(names.functions)) +
          tables;
 }
 

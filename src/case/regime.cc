@@ -13,9 +13,9 @@ namespace {
 
 [[noreturn]] void refuse(const std::string &place, const std::string &what,
                          const std::string &instead) {
-  throw CaseError(fmt::format(
-      "{}: {} has a rate and is not available with time.regime = \"static\"; {}", place, what,
-      instead));
+  throw CaseError(
+      fmt::format("{}: {} has a rate and is not available with time.regime = \"static\"; {}", place,
+                  what, instead));
 }
 
 constexpr const char *take_time = "take \"quasistatic\"";

@@ -52,9 +52,10 @@ std::string intervals_complaint(const std::vector<IntervalCase> &intervals) {
 
 void declare(Visitor &v, TimeCase &time) {
   const Key interval{.name = "interval",
-                     .description = "Steps of different sizes, instead of `end` and `steps`: "
-                                    "intervals one after the other, each of equal steps. The body "
-                                    "is factorised once for each size",
+                     .description =
+                         "Steps of different sizes, instead of `end` and `steps`: "
+                         "intervals one after the other, each of equal steps. The body "
+                         "is factorised once for each size",
                      .optional = true};
   const bool has_intervals = v.given(interval, !time.intervals.empty());
   if (has_intervals) {

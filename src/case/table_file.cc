@@ -107,9 +107,10 @@ class TableReader {
     if (!column_)
       return;
     if (!has_names)
-      fail(fmt::format("begins with numbers, so that no column has a name; give the columns names "
-                       "in the first line, or leave out column = {}",
-                       toml_text(*column_)));
+      fail(
+          fmt::format("begins with numbers, so that no column has a name; give the columns names "
+                      "in the first line, or leave out column = {}",
+                      toml_text(*column_)));
     const auto found = std::find(names.begin() + 1, names.end(), *column_);
     const Fields others(names.begin() + 1, names.end());
     if (found == names.end())
@@ -133,9 +134,10 @@ class TableReader {
   void add_point(const Fields &fields) {
     const double t = number(fields, 0);
     if (!points_.empty() && !(t > points_.back().first))
-      fail(fmt::format("t = {} s follows t = {} s; times must ascend: a value that jumps takes two "
-                       "times that lie close together",
-                       t, points_.back().first));
+      fail(
+          fmt::format("t = {} s follows t = {} s; times must ascend: a value that jumps takes two "
+                      "times that lie close together",
+                      t, points_.back().first));
     points_.emplace_back(t, number(fields, at_));
   }
 

@@ -40,9 +40,8 @@ TimeSteps::TimeSteps(const TimeCase &asked) {
 }
 
 const TimeSteps::Interval &TimeSteps::of(int n) const {
-  const auto found =
-      std::find_if(intervals_.begin(), intervals_.end(),
-                   [n](const Interval &interval) { return n <= interval.last; });
+  const auto found = std::find_if(intervals_.begin(), intervals_.end(),
+                                  [n](const Interval &interval) { return n <= interval.last; });
   return found == intervals_.end() ? intervals_.back() : *found;
 }
 

@@ -179,7 +179,8 @@ void check_formula(const Item &item, const Formula &formula) {
 }
 
 constexpr const char *forms_of_table =
-    "a table of values over t is { table = \"FILE\", column = \"NAME\" } or { points = [[t, value], "
+    "a table of values over t is { table = \"FILE\", column = \"NAME\" } or { points = [[t, "
+    "value], "
     "...] }";
 
 void check_keys_of_table(const Item &item, const toml::table &given) {
@@ -210,8 +211,8 @@ std::optional<std::string> text_in_table(const Item &item, const toml::table &gi
 LoadTable::Points points_given(const Item &item, const toml::node &points) {
   const toml::array *rows = points.as_array();
   if (!rows)
-    fail(item, fmt::format("`points` is {}, but must be a list; {}", type_of(points),
-                           forms_of_table));
+    fail(item,
+         fmt::format("`points` is {}, but must be a list; {}", type_of(points), forms_of_table));
   LoadTable::Points all;
   for (std::size_t i = 0; i < rows->size(); ++i) {
     const toml::array *row = rows->get(i)->as_array();
@@ -255,7 +256,9 @@ void read_into(const Item &item, Formula &value) {
     value = table_in(item, *given);
   else if (const auto text = item.node.value_exact<std::string>())
     value = Formula(*text, item.where(), item.key.range, item.key.unit);
-  else if (const double number = number_in(item, "a number or a formula, or a table of values over t"); std::isfinite(number))
+  else if (const double number =
+               number_in(item, "a number or a formula, or a table of values over t");
+           std::isfinite(number))
     value = Formula(number, item.where());
   else
     fail(item, "is not a finite number");

@@ -21,8 +21,8 @@ std::string quoted(const toml::node &node);
 struct Item {
   const toml::node &node;
   const Key &key;
-  std::string name;            ///< with its table: " [contact.friction] bound"
-  std::string otherwise = {};  ///< what may be given instead of a value of the key's type
+  std::string name;                   ///< with its table: " [contact.friction] bound"
+  std::string otherwise = {};         ///< what may be given instead of a value of the key's type
   std::filesystem::path folder = {};  ///< that names of files count from: of the case
 
   /// What error texts begin with: place, table and key.

@@ -46,9 +46,7 @@ class ChosenRoute {
   void factorise_after_all(int n, const SolveError &error);
   std::unique_ptr<solve::Route> kept_of(double step);
   void keep(double step, std::unique_ptr<solve::Route> route);
-  bool is_factorised() const {
-    return !iterative_ && model_.asked.solver.method == "condensed";
-  }
+  bool is_factorised() const { return !iterative_ && model_.asked.solver.method == "condensed"; }
 
   struct Kept {
     double step;  // [s]

@@ -178,8 +178,9 @@ std::string survey(const casefile::Case &asked) {
   if (asked.mesh.content || !asked.regions.empty() || varies(asked.material))
     text += asked.dimension == 2 ? survey_in<2>(asked) : survey_in<3>(asked);
   if (casefile::keeps_temperature(asked))
-    text += "\n# Nothing holds the temperature of this static case, and nothing warms the body: it "
-            "stays at its initial one.\n";
+    text +=
+        "\n# Nothing holds the temperature of this static case, and nothing warms the body: it "
+        "stays at its initial one.\n";
   std::vector<std::string> warnings = material_warnings(asked);
   for (const std::string &warning : temperature_warnings(asked))
     warnings.push_back(warning);

@@ -109,8 +109,8 @@ std::vector<double> heat_supplied(const Model<dim> &model, const std::vector<boo
     if (!is_prescribed[i])
       continue;
     const double stored = stores ? step.now.products.sum(i) - step.before.products.sum(i) : 0;
-    supplied[node] = (stored - step.loads[i]) / per_watt + step.conducted[node] -
-                     step.heat_crossed[node];
+    supplied[node] =
+        (stored - step.loads[i]) / per_watt + step.conducted[node] - step.heat_crossed[node];
   }
   return supplied;
 }

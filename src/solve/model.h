@@ -31,8 +31,8 @@ struct Model {
   material::Composition<dim> composition;
   body::Discretisation<dim> body;
   body::Operator<dim> op;
-  body::CellProducts<dim> cells;  ///< the products of `op`, cell by cell
-  std::vector<body::Prescribed> prescribed;  ///< of a static case all temperatures, too
+  body::CellProducts<dim> cells;                        ///< the products of `op`, cell by cell
+  std::vector<body::Prescribed> prescribed;             ///< of a static case all temperatures, too
   std::vector<std::vector<body::Node>> electrodes;      ///< nodes by electrode of the case
   contact::Contacts laws;                               ///< the case's
   std::vector<body::SurfaceExchange> linear_exchanges;  ///< in operator and loads

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "larger.h"
 #include "parallel/ranks.h"
@@ -37,9 +36,9 @@ double long_step(const Model<dim> &model, const std::vector<double> &conduction)
   const std::vector<double> storage = model.op.diagonal(0);
   double slowest = 0;
   for (Node node = 0; node < conduction.size(); ++node)
-    slowest = larger(
-        slowest, std::abs(storage[body::unknown<dim>(node, Fields<dim>::temperature)]) *
-                     model.op.reference_temperature() / std::max(conduction[node], 1e-300));
+    slowest =
+        larger(slowest, std::abs(storage[body::unknown<dim>(node, Fields<dim>::temperature)]) *
+                            model.op.reference_temperature() / std::max(conduction[node], 1e-300));
   return std::ldexp(slowest > 0 ? slowest : 1., 100);
 }
 
@@ -54,8 +53,9 @@ SteadyHeat<dim>::SteadyHeat(const Model<dim> &model, bool iteratively)
   for (const body::Prescribed &p : model.prescribed)
     if (p.is_given() && p.unknown % n == Fields<dim>::temperature)
       held_.push_back(p);
-  find_parts();
-  hold_parts();
+  keeps_initial_ = !is_held();
+  if (keeps_initial_)
+    keep_initial();
   for (const body::Prescribed &p : held_)
     is_free_[p.unknown / n] = false;
   if (iteratively || std::none_of(is_free_.begin(), is_free_.end(), [](bool free) { return free; }))
@@ -71,58 +71,32 @@ SteadyHeat<dim>::SteadyHeat(const Model<dim> &model, bool iteratively)
       model.op, step_, prescribed, std::vector<std::size_t>{}, model.asked.solver.threads);
 }
 
-// Each node takes the largest number among its neighbours, over all ranks' cells, until none
-// changes: parts of the body that touch nowhere stay apart.
-template <int dim>
-void SteadyHeat<dim>::find_parts() {
-  const body::NodeGraph &graph = model_.op.graph();
-  part_.resize(graph.n_nodes());
-  std::iota(part_.begin(), part_.end(), 0.);
-  const auto spread = [&](Node i) {
-    double most = part_[i];
-    for (std::size_t e = graph.row[i]; e < graph.row[i + 1]; ++e)
-      most = std::max(most, part_[graph.column[e]]);
-    for (std::size_t e = graph.row[i]; e < graph.row[i + 1]; ++e)
-      part_[graph.column[e]] = most;
-    part_[i] = most;
-  };
-  std::vector<double> before;
-  do {
-    before = part_;
-    for (Node i = 0; i < graph.n_nodes(); ++i)
-      spread(i);
-    for (Node i = static_cast<Node>(graph.n_nodes()); i-- > 0;)
-      spread(i);
-    parallel::largest(part_);
-  } while (part_ != before);
-}
-
 // What exchanges heat takes some from a body that is equally warm everywhere.
 template <int dim>
-void SteadyHeat<dim>::hold_parts() {
+bool SteadyHeat<dim>::is_held() const {
+  if (!held_.empty())
+    return true;
   std::vector<double> warm(model_.n_unknowns(), 0.);
-  for (Node node = 0; node < part_.size(); ++node)
+  for (Node node = 0; node < diagonal_.size(); ++node)
     warm[theta(node)] = 1;
   const std::vector<double> taken = model_.op.conducted(warm);
-  is_held_.assign(part_.size(), false);
-  for (const body::Prescribed &p : held_)
-    is_held_[static_cast<std::size_t>(part_[p.unknown / n])] = true;
-  for (Node node = 0; node < part_.size(); ++node)
+  for (Node node = 0; node < diagonal_.size(); ++node)
     if (taken[node] > 1e-9 * diagonal_[node])
-      is_held_[static_cast<std::size_t>(part_[node])] = true;
+      return true;
+  return false;
+}
+
+template <int dim>
+void SteadyHeat<dim>::keep_initial() {
   const casefile::Formula &initial = model_.asked.initial.temperature;
-  for (Node node = 0; node < part_.size(); ++node) {
-    const auto part = static_cast<Node>(part_[node]);
-    if (is_held_[part])
-      continue;
-    const std::vector<Vector3> &points = model_.body.points();
-    if (initial.value(points[node], 0) != initial.value(points[part], 0))
+  const std::vector<Vector3> &points = model_.body.points();
+  for (Node node = 0; node < diagonal_.size(); ++node) {
+    if (initial.value(points[node], 0) != initial.value(points[0], 0))
       throw CaseError(fmt::format(
           "{}: [time] regime = \"static\": no prescribed temperature and no exchange of heat holds "
-          "the part of the body at ({:g}, {:g}, {:g}) m, and its initial temperature is not "
-          "uniform, so that it has no steady one; prescribe a temperature there, or give [initial] "
-          "temperature as a number",
-          model_.asked.source, points[part][0], points[part][1], points[part][2]));
+          "the body, and its initial temperature is not uniform, so that it has no steady one; "
+          "give `temperature` on a boundary, or [initial] temperature as a number",
+          model_.asked.source));
     held_.push_back({theta(node), points[node], initial, ""});
   }
 }
@@ -130,7 +104,7 @@ void SteadyHeat<dim>::hold_parts() {
 // q by node [W].
 template <int dim>
 std::vector<double> SteadyHeat<dim>::heat_at(double time) const {
-  std::vector<double> loads(model_.n_unknowns(), 0.), heat(part_.size());
+  std::vector<double> loads(model_.n_unknowns(), 0.), heat(model_.body.n_nodes());
   model_.loads.integrate(time, loads);
   for (Node node = 0; node < heat.size(); ++node)
     heat[node] = -loads[theta(node)] * model_.op.reference_temperature() / model_.step;
@@ -139,15 +113,12 @@ std::vector<double> SteadyHeat<dim>::heat_at(double time) const {
 
 template <int dim>
 void SteadyHeat<dim>::require_unwarmed(double time, const std::vector<double> &heat) const {
-  for (Node node = 0; node < heat.size(); ++node)
-    if (heat[node] != 0 && !is_held_[static_cast<std::size_t>(part_[node])]) {
-      const Vector3 &at = model_.body.points()[node];
-      throw CaseError(fmt::format(
-          "{}: [time] regime = \"static\": at t = {:g} heat flows into the part of the body at "
-          "({:g}, {:g}, {:g}) m, which no prescribed temperature and no exchange of heat holds, so "
-          "that it has no steady temperature; prescribe a temperature there",
-          model_.asked.source, time, at[0], at[1], at[2]));
-    }
+  if (!keeps_initial_ || std::all_of(heat.begin(), heat.end(), [](double q) { return q == 0; }))
+    return;
+  throw CaseError(fmt::format(
+      "{}: [time] regime = \"static\": at t = {:g} heat flows into the body, whose temperature "
+      "nothing holds, so that it has no steady one; give `temperature` on a boundary",
+      model_.asked.source, time));
 }
 
 // Conjugate gradients with the diagonal of G: products with G are cheap.
@@ -158,9 +129,7 @@ void SteadyHeat<dim>::iterate(double time, const std::vector<double> &heat,
   const std::size_t size = heat.size();
   std::vector<double> residual(size), direction(size, 0.), of_direction(model_.n_unknowns(), 0.);
   const auto product = [&](const std::vector<double> &state) { return model_.op.conducted(state); };
-  const auto projected = [&](std::size_t node, double value) {
-    return is_free_[node] ? value : 0;
-  };
+  const auto projected = [&](std::size_t node, double value) { return is_free_[node] ? value : 0; };
   const auto size_of = [&](const std::vector<double> &r) {
     double sum = 0;
     for (std::size_t i = 0; i < size; ++i)
@@ -178,9 +147,10 @@ void SteadyHeat<dim>::iterate(double time, const std::vector<double> &heat,
   const std::size_t most = 20 * size + 100;
   for (std::size_t k = 0; rho > wanted; ++k) {
     if (k == most)
-      throw SolveError(fmt::format("the steady temperature at t = {:g} did not converge in {} "
-                                   "iterations; take solver.body = \"direct\"",
-                                   time, most));
+      throw SolveError(
+          fmt::format("the steady temperature at t = {:g} did not converge in {} "
+                      "iterations; take solver.body = \"direct\"",
+                      time, most));
     for (std::size_t i = 0; i < size; ++i)
       of_direction[theta(static_cast<Node>(i))] = direction[i] +=
           is_free_[i] ? residual[i] / diagonal_[i] : 0;

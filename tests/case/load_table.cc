@@ -84,7 +84,9 @@ TEST_F(FileTable, TakesTheSecondColumnOrTheOneOfThatName) {
 }
 
 TEST_F(FileTable, MayHaveNoNamesOtherSeparatorsAndAByteOrderMark) {
-  write("\xEF\xBB\xBF" "0;1\r\n2;+3e0\r\n");
+  write(
+      "\xEF\xBB\xBF"
+      "0;1\r\n2;+3e0\r\n");
   EXPECT_EQ(value(1), 2);
   write("0\t1\n2\t3\n");
   EXPECT_EQ(value(1), 2);
@@ -107,10 +109,10 @@ TEST_F(FileTable, SaysWhatIsWrongInItsFile) {
               HasSubstr("load.csv:3: column 2 is nan, which is not a finite number"));
   EXPECT_THAT(complaint_of("t,F\n0,0\n2,zwei\n"), HasSubstr("\"zwei\", which is no number"));
   EXPECT_THAT(complaint_of("t,F\n0,0\n2\n"), HasSubstr("has 1 columns, and column 2 is needed"));
-  EXPECT_THAT(complaint_of("t,force,flux\n0,0,0\n2,1,1\n",
-                           R"({ table = "load.csv", column = "Force" })"),
-              AllOf(HasSubstr("has no column \"Force\"; there are \"force\", \"flux\" over \"t\""),
-                    HasSubstr("did you mean \"force\"?")));
+  EXPECT_THAT(
+      complaint_of("t,force,flux\n0,0,0\n2,1,1\n", R"({ table = "load.csv", column = "Force" })"),
+      AllOf(HasSubstr("has no column \"Force\"; there are \"force\", \"flux\" over \"t\""),
+            HasSubstr("did you mean \"force\"?")));
   EXPECT_THAT(complaint_of("0,0\n2,1\n", R"({ table = "load.csv", column = "F" })"),
               HasSubstr("no column has a name"));
   EXPECT_THAT(complaint_of("t,F\n0,\xE4\n"), HasSubstr("is not UTF-8"));
@@ -137,7 +139,8 @@ TEST(PointsOverTime, WithMistakesAreRefused) {
   const auto of = [](const std::string &traction) {
     return complaint([&] { read_text(case_with(traction), "case.toml"); });
   };
-  EXPECT_THAT(of("{ points = [[0, 1], [2]] }"), HasSubstr("points[1] is [2], but must be [t, value]"));
+  EXPECT_THAT(of("{ points = [[0, 1], [2]] }"),
+              HasSubstr("points[1] is [2], but must be [t, value]"));
   EXPECT_THAT(of("{ points = [] }"), HasSubstr("has no points"));
   EXPECT_THAT(of("{ points = [[0, 1], [0, 2], [2, 0]] }"), HasSubstr("times must ascend"));
   EXPECT_THAT(of("{ points = [[0, 1], [2, nan]] }"), HasSubstr("not finite"));

@@ -28,7 +28,8 @@ boundary = [ { on = ["left", "right", "bottom", "top"], displacement = [0, 0] } 
 initial.potential = "1e4*y"
 electrode = [ { name = "ground", on = "bottom", voltage = 0 },
               { name = "top", on = "top", resistor = 1e6 } ]
-)").history();
+)")
+                      .history();
   const std::vector<double> voltage = h.numbers("electrode_top_voltage"),
                             current = h.numbers("electrode_top_current");
   double exact = 100;
@@ -50,7 +51,8 @@ boundary = [ { on = "top", traction = [0, -1e3], potential = 0, temperature = 0 
 [contact]
 on = "bottom"
 normal = { law = "damped", coefficient = 1e9 }
-)").contact();
+)")
+                      .contact();
   const std::vector<double> t = h.numbers("time"), u = h.numbers("normal_displacement");
   for (std::size_t i = 0; i < t.size(); ++i)
     EXPECT_NEAR(u[i], 1e3 / 1e9 * t[i], 1e-9 * 1e-6 * t[i] + 1e-20);
@@ -67,7 +69,8 @@ on = "left"
 foundation_displacement = [0, "1e-3*t"]
 friction = { law = "tresca", bound = 15 }
 heat = { law = "insulated", friction_share = 0.5 }
-)").contact();
+)")
+                      .contact();
   const std::vector<double> rate = c.numbers("slip_rate");
   for (std::size_t i = 0; i < rate.size(); ++i)
     EXPECT_NEAR(rate[i], 1e-3, 1e-3 * 2e-2);

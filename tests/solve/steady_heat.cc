@@ -53,8 +53,8 @@ Eigen::VectorXd assembled(const Model<dim> &model, double time) {
     const auto conductivity = model.composition.at(cell.region, cell.centre()).conductivity;
     for (std::size_t p = 0; p < cell.jxw.size(); ++p)
       for (std::size_t a = 0; a < cell.nodes.size(); ++a) {
-        q[cell.nodes[a]] += cell.jxw[p] * cell.value(p, a) *
-                            model.asked.load.heat.value(cell.points[p], time);
+        q[cell.nodes[a]] +=
+            cell.jxw[p] * cell.value(p, a) * model.asked.load.heat.value(cell.points[p], time);
         for (std::size_t b = 0; b < cell.nodes.size(); ++b)
           g(cell.nodes[a], cell.nodes[b]) +=
               cell.jxw[p] * cell.gradient(p, a).dot(conductivity * cell.gradient(p, b));
@@ -74,8 +74,7 @@ Eigen::VectorXd assembled(const Model<dim> &model, double time) {
     const double k = 20 + 100 * facet.points[p][1];
     q[facet.nodes[a]] += k * -4 * time * facet.jxw[p] * facet.value(p, a);
     for (std::size_t b = 0; b < facet.nodes.size(); ++b)
-      g(facet.nodes[a], facet.nodes[b]) +=
-          k * facet.jxw[p] * facet.value(p, a) * facet.value(p, b);
+      g(facet.nodes[a], facet.nodes[b]) += k * facet.jxw[p] * facet.value(p, a) * facet.value(p, b);
   });
   for (const body::Prescribed &p : model.prescribed)
     if (p.is_given() && p.unknown % (dim + 2) == dim + 1) {

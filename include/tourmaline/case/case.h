@@ -21,8 +21,8 @@ struct IntervalCase {
 };
 
 struct TimeCase {
-  double end = 1;  ///< [s]
-  int steps = 1;   ///< of all intervals together
+  double end = 1;                       ///< [s]
+  int steps = 1;                        ///< of all intervals together
   std::vector<IntervalCase> intervals;  ///< empty: steps of one size
   std::string regime = "quasistatic";   ///< quasistatic | static
 
