@@ -28,6 +28,7 @@ class CellProducts {
                     const casefile::Formula &coefficient);
   void add_capacitors(const std::vector<std::string> &boundaries,
                       const casefile::Formula &coefficient, double factor = 1);
+  void clear_capacitors() { capacitors_.clear(); }
 
   /// As of `Operator`, all of them.
   void multiply(double step, std::span<const double> x, std::span<double> y) const;

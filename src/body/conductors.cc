@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 
+#include "case/time_steps.h"
 #include "case/toml_text.h"
 #include "parallel/ranks.h"
 #include "tourmaline/case/case.h"
@@ -109,8 +110,9 @@ class Givers {
     for (const auto *e : {electrode(a), electrode(b)})
       if (e && !e->is_driven())
         refuse(a, b, "so that the electrode's voltage cannot be found from its circuit");
-    for (int n = 1; n <= asked_.time.steps; ++n) {
-      const double time = asked_.time.end * n / asked_.time.steps;
+    const casefile::TimeSteps steps(asked_.time);
+    for (int n = 1; n <= steps.count(); ++n) {
+      const double time = steps.at(n);
       const double of_a = a.value.value(a.point, time), of_b = b.value.value(b.point, time);
       if (std::abs(of_a - of_b) > 1e-12 * std::max(std::abs(of_a), std::abs(of_b)))
         refuse(a, b, fmt::format("with {:g} V and {:g} V at t = {:g} s", of_b, of_a, time));

@@ -61,6 +61,8 @@ class Operator {
   /// [F/m^2].
   void add_capacitors(const Discretisation<dim> &body, const std::vector<std::string> &boundaries,
                       const casefile::Formula &coefficient, double factor = 1);
+  /// Before those of another factor are added.
+  void clear_capacitors() { capacitors_.clear(); }
 
   const NodeGraph &graph() const { return graph_; }
   double reference_temperature() const { return reference_temperature_; }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "tourmaline/error.h"
@@ -40,6 +41,18 @@ std::vector<Prescribed> prescribed_unknowns(
   for (auto &[i, prescribed] : by_unknown)
     all.push_back(std::move(prescribed));
   return all;
+}
+
+template <int dim>
+std::vector<Prescribed> with_all_temperatures(const Discretisation<dim> &body,
+                                              std::vector<Prescribed> prescribed) {
+  std::vector<bool> mask = mask_of(prescribed, body.n_nodes() * Fields<dim>::count);
+  for (Node node = 0; node < body.n_nodes(); ++node)
+    if (const std::size_t i = unknown<dim>(node, Fields<dim>::temperature); !mask[i])
+      prescribed.push_back({i, body.points()[node], casefile::Formula(0.), ""});
+  std::sort(prescribed.begin(), prescribed.end(),
+            [](const Prescribed &a, const Prescribed &b) { return a.unknown < b.unknown; });
+  return prescribed;
 }
 
 template <int dim>
@@ -85,6 +98,10 @@ template std::vector<Prescribed> prescribed_unknowns<2>(
 template std::vector<Prescribed> prescribed_unknowns<3>(
     const Discretisation<3> &, const std::vector<casefile::BoundaryCase> &,
     const std::vector<casefile::ElectrodeCase> &);
+template std::vector<Prescribed> with_all_temperatures<2>(const Discretisation<2> &,
+                                                          std::vector<Prescribed>);
+template std::vector<Prescribed> with_all_temperatures<3>(const Discretisation<3> &,
+                                                          std::vector<Prescribed>);
 template std::vector<std::vector<Node>> electrode_nodes<2>(
     const std::vector<Prescribed> &, const std::vector<casefile::ElectrodeCase> &);
 template std::vector<std::vector<Node>> electrode_nodes<3>(

@@ -17,6 +17,9 @@ struct Prescribed {
   casefile::Formula value;
   std::string boundary;
   int electrode = -1;  ///< of the case's electrodes; -1: a boundary's condition
+
+  /// Whether the case gives it; if not, it is a temperature that something else finds.
+  bool is_given() const { return !boundary.empty(); }
 };
 
 /// Prescribed unknowns of all [[boundary]] entries and the potentials of all [[electrode]] entries,
@@ -27,6 +30,12 @@ template <int dim>
 std::vector<Prescribed> prescribed_unknowns(
     const Discretisation<dim> &body, const std::vector<casefile::BoundaryCase> &boundaries,
     const std::vector<casefile::ElectrodeCase> &electrodes = {});
+
+/// With all temperatures among them, those that are not given as well (`Prescribed::is_given`):
+/// where heat flows steadily, they are known before a step begins.
+template <int dim>
+std::vector<Prescribed> with_all_temperatures(const Discretisation<dim> &body,
+                                              std::vector<Prescribed> prescribed);
 
 /// By unknown of the body, whether it is prescribed.
 std::vector<bool> mask_of(const std::vector<Prescribed> &prescribed, std::size_t n_unknowns);

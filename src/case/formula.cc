@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "case/double_range.h"
+#include "case/load_table.h"
 #include "case/nearest.h"
 #include "case/toml_text.h"
 #include "formula_branches.h"
@@ -232,6 +233,11 @@ std::string place_words(const std::array<bool, 4> &uses, const std::array<double
 
 }  // namespace
 
+Formula::Formula(std::shared_ptr<const LoadTable> table, std::string where)
+    : table_(std::move(table)), where_(std::move(where)) {
+  uses_[3] = true;
+}
+
 Formula Formula::found(std::shared_ptr<const double> value) {
   Formula formula;
   formula.found_ = std::move(value);
@@ -242,6 +248,8 @@ Formula Formula::found(std::shared_ptr<const double> value) {
 double Formula::value(const std::array<double, 3> &point, double time) const {
   if (found_)
     return *found_;
+  if (table_)
+    return table_->value(time);
   if (!expression_)
     return number_;
   const Evaluated found = expression_->evaluate(point, time);
@@ -257,6 +265,8 @@ double Formula::value(const std::array<double, 3> &point, double time) const {
 }
 
 std::string Formula::text() const {
+  if (table_)
+    return table_->text();
   return expression_ ? expression_->text : fmt::format("{}", number_);
 }
 

@@ -424,6 +424,7 @@ std::string json_schema(const Declaration &declaration) {
        "`tourmaline schema`. What a case must satisfy beyond this schema, `tourmaline check` "
        "says."}};
   schema.update(complete(declaration));
+  schema["$defs"] = {{values_over_time, schema_of_values_over_time()}};
   return schema.dump(2) + "\n";
 }
 

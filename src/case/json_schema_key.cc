@@ -53,7 +53,12 @@ struct Values {
       schema["enum"] = key.choices;
     return schema;
   }
-  Json formula() const { return {{"anyOf", {number(), {{"type", "string"}, {"minLength", 1}}}}}; }
+  Json formula() const {
+    Json any{number(), {{"type", "string"}, {"minLength", 1}}};
+    if (!key.constant_in_time)
+      any.push_back({{"$ref", std::string("#/$defs/") + values_over_time}});
+    return {{"anyOf", any}};
+  }
   Json texts() const {
     Json list = list_of(text(), {});
     list["minItems"] = 1;
@@ -116,6 +121,24 @@ std::string description_of(const Key &key, const Value &value) {
 }
 
 }  // namespace
+
+// Of a file, or points.
+Json schema_of_values_over_time() {
+  const Json name{{"type", "string"}, {"minLength", 1}};
+  const Json point{
+      {"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 2}};
+  const Json points{{"type", "array"}, {"items", point}, {"minItems", 1}};
+  const Json of_file{{"type", "object"},
+                     {"properties", {{"table", name}, {"column", name}}},
+                     {"required", {"table"}},
+                     {"additionalProperties", false}};
+  const Json of_points{{"type", "object"},
+                       {"properties", {{"points", points}}},
+                       {"required", {"points"}},
+                       {"additionalProperties", false}};
+  return {{"description", "values over the time t, linear between their points"},
+          {"anyOf", {of_file, of_points}}};
+}
 
 Json schema_of_key(const Key &key, const Value &value) {
   Json schema{{"description", description_of(key, value)}};

@@ -5,6 +5,10 @@
 
 namespace tourmaline::casefile {
 
+/// The name among the schema's definitions of values over time, and what it stands for.
+constexpr const char *values_over_time = "values_over_time";
+Json schema_of_values_over_time();
+
 /// The JSON Schema of a key's values. A list of names that depend on the mesh is one only where the
 /// key has them.
 Json schema_of_key(const Key &key, const Value &value);

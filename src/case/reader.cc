@@ -15,7 +15,9 @@
 #include "case/given_table.h"
 #include "case/holding.h"
 #include "case/plane_formulas.h"
+#include "case/regime.h"
 #include "case/schema.h"
+#include "case/tables_in_time.h"
 #include "case/unknown_keys.h"
 #include "case/utf8.h"
 #include "override.h"
@@ -205,7 +207,8 @@ class Reader : public Visitor {
   }
 
   Item item(const toml::node &node, const Key &key) const {
-    return {node, key, full_name(key.name), is_sole(key.name) ? "a table, [" + path_ + "]" : ""};
+    return {node, key, full_name(key.name), is_sole(key.name) ? "a table, [" + path_ + "]" : "",
+            context_.folder};
   }
 
   // A law that does not exist is the mistake, and not the keys that it would have.
@@ -307,10 +310,12 @@ Case read_text(const std::string &text, const std::string &name,
   if (asked.output.every == 0)
     asked.output.every = steps_between_files(asked.time.steps);
   check_plane(asked);
+  check_tables(asked);
   check_conflicts(asked);
   check_contacts(asked);
   check_electrodes(asked);
   check_holding(asked);
+  check_regime(asked);
   return asked;
 }
 

@@ -53,18 +53,36 @@ std::string code_list(const std::vector<std::string> &names) {
   return all;
 }
 
+constexpr const char *tables = R"(
+Where a formula may depend on t, a table of values over t may stand instead, as of what was measured:
+
+    traction = [0, { table = "load.csv", column = "F" }]       # a column of a file, its place from the case's folder
+    voltage = { points = [[0, 0], [1e-3, 100], [2e-3, 0]] }    # [t, value], t in s
+
+The file's first column is t; a first line that is no numbers names the columns, commas, semicolons or tabs part
+them, and lines that begin with # do not count. Without `column` the second one is taken. Between two points the
+value is linear; t must ascend, and the points must span the whole run from 0 to its end: what is outside them
+nobody has said. resolved.toml has the points, so that it runs without the file, and a run whose points have changed is
+another case for `--resume`.
+)";
+
 std::string formulas() {
   const FormulaNames &names = formula_names();
   return fmt::format(
-      "- variables: {} (place [m] and time [s]; no `z` in two dimensions)\n- constants: {}\n- "
-      "functions: {}\n\n"
-      "`if(c, a, b)` is `c ? a : b`, `log` and `ln` are the natural logarithm, `mod(a, b)` has the "
-      "sign of b.\nOf `if`, `?:`, `&&` and `||` only what decides is evaluated. A formula in which "
-      "any "
-      "value that is evaluated is infinite or not a\nnumber ends the run with an error, as does "
-      "one "
-      "whose value is not in the range of its key.\n",
-      code_list(names.variables), code_list(names.constants), code_list(names.functions));
+             "- variables: {} (place [m] and time [s]; no `z` in two dimensions)\n- constants: "
+             "{}\n- "
+             "functions: {}\n\n"
+             "`if(c, a, b)` is `c ? a : b`, `log` and `ln` are the natural logarithm, `mod(a, b)` "
+             "has the "
+             "sign of b.\nOf `if`, `?:`, `&&` and `||` only what decides is evaluated. A formula "
+             "in which "
+             "any "
+             "value that is evaluated is infinite or not a\nnumber ends the run with an error, as "
+             "does "
+             "one "
+             "whose value is not in the range of its key.\n",
+             code_list(names.variables), code_list(names.constants), code_list(names.functions)) +
+         tables;
 }
 
 struct TypeName {

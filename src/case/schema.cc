@@ -1,5 +1,10 @@
 #include "case/schema.h"
 
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <limits>
+
 #include "case/interval.h"
 #include "schema_parts.h"
 #include "sense.h"
@@ -9,18 +14,82 @@ namespace tourmaline::casefile {
 
 namespace {
 
+void declare(Visitor &v, IntervalCase &interval) {
+  v.key({.name = "until",
+         .description = "time at which the interval ends; it begins where the one before ends, the "
+                        "first one at 0",
+         .unit = "s",
+         .required = true,
+         .range = positive(sense::time)},
+        &interval.until);
+  v.key({.name = "steps",
+         .description = "number of equal time steps in it",
+         .required = true,
+         .range = at_least(1)},
+        &interval.steps);
+}
+
+std::string intervals_complaint(const std::vector<IntervalCase> &intervals) {
+  if (intervals.empty())
+    return "is an empty list; give at least one interval, or `end` and `steps`";
+  double begin = 0;
+  std::int64_t steps = 0;
+  for (std::size_t i = 0; i < intervals.size(); ++i) {
+    const double until = intervals[i].until;
+    if (!(until > begin))
+      return fmt::format(
+          "interval[{}] ends at {} s and begins at {} s, where the one before it ends; each must "
+          "end later than that",
+          i, until, begin);
+    begin = until;
+    steps += intervals[i].steps;
+  }
+  if (steps > std::numeric_limits<int>::max())
+    return fmt::format("has {} steps in all, and at most {} are possible", steps,
+                       std::numeric_limits<int>::max());
+  return "";
+}
+
 void declare(Visitor &v, TimeCase &time) {
+  const Key interval{.name = "interval",
+                     .description =
+                         "Steps of different sizes, instead of `end` and `steps`: "
+                         "intervals one after the other, each of equal steps. The body "
+                         "is factorised once for each size",
+                     .optional = true};
+  const bool has_intervals = v.given(interval, !time.intervals.empty());
+  if (has_intervals) {
+    v.entries(interval, time.intervals,
+              [](Visitor &inner, IntervalCase &one) { declare(inner, one); });
+    v.check("interval", [&] { return intervals_complaint(time.intervals); });
+  }
+  const Use equal{!has_intervals, "no [[time.interval]]"};
   v.key({.name = "end",
          .description = "time at which the simulation ends; it begins at 0",
          .unit = "s",
          .required = true,
-         .range = positive(sense::time)},
+         .range = positive(sense::time),
+         .used = equal},
         &time.end);
   v.key({.name = "steps",
          .description = "number of equal time steps (backward Euler)",
          .required = true,
-         .range = at_least(1)},
+         .range = at_least(1),
+         .used = equal},
         &time.steps);
+  if (!time.intervals.empty()) {
+    time.end = time.intervals.back().until;
+    time.steps = 0;
+    for (const IntervalCase &interval : time.intervals)
+      time.steps += interval.steps;
+  }
+  v.key({.name = "regime",
+         .description =
+             "quasistatic: heat takes its time (backward Euler), forces balance in every step; "
+             "static: nothing has a rate, t is only the parameter of the loads, heat flows "
+             "steadily, and friction goes in increments from one load level to the next",
+         .choices = {"quasistatic", "static"}},
+        &time.regime);
 }
 
 void declare(Visitor &v, LoadCase &load, int dimension) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "case/sides.h"
+#include "case/time_steps.h"
 #include "tourmaline/case/case.h"
 
 namespace tourmaline::casefile {
@@ -13,7 +14,7 @@ bool falls(const Case &asked, const ContactCase &contact) {
   const FrictionCoefficientCase &mu = contact.friction.coefficient;
   for (const std::string &name : contact.on)
     for (const SidePoint &at : points_on(asked.mesh, name))
-      for (const double time : {asked.time.end / asked.time.steps, asked.time.end})
+      for (const double time : {TimeSteps(asked.time).at(1), asked.time.end})
         if (mu.at_rest->value(at.point, time) > mu.kinetic->value(at.point, time))
           return true;
   return false;

@@ -43,7 +43,7 @@ std::string text_of(const std::string &value) {
   return toml_text(value);
 }
 std::string text_of(const Formula &value) {
-  return value.is_number() ? value.text() : toml_text(value.text());
+  return value.is_number() || value.table() ? value.text() : toml_text(value.text());
 }
 std::string text_of(const std::optional<Formula> &value) {
   return value ? text_of(*value) : "\"free\"";

@@ -7,7 +7,9 @@
 #include <sstream>
 
 #include "case/double_range.h"
+#include "case/load_table.h"
 #include "case/nearest.h"
+#include "case/table_file.h"
 #include "case/toml_text.h"
 #include "tourmaline/error.h"
 
@@ -125,7 +127,7 @@ void check_length(const Item &item, std::size_t given) {
 }
 
 Item entry_of(const Item &item, const toml::array &entries, std::size_t i) {
-  return {entries[i], item.key, fmt::format("{}[{}]", item.name, i)};
+  return {entries[i], item.key, fmt::format("{}[{}]", item.name, i), "", item.folder};
 }
 
 void read_into(const Item &item, bool &value) {
@@ -176,10 +178,87 @@ void check_formula(const Item &item, const Formula &formula) {
     fail(item, "must not depend on the time t");
 }
 
+constexpr const char *forms_of_table =
+    "a table of values over t is { table = \"FILE\", column = \"NAME\" } or { points = [[t, "
+    "value], "
+    "...] }";
+
+void check_keys_of_table(const Item &item, const toml::table &given) {
+  const std::vector<std::string> names{"table", "column", "points"};
+  for (const auto &[key, node] : given)
+    if (const std::string name(key.str());
+        std::find(names.begin(), names.end(), name) == names.end())
+      fail(item, fmt::format("has the unknown key {}; {}{}", toml_text(shortened(name)),
+                             forms_of_table, did_you_mean(name, names)));
+  if (given.contains("table") == given.contains("points"))
+    fail(item, fmt::format("gives {} of `table` and `points`; {}",
+                           given.contains("table") ? "both" : "none", forms_of_table));
+  if (given.contains("points") && given.contains("column"))
+    fail(item, std::string("`column` is of a file's table; ") + forms_of_table);
+}
+
+std::optional<std::string> text_in_table(const Item &item, const toml::table &given,
+                                         const char *name) {
+  const toml::node *node = given.get(name);
+  if (!node)
+    return std::nullopt;
+  if (const auto text = node->value_exact<std::string>(); text && !text->empty())
+    return *text;
+  fail(item, fmt::format("`{}` is {}, but must be a text; {}", name,
+                         node->is_string() ? "empty" : type_of(*node), forms_of_table));
+}
+
+LoadTable::Points points_given(const Item &item, const toml::node &points) {
+  const toml::array *rows = points.as_array();
+  if (!rows)
+    fail(item,
+         fmt::format("`points` is {}, but must be a list; {}", type_of(points), forms_of_table));
+  LoadTable::Points all;
+  for (std::size_t i = 0; i < rows->size(); ++i) {
+    const toml::array *row = rows->get(i)->as_array();
+    const auto number = [&](std::size_t k) {
+      return number_in({*row->get(k), item.key, fmt::format("{} points[{}]", item.name, i)},
+                       "a number");
+    };
+    if (!row || row->size() != 2)
+      fail(item, fmt::format("points[{}] is {}, but must be [t, value]", i, quoted(*rows->get(i))));
+    all.emplace_back(number(0), number(1));
+  }
+  return all;
+}
+
+// Relative to the case, a mistake in the file with its place there.
+LoadTable::Points points_of(const Item &item, const toml::table &given) {
+  check_keys_of_table(item, given);
+  if (const toml::node *points = given.get("points"))
+    return points_given(item, *points);
+  const std::string file = *text_in_table(item, given, "table");
+  return points_in_file(item.folder / file, text_in_table(item, given, "column"));
+}
+
+Formula table_in(const Item &item, const toml::table &given) {
+  std::shared_ptr<const LoadTable> table;
+  try {
+    table = std::make_shared<const LoadTable>(points_of(item, given));
+  } catch (const CaseError &error) {
+    if (std::string(error.what()).starts_with(place_of(item.node.source())))
+      throw;
+    fail(item, error.what());
+  }
+  for (const auto &[t, value] : table->points())
+    if (const std::string wrong = complaint(item.key.range, value, item.key.unit); !wrong.empty())
+      fail(item, fmt::format("has {} at t = {} s: {}", value, t, wrong));
+  return Formula(table, item.where());
+}
+
 void read_into(const Item &item, Formula &value) {
-  if (const auto text = item.node.value_exact<std::string>())
+  if (const toml::table *given = item.node.as_table())
+    value = table_in(item, *given);
+  else if (const auto text = item.node.value_exact<std::string>())
     value = Formula(*text, item.where(), item.key.range, item.key.unit);
-  else if (const double number = number_in(item, "a number or a formula"); std::isfinite(number))
+  else if (const double number =
+               number_in(item, "a number or a formula, or a table of values over t");
+           std::isfinite(number))
     value = Formula(number, item.where());
   else
     fail(item, "is not a finite number");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <toml++/toml.h>
+#include <filesystem>
 #include <string>
 
 #include "case/schema.h"
@@ -20,8 +21,9 @@ std::string quoted(const toml::node &node);
 struct Item {
   const toml::node &node;
   const Key &key;
-  std::string name;            ///< with its table: " [contact.friction] bound"
-  std::string otherwise = {};  ///< what may be given instead of a value of the key's type
+  std::string name;                   ///< with its table: " [contact.friction] bound"
+  std::string otherwise = {};         ///< what may be given instead of a value of the key's type
+  std::filesystem::path folder = {};  ///< that names of files count from: of the case
 
   /// What error texts begin with: place, table and key.
   std::string where() const { return place_of(node.source()) + name; }

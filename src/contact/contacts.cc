@@ -63,6 +63,11 @@ FrictionAt Contacts::friction() const {
   return [by_contact](const ContactPlace &place) { return by_contact[place.contact](place); };
 }
 
+void Contacts::set_step(double step) {
+  for (ContactLaws &laws : all_)
+    laws.set_step(step);
+}
+
 void Contacts::replace_friction() {
   for (ContactLaws &laws : all_)
     laws.replace_friction();

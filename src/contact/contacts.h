@@ -39,6 +39,8 @@ class Contacts {
   FrictionAt friction() const;
   /// A program's own friction takes the place of the case's at all contacts.
   void replace_friction();
+  /// Steps of another k [s] follow.
+  void set_step(double step);
 
  private:
   bool any(bool (ContactLaws::*is_so)() const) const;

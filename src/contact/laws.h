@@ -67,6 +67,8 @@ class ContactLaws {
 
   /// A program's own friction takes the place of the case's.
   void replace_friction();
+  /// Steps of another k [s] follow.
+  void set_step(double step) { step_ = step; }
 
  private:
   bool has_bound() const;

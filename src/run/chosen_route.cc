@@ -32,11 +32,62 @@ std::unique_ptr<solve::Route> make_route(const solve::Model<dim> &model, bool it
 }  // namespace
 
 template <int dim>
-ChosenRoute<dim>::ChosenRoute(const solve::Model<dim> &model, bool iterative,
-                              output::Progress &progress)
+ChosenRoute<dim>::ChosenRoute(solve::Model<dim> &model, bool iterative, output::Progress &progress,
+                              int first)
     : model_(model), progress_(progress), iterative_(iterative) {
+  model_.set_step(model_.steps.size(first));
   progress_.stage(iterative_ ? "preconditioner" : "factorisation");
   route_ = make_route(model_, iterative_);
+}
+
+template <int dim>
+std::unique_ptr<solve::Route> ChosenRoute<dim>::kept_of(double step) {
+  const auto found = std::find_if(kept_.begin(), kept_.end(),
+                                  [step](const Kept &one) { return one.step == step; });
+  if (found == kept_.end())
+    return nullptr;
+  std::unique_ptr<solve::Route> route = std::move(found->route);
+  kept_.erase(found);
+  return route;
+}
+
+// Other routes have nothing that is worth keeping: they factorise, or make a preconditioner, while
+// they take a step.
+template <int dim>
+void ChosenRoute<dim>::keep(double step, std::unique_ptr<solve::Route> route) {
+  if (is_factorised())
+    kept_.push_back({step, std::move(route)});
+}
+
+// A route of the size at hand is made while those that are kept leave room for it.
+template <int dim>
+void ChosenRoute<dim>::begin_step(int n) {
+  const double before = model_.step, step = model_.steps.size(n);
+  if (step == before)
+    return;
+  std::unique_ptr<solve::Route> left = std::move(route_);
+  route_ = kept_of(step);
+  model_.set_step(step);
+  if (!route_) {
+    const auto has_room = [&] {
+      const bool fits = another_factorisation(model_.asked) <= available_memory().bytes;
+      return parallel::from_first(fits) != 0;
+    };
+    while (!kept_.empty() && !has_room())
+      kept_.erase(kept_.begin());
+    progress_.stage(iterative_ ? "preconditioner" : "factorisation");
+    route_ = make_route(model_, iterative_);
+  }
+  route_->take_over(*left);
+  keep(before, std::move(left));
+}
+
+template <int dim>
+solve::RouteReport ChosenRoute<dim>::report(int n) const {
+  solve::RouteReport report = route_->report();
+  if (is_factorised())
+    report.factorisations = model_.steps.sizes(n);
+  return report;
 }
 
 template <int dim>
@@ -94,13 +145,14 @@ template <int dim>
 void ChosenRoute<dim>::save(output::SavedNumbers &numbers) const {
   numbers.put("iterative", {double(iterative_)});
   numbers.put("direct from", {double(direct_from_)});
+  numbers.put("size of the step", {model_.step});
   route_->save(numbers);
 }
 
 template <int dim>
 void ChosenRoute<dim>::restore(const output::SavedNumbers &numbers) {
   direct_from_ = static_cast<int>(numbers.get("direct from", 1)[0]);
-  route_->restore(numbers);
+  route_->restore(numbers, numbers.get("size of the step", 1)[0] != model_.step);
 }
 
 template <int dim>

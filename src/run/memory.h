@@ -10,6 +10,8 @@ namespace tourmaline::run {
 /// growing as N log N in 2D and as N^(4/3) in 3D (the factor of nested dissection), fitted to
 /// measured runs (docs/measurements.md).
 double factorised_memory(const casefile::Case &asked);
+/// Of them what a further factorisation takes, for steps of another size.
+double another_factorisation(const casefile::Case &asked);
 /// The same of a run that solves the body's equations iteratively: growing as N.
 double iterative_memory(const casefile::Case &asked);
 

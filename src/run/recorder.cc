@@ -216,7 +216,8 @@ double Recorder<dim>::flux(contact::Crossing what, std::size_t i, double value, 
   const contact::InterfaceNode<dim> &at = model_.interface[i];
   const double by_state = flow.size() > 0 ? flow[static_cast<Eigen::Index>(i)] / at.weight : 0;
   const auto &linear = linear_[at.contact][what == contact::Crossing::heat ? 0 : 1];
-  const double coefficient = linear ? linear->factor * linear->coefficient.value(at.point, 0) : 0;
+  const double factor = linear && linear->accumulates ? model_.step : 1;
+  const double coefficient = linear ? factor * linear->coefficient.value(at.point, 0) : 0;
   if (coefficient == 0)
     return by_state;
   return coefficient * (value - linear->outside.value(at.point, time)) + by_state;

@@ -11,6 +11,7 @@
 
 #include "case/changes.h"
 #include "case/resolved.h"
+#include "case/toml_text.h"
 #include "output/result_folder.h"
 #include "parallel/ranks.h"
 #include "run/schedule.h"
@@ -106,7 +107,12 @@ std::string words(const casefile::Change &change) {
     return fmt::format("the content of {} has changed", change.key.substr(contents.size()));
   if (change.key == friction)
     return words_of_laws(change);
-  const auto value = [](const std::string &text) { return text.empty() ? "not given" : text; };
+  constexpr std::size_t most = 200;  // of a table of values
+  const auto value = [](const std::string &text) {
+    if (text.size() > most)
+      return casefile::shortened(text);
+    return text.empty() ? "not given" : text;
+  };
   return fmt::format("{} was {}, is {}", change.key, value(change.then), value(change.now));
 }
 

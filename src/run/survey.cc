@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "body/conductors.h"
+#include "case/regime.h"
 #include "case/sides.h"
 #include "case/toml_text.h"
 #include "material/composition.h"
@@ -176,6 +177,10 @@ std::string survey(const casefile::Case &asked) {
   std::string text = materials_in_words(asked);
   if (asked.mesh.content || !asked.regions.empty() || varies(asked.material))
     text += asked.dimension == 2 ? survey_in<2>(asked) : survey_in<3>(asked);
+  if (casefile::keeps_temperature(asked))
+    text +=
+        "\n# Nothing holds the temperature of this static case, and nothing warms the body: it "
+        "stays at its initial one.\n";
   std::vector<std::string> warnings = material_warnings(asked);
   for (const std::string &warning : temperature_warnings(asked))
     warnings.push_back(warning);

@@ -74,7 +74,10 @@ TimeLoop<dim>::TimeLoop(const casefile::Case &asked, const std::filesystem::path
   }
   open_folder(directory, std::move(lock));
   recorder_.emplace(model_, *folder_);
-  route_.emplace(model_, iterative_, progress_);
+  if (asked.time.is_static())
+    steady_heat_.emplace(model_, iterative_);
+  route_.emplace(model_, iterative_, progress_,
+                 checkpoint_ ? static_cast<int>(checkpoint_->step) + 1 : 1);
 }
 
 template <int dim>
@@ -110,9 +113,11 @@ int TimeLoop<dim>::begin() {
 }
 
 template <int dim>
-void TimeLoop<dim>::prescribe(double time, std::vector<double> &state) const {
+void TimeLoop<dim>::prescribe(double time, std::vector<double> &state) {
   for (const body::Prescribed &p : model_.prescribed)
     state[p.unknown] = p.value.value(p.point, time);
+  if (steady_heat_)
+    steady_heat_->fill(time, state);
 }
 
 template <int dim>
@@ -150,6 +155,7 @@ void TimeLoop<dim>::sum_right_side(int n) {
 template <int dim>
 void TimeLoop<dim>::step(int n) {
   Stopwatch watch;
+  route_->begin_step(n);
   solve::StepOutcome outcome = advance(n);
   leaked_.describe(outcome);
   account_.step(n, outcome, watch.lap());
@@ -350,7 +356,7 @@ void TimeLoop<dim>::keep_what_there_is() {
 
 template <int dim>
 output::Summary TimeLoop<dim>::summary() const {
-  const solve::RouteReport report = route_->route().report();
+  const solve::RouteReport report = route_->report(done_);
   output::Summary summary;
   summary.title = model_.asked.title;
   summary.friction_name = friction_name_;
@@ -367,6 +373,8 @@ output::Summary TimeLoop<dim>::summary() const {
                    {"factor_flops", static_cast<std::int64_t>(report.factor_flops)},
                    {"steps", model_.asked.time.steps},
                    {"ranks", parallel::n_ranks()}};
+  if (!model_.asked.time.intervals.empty())
+    summary.sizes["step_sizes"] = model_.steps.sizes(done_);
   account_.put(report, model_.asked.time.steps, summary);
   summary.seconds.mesh = model_.mesh_seconds;
   summary.seconds.assemble = model_.assemble_seconds;

@@ -23,6 +23,7 @@
 #include "solve/foundation_circuits.h"
 #include "solve/leaked_charge.h"
 #include "solve/model.h"
+#include "solve/steady_heat.h"
 #include "tourmaline/case/case.h"
 #include "tourmaline/run/simulation.h"
 
@@ -48,7 +49,7 @@ class TimeLoop {
   void march(int first, Schedule &schedule);
   void march_together(int first, Schedule &schedule);
   output::Summary take_steps(int first, Schedule &schedule);
-  void prescribe(double time, std::vector<double> &state) const;
+  void prescribe(double time, std::vector<double> &state);
   void sum_loads(double time);
   void sum_right_side(int n);
   solve::StepOutcome advance(int n);
@@ -80,6 +81,7 @@ class TimeLoop {
   std::vector<double> next_, loads_, right_side_;
   std::optional<output::ResultFolder> folder_;
   std::optional<Recorder<dim>> recorder_;
+  std::optional<solve::SteadyHeat<dim>> steady_heat_;  // of a static case
   std::optional<ChosenRoute<dim>> route_;
   int done_ = 0;        // steps
   int saved_step_ = 0;  // of the checkpoint that is there; 0: none

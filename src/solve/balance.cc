@@ -49,6 +49,15 @@ double charge_factor(const Model<dim> &model, const std::string &boundary) {
   return 1;
 }
 
+// By unknown, what conditions of the case hold.
+template <int dim>
+std::vector<bool> given(const Model<dim> &model) {
+  std::vector<bool> mask(model.n_unknowns(), false);
+  for (const body::Prescribed &p : model.prescribed)
+    mask[p.unknown] = p.is_given();
+  return mask;
+}
+
 const char *const axes[] = {"x", "y", "z"};
 
 }  // namespace
@@ -56,15 +65,16 @@ const char *const axes[] = {"x", "y", "z"};
 template <int dim>
 Balance<dim>::Balance(const Model<dim> &model, std::span<const double> initial)
     : model_(model),
-      is_prescribed_(body::mask_of(model.prescribed, initial.size())),
+      is_prescribed_(given(model)),
       before_(initial_balance(model, initial)),
+      of_step_(model.step),
       smallest_heat_(smallest_heat()),
       coupled_(coupled_fields(model)) {
   if (!model.electrodes.empty())
     electrode_charges_ = initial_charges(model, initial);
   for (const body::Prescribed &p : model.prescribed) {
     const int component = static_cast<int>(p.unknown % Fields<dim>::count);
-    if (component == Fields<dim>::temperature)
+    if (component == Fields<dim>::temperature && p.is_given())
       add_once(heat_boundaries_, p.boundary);
     else if (component == Fields<dim>::potential && p.electrode < 0)
       add_once(charge_boundaries_, p.boundary);
@@ -78,9 +88,8 @@ Balance<dim>::Balance(const Model<dim> &model, std::span<const double> initial)
     for (const std::string &name : linear.on) {
       const bool is_heat = linear.field == body::SurfaceExchange::temperature;
       add_once(is_heat ? heat_boundaries_ : charge_boundaries_, name);
-      (is_heat ? exchange_ : capacitors_)[name] =
-          exchange_weights(model.body, {name}, linear.coefficient, linear.factor);
     }
+  find_weights();
   for (const contact::Crossing what : {contact::Crossing::heat, contact::Crossing::charge})
     find_crossings(what);
   if (!model.laws.can_open())
@@ -88,6 +97,14 @@ Balance<dim>::Balance(const Model<dim> &model, std::span<const double> initial)
   can_open_.resize(model.body.n_nodes());
   for (const contact::InterfaceNode<dim> &at : model.interface)
     can_open_[at.node] = model.laws.of(at).can_open();
+}
+
+template <int dim>
+void Balance<dim>::find_weights() {
+  for (const body::SurfaceExchange &linear : model_.linear_exchanges)
+    for (const std::string &name : linear.on)
+      (linear.field == body::SurfaceExchange::temperature ? exchange_ : capacitors_)[name] =
+          exchange_weights(model_.body, {name}, linear.coefficient, linear.factor);
 }
 
 // What crosses by the contact's state crosses at nodes: each belongs to the first boundary of its
@@ -117,9 +134,18 @@ void Balance<dim>::find_crossings(contact::Crossing what) {
 }
 
 // Where nothing warms a body, its heats are round-off and do not balance. They are measured by what
-// warms it by 1e-12 theta_ref in one step, less than what any strain does.
+// warms it by 1e-12 theta_ref in one step, less than what any strain does; where heat flows
+// steadily, by what flows into a node that is so much warmer than the others.
 template <int dim>
 double Balance<dim>::smallest_heat() const {
+  if (model_.asked.time.is_static()) {
+    const double step = std::ldexp(1., 100);  // which leaves only conduction
+    const std::vector<double> diagonal = model_.op.diagonal(step);
+    double most = 0;
+    for (std::size_t i = Fields<dim>::temperature; i < diagonal.size(); i += Fields<dim>::count)
+      most = larger(most, std::abs(diagonal[i]));
+    return 1e-12 * most * std::pow(model_.op.reference_temperature(), 2) / step;
+  }
   std::vector<double> warm(model_.n_unknowns(), 0.), product(model_.n_unknowns());
   for (std::size_t i = Fields<dim>::temperature; i < warm.size(); i += Fields<dim>::count)
     warm[i] = 1e-12 * model_.op.reference_temperature();
@@ -134,6 +160,11 @@ template <int dim>
 typename Balance<dim>::Columns Balance<dim>::step(double time, std::span<const double> loads,
                                                   const StepOutcome &outcome,
                                                   std::span<const double> state, bool is_refined) {
+  if (model_.step != of_step_) {
+    of_step_ = model_.step;
+    smallest_heat_ = smallest_heat();
+    find_weights();
+  }
   const auto step_from = [&](BalancedState<dim> before, bool cell_by_cell) {
     return balance_step(model_, is_prescribed_, std::move(before), time, loads, outcome, state,
                         cell_by_cell);
@@ -195,6 +226,10 @@ void Balance<dim>::add_energy(const Step &step, Columns &columns) {
       foundation += step.contact[i] * carried;
     } else if (field == 1) {
       electric -= step.now.unknowns[i] * (step.now.charges[i] - step.before.charges[i]);
+    } else if (model_.asked.time.is_static()) {
+      // Heat that flows steadily changes no energy; what the body takes up as its entropy changes
+      // comes from outside.
+      thermal -= step.now.unknowns[i] * (step.now.products.sum(i) - step.before.products.sum(i));
     } else {
       const std::size_t node = i / Fields<dim>::count;
       const double supplied = step.heat_supplied[node] + step.heat_crossed[node];
@@ -393,7 +428,7 @@ void Balance<dim>::add_heat(const Step &step, Columns &columns) {
   std::map<std::string, double> out;
   Sum imbalance;
   for (const body::Prescribed &p : model_.prescribed)
-    if (p.unknown % Fields<dim>::count == Fields<dim>::temperature) {
+    if (p.unknown % Fields<dim>::count == Fields<dim>::temperature && p.is_given()) {
       const double supplied = step.heat_supplied[p.unknown / Fields<dim>::count];
       out[p.boundary] -= supplied;
       imbalance.size += std::abs(supplied);
@@ -427,8 +462,8 @@ void Balance<dim>::add_heat(const Step &step, Columns &columns) {
   }
   double stored = 0;
   const double per_watt = -model_.step / model_.op.reference_temperature();
-  for (std::size_t i = Fields<dim>::temperature; i < step.now.unknowns.size();
-       i += Fields<dim>::count)
+  for (std::size_t i = Fields<dim>::temperature;
+       !model_.asked.time.is_static() && i < step.now.unknowns.size(); i += Fields<dim>::count)
     stored += (step.now.products.sum(i) - step.before.products.sum(i)) / per_watt;
   imbalance.add(stored);
   imbalance.add(-source);

@@ -72,6 +72,7 @@ class Balance {
     return model_.laws.has_moving_foundation() || model_.laws.has_normal_unknowns();
   }
   double smallest_heat() const;
+  void find_weights();
   static double exchanged(const std::map<std::string, NodeWeights> &exchange, int component,
                           const std::string &boundary, const Step &step);
 
@@ -80,6 +81,7 @@ class Balance {
   std::vector<bool> can_open_;         // by node: of a contact that can; empty: none can
   BalancedState<dim> before_;          // of the step before
   Eigen::VectorXd electrode_charges_;  // of that state [C]
+  double of_step_;                     // k that the following is made for [s]
   double smallest_heat_;               // [W]
   CoupledFields coupled_;
   Columns judged_;

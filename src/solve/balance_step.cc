@@ -102,13 +102,15 @@ template <int dim>
 std::vector<double> heat_supplied(const Model<dim> &model, const std::vector<bool> &is_prescribed,
                                   const BalanceStep<dim> &step) {
   const double per_watt = -model.step / model.op.reference_temperature();
+  const bool stores = !model.asked.time.is_static();
   std::vector<double> supplied(model.body.n_nodes(), 0.);
   for (body::Node node = 0; node < model.body.n_nodes(); ++node) {
     const std::size_t i = body::unknown<dim>(node, Fields<dim>::temperature);
-    if (is_prescribed[i])
-      supplied[node] =
-          (step.now.products.sum(i) - step.before.products.sum(i) - step.loads[i]) / per_watt +
-          step.conducted[node] - step.heat_crossed[node];
+    if (!is_prescribed[i])
+      continue;
+    const double stored = stores ? step.now.products.sum(i) - step.before.products.sum(i) : 0;
+    supplied[node] =
+        (stored - step.loads[i]) / per_watt + step.conducted[node] - step.heat_crossed[node];
   }
   return supplied;
 }

@@ -108,6 +108,7 @@ class CondensedRoute : public Route {
   void refine_again() override { refine(); }
   void save_memory(output::SavedNumbers &numbers) const override;
   void restore_memory(const output::SavedNumbers &numbers) override;
+  void forget_matrices() override { factors_ = whole_factors_ = {}; }
 
   const Model<dim> &model_;
   std::string left_to_contact_;  // rigid motions

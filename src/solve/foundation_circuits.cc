@@ -20,7 +20,9 @@ using Eigen::VectorXd;
 template <int dim>
 FoundationCircuits<dim>::FoundationCircuits(const Model<dim> &model,
                                             std::span<const double> initial)
-    : model_(model), circuit_(as_electrodes(model.asked.contacts), model.step) {
+    : model_(model),
+      of_step_(model.step),
+      circuit_(as_electrodes(model.asked.contacts), model.step) {
   for (std::size_t c = 0; c < model.found_potentials.size(); ++c)
     if (model.found_potentials[c])
       foundations_.push_back(foundation(c));
@@ -46,6 +48,17 @@ std::vector<casefile::ElectrodeCase> FoundationCircuits<dim>::as_electrodes(
         electrode.voltage = circuit->voltage;
     }
   return electrodes;
+}
+
+template <int dim>
+void FoundationCircuits<dim>::follow_step() {
+  if (model_.step == of_step_)
+    return;
+  of_step_ = model_.step;
+  circuit_ = Circuit(as_electrodes(model_.asked.contacts), of_step_);
+  for (Foundation &one : foundations_)
+    one = foundation(one.contact);
+  forget_slope();
 }
 
 // A law that asks for the contact's state is summed at the nodes; the most that it lets pass, with
@@ -134,6 +147,7 @@ bool FoundationCircuits<dim>::settle(double time, std::span<const double> state,
     return true;
   constexpr int most = 100;
   constexpr double tolerance = 1e-13;
+  follow_step();
   const VectorXd supplied = circuit_.right_side(time, charges_, before_, potentials_);
   VectorXd charges(potentials_.size());
   double sizes = 0;

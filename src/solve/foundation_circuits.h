@@ -46,6 +46,7 @@ class FoundationCircuits {
   };
   static std::vector<casefile::ElectrodeCase> as_electrodes(
       const std::vector<casefile::ContactCase> &contacts);
+  void follow_step();
   Foundation foundation(std::size_t contact) const;
   double initial_charge(const Foundation &of, std::span<const double> initial) const;
   double crossed(std::size_t f, std::span<const double> state, const StepOutcome &outcome) const;
@@ -56,6 +57,7 @@ class FoundationCircuits {
   void end_step(const Eigen::VectorXd &charges, StepOutcome &outcome);
 
   const Model<dim> &model_;
+  double of_step_;  // k that the following is made for [s]
   std::vector<Foundation> foundations_;
   Circuit circuit_;
   Eigen::VectorXd charges_, before_;  // at the end of the last step: Q [C], V [V]

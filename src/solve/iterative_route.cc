@@ -43,13 +43,15 @@ void IterativeRoute<dim>::take_back() {
   take_contact_back();
 }
 
-// The change of the last step once more.
+// The change of the last step once more, at its rate.
 template <int dim>
 void IterativeRoute<dim>::predict(std::span<const double> before) {
+  const int n = model_.steps.number(time_);
+  const double times = n > 1 ? model_.step / model_.steps.size(n - 1) : 1;
   if (!two_before_.empty() && !std::exchange(is_predicted_, false))
     for (std::size_t i = 0; i < state_.size(); ++i)
       if (!is_prescribed_[i])
-        state_[i] += before[i] - two_before_[i];
+        state_[i] += times * (before[i] - two_before_[i]);
   two_before_.assign(before.begin(), before.end());
 }
 
@@ -107,7 +109,7 @@ StepOutcome IterativeRoute<dim>::advance(double time, std::span<const double> ri
 
 template <int dim>
 void IterativeRoute<dim>::describe(RouteReport &report) const {
-  report.condense_seconds = body_.system().set_up_seconds();
+  report.condense_seconds += body_.system().set_up_seconds();
   report.preconditioners = body_.system().set_ups();
   for (std::size_t i = 0; i < is_prescribed_.size(); ++i)
     if (!is_prescribed_[i]) {

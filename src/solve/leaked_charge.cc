@@ -41,7 +41,7 @@ void LeakedCharge<dim>::add_facets(const body::SurfaceExchange &leak, double tim
       for (std::size_t a = 0; a < facet.nodes.size(); ++a)
         higher += facet.value(q, a) * state[unknown<dim>(facet.nodes[a], Fields<dim>::potential)];
       const double flow =
-          leak.factor * leak.coefficient.value(facet.points[q], 0) * facet.jxw[q] * higher;
+          model_.step * leak.coefficient.value(facet.points[q], 0) * facet.jxw[q] * higher;
       for (std::size_t a = 0; a < facet.nodes.size(); ++a)
         by_node[facet.nodes[a]] += facet.value(q, a) * flow;
     }

@@ -1,6 +1,5 @@
 #include "solve/model.h"
 
-#include <cmath>
 #include <functional>
 
 #include "body/conductors.h"
@@ -34,6 +33,14 @@ std::vector<casefile::ContactCase> with_potentials(
   return contacts;
 }
 
+template <int dim>
+std::vector<body::Prescribed> prescribed_in(const body::Discretisation<dim> &body,
+                                            const casefile::Case &asked) {
+  std::vector<body::Prescribed> all =
+      body::prescribed_unknowns(body, asked.boundaries, asked.electrodes);
+  return asked.time.is_static() ? body::with_all_temperatures(body, std::move(all)) : all;
+}
+
 }  // namespace
 
 template <int dim>
@@ -61,13 +68,14 @@ Model<dim>::Model(const casefile::Case &asked_for, mesh::Mesh<dim> mesh)
 template <int dim>
 Model<dim>::Model(const casefile::Case &asked_for, Built built)
     : asked(asked_for),
-      step(asked.time.end / asked.time.steps),
+      steps(asked.time),
+      step(steps.size(1)),
       composition(std::move(built.composition)),
       body(std::move(built.body)),
       op(body, composition,
          asked.mesh.modes == "incompatible" ? body::Modes::incompatible : body::Modes::none),
       cells(body, composition, op.modes()),
-      prescribed(body::prescribed_unknowns(body, asked.boundaries, asked.electrodes)),
+      prescribed(prescribed_in(body, asked)),
       electrodes(body::electrode_nodes<dim>(prescribed, asked.electrodes)),
       found_potentials(places_of_potentials(asked.contacts)),
       laws(with_potentials(asked.contacts, found_potentials), step),
@@ -82,21 +90,41 @@ Model<dim>::Model(const casefile::Case &asked_for, Built built)
   interface = std::move(found.nodes);
   contact_edges = std::move(found.edges);
   friction = laws.friction();
-  for (const body::SurfaceExchange &exchange : linear_exchanges) {
+  for (const body::SurfaceExchange &exchange : linear_exchanges)
     if (exchange.field == body::SurfaceExchange::temperature) {
       op.add_exchange(body, exchange.on, exchange.coefficient);
       cells.add_exchange(exchange.on, exchange.coefficient);
-    } else {
-      op.add_capacitors(body, exchange.on, exchange.coefficient, exchange.factor);
-      cells.add_capacitors(exchange.on, exchange.coefficient, exchange.factor);
     }
-  }
+  add_capacitors();
   assemble_seconds = built.since_mesh.lap();
 }
 
 template <int dim>
-double Model<dim>::time_before(double time) const {
-  return this->time(static_cast<int>(std::lround(time / step)) - 1);
+void Model<dim>::add_capacitors() {
+  for (const body::SurfaceExchange &exchange : linear_exchanges)
+    if (exchange.field == body::SurfaceExchange::potential) {
+      op.add_capacitors(body, exchange.on, exchange.coefficient, exchange.factor);
+      cells.add_capacitors(exchange.on, exchange.coefficient, exchange.factor);
+    }
+}
+
+// Capacitors of a leak hold what crosses in one step. Others refer to the exchanges, which stay in
+// their places.
+template <int dim>
+void Model<dim>::set_step(double k) {
+  if (k == step)
+    return;
+  step = k;
+  laws.set_step(k);
+  for (body::SurfaceExchange &exchange : linear_exchanges)
+    if (exchange.accumulates)
+      exchange.factor = k;
+  if (laws.remembers_charge()) {
+    op.clear_capacitors();
+    cells.clear_capacitors();
+    add_capacitors();
+  }
+  loads = body::Loads<dim>(body, asked, k, composition.reference_temperature(), linear_exchanges);
 }
 
 template <int dim>

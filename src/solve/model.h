@@ -8,6 +8,7 @@
 #include "body/loads.h"
 #include "body/operator.h"
 #include "body/prescribed.h"
+#include "case/time_steps.h"
 #include "contact/contacts.h"
 #include "contact/interface.h"
 #include "material/composition.h"
@@ -26,13 +27,14 @@ struct Model {
   Model(const Model &) = delete;  // its members refer to each other
 
   casefile::Case asked;
-  double step;  ///< k [s]
+  casefile::TimeSteps steps;
+  double step;  ///< k of the step at hand [s]
   material::Composition<dim> composition;
   body::Discretisation<dim> body;
   body::Operator<dim> op;
-  body::CellProducts<dim> cells;  ///< the products of `op`, cell by cell
-  std::vector<body::Prescribed> prescribed;
-  std::vector<std::vector<body::Node>> electrodes;  ///< nodes by electrode of the case
+  body::CellProducts<dim> cells;                        ///< the products of `op`, cell by cell
+  std::vector<body::Prescribed> prescribed;             ///< of a static case all temperatures, too
+  std::vector<std::vector<body::Node>> electrodes;      ///< nodes by electrode of the case
   /// By contact: where the potential of its foundation is found, else nothing.
   std::vector<std::shared_ptr<double>> found_potentials;
   contact::Contacts laws;                               ///< the case's
@@ -43,9 +45,11 @@ struct Model {
   contact::FrictionAt friction;           ///< the case's, unless replaced
   double mesh_seconds = 0, assemble_seconds = 0;
 
-  double time(int n) const { return asked.time.end * n / asked.time.steps; }
+  double time(int n) const { return steps.at(n); }
   /// Of the step before the one that ends then.
-  double time_before(double time) const;
+  double time_before(double time) const { return steps.before(time); }
+  /// Steps of that k follow [s]. What has factorised or scaled by the k before serves them no more.
+  void set_step(double k);
   std::size_t n_unknowns() const { return body.n_nodes() * body::Fields<dim>::count; }
 
   using Vector = Eigen::Matrix<double, dim, 1>;
@@ -60,6 +64,8 @@ struct Model {
   std::vector<double> product(std::span<const double> x, bool by_cells) const;
 
  private:
+  void add_capacitors();
+
   struct Built;  // material and mesh, made before the members that need them
   explicit Model(const casefile::Case &asked_for, Built built);
 };

@@ -87,7 +87,7 @@ void Route::save(output::SavedNumbers &numbers) const {
   save_memory(numbers);
 }
 
-void Route::restore(const output::SavedNumbers &numbers) {
+void Route::restore(const output::SavedNumbers &numbers, bool of_other_step) {
   const auto before = numbers.get("route", 13);
   so_far_.backward_error = before[0];
   so_far_.forward_error = before[1];
@@ -102,6 +102,33 @@ void Route::restore(const output::SavedNumbers &numbers) {
   so_far_.safe_steps = static_cast<int>(before[9]);
   std::copy(before.begin() + 10, before.end(), measured_.begin());
   restore_memory(numbers);
+  if (of_other_step)
+    forget_matrices();
+}
+
+void Route::take_over(Route &other) {
+  const RouteReport all = other.report();
+  RouteReport own;
+  if (is_counted_)
+    describe(own);
+  so_far_.backward_error = all.backward_error;
+  so_far_.forward_error = all.forward_error;
+  so_far_.factorisations = all.factorisations - own.factorisations;
+  so_far_.factorise_seconds = all.factorise_seconds - own.factorise_seconds;
+  so_far_.condense_seconds = all.condense_seconds + (is_counted_ ? 0 : so_far_.condense_seconds);
+  so_far_.substitution_seconds = all.substitution_seconds - own.substitution_seconds;
+  so_far_.contact_seconds = all.contact_seconds;
+  so_far_.krylov_iterations = all.krylov_iterations;
+  so_far_.krylov_largest = all.krylov_largest;
+  so_far_.safe_steps = all.safe_steps;
+  is_counted_ = other.is_counted_ = true;
+  measured_ = other.measured_;
+  output::SavedNumbers memory;
+  other.save_memory(memory);
+  if (all.is_refined && !is_refined())
+    refine_again();
+  restore_memory(memory);
+  forget_matrices();
 }
 
 }  // namespace tourmaline::solve

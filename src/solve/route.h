@@ -123,7 +123,11 @@ class Route {
   /// What the route knows from the steps before: with it a new route goes on to the same bits, and
   /// counts on. Saved on the first rank alone, restored on all.
   void save(output::SavedNumbers &numbers) const;
-  void restore(const output::SavedNumbers &numbers);
+  /// `of_other_step`: the numbers are those of steps of another size than this route's.
+  void restore(const output::SavedNumbers &numbers, bool of_other_step = false);
+  /// Goes on from the step that `other` has taken, a route of the same kind for steps of another
+  /// size; to the same bits whatever this one did before. Its report then has what `other` did.
+  void take_over(Route &other);
 
  protected:
   void see_backward_error(double error);
@@ -142,6 +146,7 @@ class Route {
 
  private:
   std::array<double, 3> measured_{};  // the largest of each field (SI) when measured
+  bool is_counted_ = false;           // what this one did is in `so_far_` of those that followed
 
   /// Adds what is of this process to a report of what was so far.
   virtual void describe(RouteReport &report) const = 0;
@@ -149,6 +154,8 @@ class Route {
   virtual void refine_again() {}
   virtual void save_memory(output::SavedNumbers &numbers) const = 0;
   virtual void restore_memory(const output::SavedNumbers &numbers) = 0;
+  /// What was restored of matrices is of no use: they were those of steps of another size.
+  virtual void forget_matrices() {}
 };
 
 }  // namespace tourmaline::solve

@@ -32,6 +32,20 @@ TEST(Bimorph, WithoutThePadItBendsByTheClosedForm) {
               0.03 * std::abs(curvature) * length * length / 2);
 }
 
+// The same with no word of heat: then no temperature changes, and nothing is to be warned of.
+TEST(Bimorph, StaticItBendsByTheClosedForm) {
+  constexpr double h = 0.5e-3, length = 20e-3, volts = 50;
+  const double curvature =
+      e_bar * volts / (h * h * (4. / 3 * c_bar + e_bar * e_bar / (3 * beta_bar)));
+  const RunCase run = device("bimorph-static");
+  EXPECT_NEAR(largest(run.nodes(), "u_y"), std::abs(curvature) * length * length / 2,
+              0.01 * std::abs(curvature) * length * length / 2);
+  for (const double theta : run.nodes().numbers("temperature"))
+    EXPECT_EQ(theta, 0);
+  EXPECT_EQ(run.summary()["warnings"].size(), 0U);
+  expect_closed_balances(run.history());
+}
+
 TEST(Bimorph, ThePadSlipsAndItsFrictionStaysAtTheBound) {
   const RunCase run = device("bimorph");
   EXPECT_GT(run.history().numbers("slip").back(), 0);

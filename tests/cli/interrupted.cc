@@ -73,6 +73,48 @@ TEST_F(Interrupted, TheMonolithicRouteGoesOn) {
   expect_to_go_on(paper + " --set solver.method=monolithic --set contact.friction.bound=0.02");
 }
 
+// In the middle of an interval and across its end; what is kept of the first size serves the third
+// interval, and is made again by whoever goes on.
+TEST_F(Interrupted, StepsOfSeveralSizesGoOn) {
+  std::ofstream(here() / "sizes.toml") << R"toml(
+mesh.box = { min = [0, 0], max = [0.1, 0.1], cells = [12, 12] }
+material.library = "BaTiO3-Liu2014"
+time.interval = [ { until = 0.1, steps = 100 }, { until = 0.2, steps = 50 }, { until = 1, steps = 800 } ]
+output.every = 200
+boundary = [ { on = "right", displacement = [0, 0], potential = 0, temperature = 0 },
+             { on = "top", traction = [0, "-50*t - 200*t*t"] } ]
+[contact]
+on = "left"
+friction = { law = "tresca", bound = 0.5 }
+electric = { law = "leak", coefficient = 1e-8, foundation_potential = 3 }
+)toml";
+  expect_to_go_on("sizes.toml", "130steps");
+}
+
+// Its points count, not the file's name.
+TEST_F(Interrupted, ATableWhoseValuesHaveChangedIsAnotherCase) {
+  const auto write = [&](const char *last) {
+    std::ofstream(here() / "load.csv") << "t,F\n0,0\n1," << last << "\n";
+  };
+  std::ofstream(here() / "table.toml") << R"toml(
+mesh.box = { min = [0, 0], max = [0.1, 0.1], cells = [4, 4] }
+material.library = "BaTiO3-Liu2014"
+time = { end = 1, steps = 2 }
+boundary = [ { on = "right", displacement = [0, 0], potential = 0 },
+             { on = "top", traction = [0, { table = "load.csv" }] } ]
+)toml";
+  write("-50");
+  ASSERT_EQ(run("run table.toml -q -o results"), 0) << complained_;
+  ASSERT_EQ(run("run table.toml -q -o results --resume"), 0) << complained_;
+  ASSERT_EQ(run("run results/resolved.toml -q -o again"), 0) << complained_;
+  EXPECT_TRUE(content_of(here() / "results/history.csv") ==
+              content_of(here() / "again/history.csv"));
+  write("-60");
+  EXPECT_EQ(run("run table.toml -q -o results --resume"), 2);
+  EXPECT_THAT(complained_, HasSubstr("boundary[1].traction was [0, { points = [[0, 0], [1, -50]] "
+                                     "}], is [0, { points = [[0, 0], [1, -60]] }]"));
+}
+
 // One of which remembers its slip, the other not.
 TEST_F(Interrupted, SeveralContactsGoOn) {
   const std::string clamped = std::string(TOURMALINE_SOURCE_DIR) +

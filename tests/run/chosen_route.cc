@@ -1,7 +1,9 @@
 #include "run/chosen_route.h"
 
 #include <gmock/gmock.h>
+
 #include <gtest/gtest.h>
+#include <optional>
 
 #include "solve/condensed_route.h"
 #include "tourmaline/case/reader.h"
@@ -51,7 +53,7 @@ class WayBack : public ::testing::Test {
                 [&](int, auto &&...numbers) { factorised_->advance(model_.time(n), numbers...); });
   }
 
-  const solve::Model<3> model_{with("automatic")};
+  solve::Model<3> model_{with("automatic")};
   const std::unique_ptr<solve::Route> factorised_ = solve::condensed_route(model_);
   const State rest_ = State(model_.n_unknowns(), 0.);
   output::Progress progress_{3, true};
@@ -84,11 +86,88 @@ TEST_F(WayBack, IsRememberedByWhatGoesOn) {
 }
 
 TEST_F(WayBack, IsNotTakenWhereTheCaseAsksForTheIterativeSolution) {
-  const solve::Model<3> model(with("iterative"));
+  solve::Model<3> model(with("iterative"));
   ChosenRoute<3> route(model, true, progress_);
   EXPECT_THROW(step(model, 2, rest_, [&](auto &&...numbers) { route.advance(numbers...); }),
                SolveError);
 }
+
+// Sizes 1/10, 1/40 and 1/10 again; the contact slips, charge leaks and an electrode discharges.
+constexpr const char *rubbed = R"toml(
+mesh.box = { min = [0, 0], max = [0.1, 0.1], cells = [6, 6] }
+material.library = "BaTiO3-Liu2014"
+time.interval = [{ until = 0.3, steps = 3 }, { until = 0.4, steps = 4 }, { until = 0.8, steps = 4 }]
+boundary = [ { on = "right", displacement = [0, 0], potential = 0, temperature = 0 },
+             { on = "top", traction = [0, "-50*t"] } ]
+[contact]
+on = "left"
+friction = { law = "coulomb", cohesion = 5, coefficient = { static = 0.3, kinetic = 0.2, distance = 1e-9 } }
+heat = { law = "insulated", friction_share = 0.5 }
+electric = { law = "leak", coefficient = 1e-8, foundation_potential = 3 }
+)toml";
+
+class SeveralSizes : public ::testing::TestWithParam<const char *> {
+ protected:
+  static casefile::Case asked() { return casefile::read_text(rubbed, "rubbed.toml", {GetParam()}); }
+
+  static State step(solve::Model<2> &model, ChosenRoute<2> &route, int n, const State &before) {
+    route.begin_step(n);
+    State right_side(model.n_unknowns(), 0.), next = before;
+    model.loads.integrate(model.time(n), right_side);
+    model.op.add_history(before, right_side);
+    route.advance(n, right_side, before, next);
+    return next;
+  }
+
+  output::Progress progress_{11, true};
+};
+
+// A new route has made everything anew; the other one has kept what it could.
+TEST_P(SeveralSizes, GoOnToTheSameBitsWhateverWasKept) {
+  solve::Model<2> one(asked()), other(asked());
+  ChosenRoute<2> kept(one, GetParam() == std::string("solver.body=iterative"), progress_);
+  std::optional<ChosenRoute<2>> made;
+  State here(one.n_unknowns(), 0.), there = here;
+  for (int n = 1; n <= one.steps.count(); ++n) {
+    output::SavedNumbers saved;
+    if (made)
+      made->save(saved);
+    const bool goes_on = made.has_value();
+    made.emplace(other, GetParam() == std::string("solver.body=iterative"), progress_, n);
+    if (goes_on)
+      made->restore(saved);
+    here = step(one, kept, n, here);
+    there = step(other, *made, n, there);
+    EXPECT_EQ(here, there) << "step " << n;
+  }
+  EXPECT_EQ(kept.report(3).factorisations, made->report(3).factorisations);
+}
+
+TEST_P(SeveralSizes, AreReportedTogether) {
+  solve::Model<2> model(asked());
+  const bool iteratively = GetParam() == std::string("solver.body=iterative");
+  ChosenRoute<2> route(model, iteratively, progress_);
+  State state(model.n_unknowns(), 0.);
+  std::size_t krylov = 0;
+  int factorisations = 0;
+  double seconds = 0;
+  for (int n = 1; n <= model.steps.count(); ++n) {
+    state = step(model, route, n, state);
+    const solve::RouteReport now = route.report(n);
+    EXPECT_GE(now.krylov_iterations, krylov);
+    EXPECT_GE(now.factorisations, factorisations);
+    EXPECT_GE(now.substitution_seconds, seconds);
+    krylov = now.krylov_iterations;
+    factorisations = now.factorisations;
+    seconds = now.substitution_seconds;
+  }
+  if (GetParam() == std::string("solver.body=direct"))
+    EXPECT_EQ(factorisations, 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(OnAllRoutes, SeveralSizes,
+                         ::testing::Values("solver.body=direct", "solver.body=iterative",
+                                           "solver.method=monolithic"));
 
 }  // namespace
 }  // namespace tourmaline::run

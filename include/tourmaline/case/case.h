@@ -14,9 +14,19 @@
 /// that have been read and checked; defaults stand here and nowhere else. All values are SI.
 namespace tourmaline::casefile {
 
-struct TimeCase {
-  double end = 1;  ///< [s]
+/// Steps of one size that follow those of the interval before.
+struct IntervalCase {
+  double until = 1;  ///< [s]
   int steps = 1;
+};
+
+struct TimeCase {
+  double end = 1;                       ///< [s]
+  int steps = 1;                        ///< of all intervals together
+  std::vector<IntervalCase> intervals;  ///< empty: steps of one size
+  std::string regime = "quasistatic";   ///< quasistatic | static
+
+  bool is_static() const { return regime == "static"; }
 };
 
 struct SolverCase {

@@ -9,7 +9,10 @@
 
 namespace tourmaline::casefile {
 
-/// A number or a muParser expression in x, y, z [m] and t [s], as it stands in the case file.
+class LoadTable;
+
+/// A number, a muParser expression in x, y, z [m] and t [s], or a table of values over t, as it
+/// stands in the case file.
 ///
 /// Besides muParser's own operators and functions it knows `if(c, a, b)` and `pi`. Of `if`, `?:`,
 /// `&&` and `||` only what decides is evaluated. Where any value that is evaluated on the way is
@@ -28,19 +31,23 @@ class Formula {
   explicit Formula(const std::string &text, std::string where = {}, const Range &range = {},
                    std::string unit = {});
 
+  /// Piecewise linear in t, as the table says.
+  explicit Formula(std::shared_ptr<const LoadTable> table, std::string where = {});
   /// What stands at `value` whenever it is asked: of what a step finds.
   static Formula found(std::shared_ptr<const double> value);
 
   /// Safe to call from several threads at once.
   double value(const std::array<double, 3> &point, double time) const;
 
-  bool is_number() const { return !expression_ && !found_; }
+  bool is_number() const { return !expression_ && !table_ && !found_; }
+  /// What is given instead of an expression; nullptr: nothing is.
+  const LoadTable *table() const { return table_.get(); }
   bool is_zero() const { return is_number() && number_ == 0; }
   bool depends_on_time() const { return uses_[3]; }
   bool depends_on_place() const { return uses_[0] || uses_[1] || uses_[2]; }
   bool depends_on_z() const { return uses_[2]; }
-  /// The number with as many digits (at most 17) as reading the same number back takes, or the
-  /// expression.
+  /// The number with as many digits (at most 17) as reading the same number back takes, the
+  /// expression, or the table's points as TOML.
   std::string text() const;
   const std::string &where() const { return where_; }
 
@@ -49,6 +56,7 @@ class Formula {
 
   double number_ = 0;
   std::shared_ptr<const Expression> expression_;
+  std::shared_ptr<const LoadTable> table_;
   std::shared_ptr<const double> found_;
   std::array<bool, 4> uses_{};  // x, y, z, t
   std::string where_;

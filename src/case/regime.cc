@@ -1,0 +1,83 @@
+#include "case/regime.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tourmaline/case/case.h"
+#include "tourmaline/error.h"
+
+namespace tourmaline::casefile {
+
+namespace {
+
+[[noreturn]] void refuse(const std::string &place, const std::string &what,
+                         const std::string &instead) {
+  throw CaseError(
+      fmt::format("{}: {} has a rate and is not available with time.regime = \"static\"; {}", place,
+                  what, instead));
+}
+
+constexpr const char *take_time = "take \"quasistatic\"";
+
+void check(const Case &asked, const ContactCase &contact) {
+  const std::string place = asked.source + " [contact]";
+  if (contact.normal.law == "damped")
+    refuse(place, "normal = \"damped\"", take_time);
+  if (contact.friction.coefficient.speed)
+    refuse(place, "a coefficient of friction that falls with the slip rate (`speed`)",
+           "take \"quasistatic\", or let it fall with the slip (`distance`)");
+  if (contact.heat.friction_share.value_or(0) > 0)
+    refuse(place, "heat of friction (`friction_share`)", take_time);
+  if (contact.electric.law == "leak")
+    refuse(place, "electric = \"leak\"", take_time);
+  if (contact.electric.circuit && contact.electric.circuit->resistor)
+    refuse(place, "what flows in the resistor of electric.circuit",
+           "take \"quasistatic\", or leave the foundation open");
+  if (contact.heat.pressure || contact.heat.ramp)
+    throw CaseError(fmt::format(
+        "{}: heat that crosses by the contact's state (`{}`) is not available with time.regime = "
+        "\"static\"; take \"quasistatic\" over a long time",
+        place, contact.heat.pressure ? "pressure" : "ramp"));
+}
+
+// What warms a body that keeps its temperature; empty: nothing.
+std::string source_of_heat(const Case &asked) {
+  if (!asked.load.heat.is_zero())
+    return "[load] heat";
+  for (const BoundaryCase &boundary : asked.boundaries)
+    if (boundary.heat_flux && !boundary.heat_flux->is_zero())
+      return "[[boundary]] heat_flux";
+  return "";
+}
+
+}  // namespace
+
+bool keeps_temperature(const Case &asked) {
+  return asked.time.is_static() &&
+         std::none_of(asked.boundaries.begin(), asked.boundaries.end(),
+                      [](const BoundaryCase &boundary) { return boundary.temperature; }) &&
+         std::none_of(asked.contacts.begin(), asked.contacts.end(),
+                      [](const ContactCase &contact) { return contact.heat.exchanges(); });
+}
+
+void check_regime(const Case &asked) {
+  if (!asked.time.is_static())
+    return;
+  for (const ContactCase &contact : asked.contacts)
+    check(asked, contact);
+  for (const ElectrodeCase &electrode : asked.electrodes)
+    if (electrode.resistor)
+      refuse(fmt::format("{} \"{}\"", electrode.where, electrode.name), "what flows in a resistor",
+             "take \"quasistatic\", or leave the electrode open");
+  if (!keeps_temperature(asked))
+    return;
+  if (const std::string source = source_of_heat(asked); !source.empty())
+    throw CaseError(fmt::format(
+        "{}: {} warms a body whose temperature nothing holds (no boundary prescribes one, no "
+        "contact exchanges heat), so that with time.regime = \"static\" it has no steady "
+        "temperature; give `temperature` on a boundary",
+        asked.source, source));
+}
+
+}  // namespace tourmaline::casefile

@@ -1,0 +1,72 @@
+#include "case/time_steps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "tourmaline/case/case.h"
+
+namespace tourmaline::casefile {
+
+namespace {
+
+// Of (end - begin) / steps, as the ends are rounded.
+double round_off(double end, int steps) {
+  return 8 * std::numeric_limits<double>::epsilon() * end / steps;
+}
+
+}  // namespace
+
+TimeSteps::TimeSteps(const TimeCase &asked) {
+  std::vector<IntervalCase> given = asked.intervals;
+  if (given.empty())
+    given.push_back({asked.end, asked.steps});
+  double begin = 0;
+  int last = 0;
+  for (const IntervalCase &interval : given) {
+    double size = (interval.until - begin) / interval.steps;
+    for (const Interval &earlier : intervals_)
+      if (std::abs(earlier.size - size) <=
+          std::max(round_off(interval.until, interval.steps),
+                   round_off(earlier.end, earlier.last - earlier.first + 1))) {
+        size = earlier.size;
+        break;
+      }
+    intervals_.push_back({begin, interval.until, last + 1, last + interval.steps, size});
+    begin = interval.until;
+    last += interval.steps;
+  }
+}
+
+const TimeSteps::Interval &TimeSteps::of(int n) const {
+  const auto found = std::find_if(intervals_.begin(), intervals_.end(),
+                                  [n](const Interval &interval) { return n <= interval.last; });
+  return found == intervals_.end() ? intervals_.back() : *found;
+}
+
+double TimeSteps::at(int n) const {
+  const Interval &interval = of(n);
+  if (interval.begin > 0 && n == interval.last)
+    return interval.end;
+  return interval.begin + (interval.end - interval.begin) * (n - interval.first + 1) /
+                              (interval.last - interval.first + 1);
+}
+
+int TimeSteps::number(double time) const {
+  for (const Interval &interval : intervals_)
+    if (time <= interval.end)
+      return interval.first - 1 +
+             static_cast<int>(std::lround((time - interval.begin) / interval.size));
+  return count();
+}
+
+int TimeSteps::sizes(int n) const {
+  std::set<double> sizes;
+  for (const Interval &interval : intervals_)
+    if (interval.first <= n)
+      sizes.insert(interval.size);
+  return static_cast<int>(sizes.size());
+}
+
+}  // namespace tourmaline::casefile
