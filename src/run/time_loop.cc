@@ -63,6 +63,7 @@ TimeLoop<dim>::TimeLoop(const casefile::Case &asked, const std::filesystem::path
                              : solves_iteratively(asked)),
       model_(announced<dim>(asked, progress_)),
       leaked_(model_),
+      motion_(model_),
       most_strained_(model_.n_unknowns()),
       adrift_(model_) {
   state_ = body::initial_state(model_.body, asked.initial);
@@ -98,7 +99,8 @@ void TimeLoop<dim>::open_folder(const std::filesystem::path &directory,
 template <int dim>
 int TimeLoop<dim>::begin() {
   if (!checkpoint_) {
-    recorder_->initial(state_);
+    motion_.begin(state_);
+    recorder_->initial(state_, motion_.record());
     temperature_.begin(recorder_->extremes(state_));
     return 1;
   }
@@ -117,7 +119,7 @@ void TimeLoop<dim>::prescribe(double time, std::vector<double> &state) const {
 template <int dim>
 void TimeLoop<dim>::sum_loads(double time) {
   loads_.assign(model_.n_unknowns(), 0.);
-  model_.loads.integrate(time, loads_);
+  model_.add_loads(time, loads_);
 }
 
 template <int dim>
@@ -131,10 +133,13 @@ void TimeLoop<dim>::step(int n) {
     model_.cells.add_history(state_, right_side_);
   else
     model_.op.add_history(state_, right_side_);
+  motion_.add_history(state_, right_side_);
   next_ = state_;
   prescribe(model_.time(n), next_);
   solve::StepOutcome outcome = route_->advance(n, right_side_, state_, next_);
   leaked_.describe(outcome);
+  motion_.end_step(state_, next_);
+  outcome.rates = motion_.record();
   account_.step(n, outcome, watch.lap());
   adrift_.step(n, outcome);
   const output::HistoryRow row = record(n, outcome);
@@ -283,6 +288,7 @@ void TimeLoop<dim>::save(int n) {
     output::SavedNumbers &numbers = checkpoint.numbers;
     numbers.put("state", state_);
     leaked_.save(numbers);
+    motion_.save(numbers);
     account_.save(numbers);
     adrift_.save(numbers);
     route_->save(numbers);
@@ -300,6 +306,7 @@ void TimeLoop<dim>::restore() {
   const output::SavedNumbers &numbers = checkpoint_->numbers;
   numbers.fill("state", state_);
   leaked_.restore(numbers);
+  motion_.restore(numbers);
   account_.restore(numbers);
   adrift_.restore(numbers);
   route_->restore(numbers);

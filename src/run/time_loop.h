@@ -22,6 +22,7 @@
 #include "run/temperatures.h"
 #include "solve/leaked_charge.h"
 #include "solve/model.h"
+#include "solve/motion.h"
 #include "tourmaline/case/case.h"
 #include "tourmaline/run/simulation.h"
 
@@ -72,7 +73,8 @@ class TimeLoop {
   bool iterative_;  // decided once: what is available changes with what is taken
   solve::Model<dim> model_;
   solve::LeakedCharge<dim> leaked_;  // by the last step that is done
-  std::vector<double> state_;        // of that step
+  solve::Motion<dim> motion_;        // of that step
+  std::vector<double> state_;        // likewise
   std::vector<double> next_, loads_, right_side_;
   std::optional<output::ResultFolder> folder_;
   std::optional<Recorder<dim>> recorder_;

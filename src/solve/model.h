@@ -53,10 +53,13 @@ struct Model {
   /// slip is what they differ from these. `carried` is filled where the foundation moves.
   std::span<const double> carried(std::span<const double> before, double time,
                                   std::vector<double> &carried) const;
+  /// Adds the loads at time t: `loads` and the inertia of the base's acceleration.
+  void add_loads(double t, std::vector<double> &right_side) const;
   /// K x of the step; cell by cell, where the round-off of assembled entries would stay unseen.
   std::vector<double> product(std::span<const double> x, bool by_cells) const;
 
  private:
+  void add_rate_forces();
   struct Built;  // material and mesh, made before the members that need them
   explicit Model(const casefile::Case &asked_for, Built built);
 };

@@ -9,6 +9,7 @@
 
 #include "output/checkpoint.h"
 #include "output/records.h"
+#include "solve/rate_record.h"
 
 namespace tourmaline::condensation {
 struct FactorisationStatistics;
@@ -44,6 +45,7 @@ struct StepOutcome {
   /// by interface node, what crossed leaks in the steps before, where these are in the operator
   Eigen::VectorXd leaked_charge;  ///< integrated against the shape functions [C]
   Eigen::VectorXd leaked_flux;    ///< [C/m^2]
+  RateRecord rates;               ///< what resists rates of u
   /// Whether friction fell faster with the slip of this step, where it began, than the body
   /// unloads: then the slip is a jump. Looked for in the condensed route, on contacts of less than
   /// a thousand slipping unknowns.

@@ -17,6 +17,10 @@ namespace tourmaline::casefile {
 struct TimeCase {
   double end = 1;  ///< [s]
   int steps = 1;
+  std::string regime = "quasistatic";          ///< quasistatic | dynamic
+  std::string contact_mass = "redistributed";  ///< redistributed | consistent; of the dynamic one
+
+  bool is_dynamic() const { return regime == "dynamic"; }
 };
 
 struct SolverCase {
