@@ -230,13 +230,12 @@ void Balance<dim>::add_energy(const Step &step, Columns &columns) {
   const Energies energy = step.now.stored, shift = model_.op.energy_shift(step.now.unknowns);
   const Energies gain = step.change_of_energy();
   const NormalEnergy &normal = step.normal;
-  std::array<double, 3> lost_by_field = by_scheme, gained_by_field = by_field(gain);
+  std::array<double, 3> lost_by_field = by_scheme;
   Energies loss;
   if (!step.is_dynamic()) {
     loss = step.energy_of_change();
     lost_by_field = by_field(loss);
   }
-  gained_by_field[0] += step.rates.kinetic_gained;
   const double lost = step.is_dynamic() ? by_scheme[0] + by_scheme[2] + normal.lost()
                                         : loss.sum() + normal.lost(),
                before = step.before.stored.sum(), gained = gain.sum();
@@ -278,9 +277,9 @@ void Balance<dim>::add_energy(const Step &step, Columns &columns) {
   std::array<std::vector<double>, 3> works{
       {{-load, friction, -foundation, normal.received}, {-electric}, {-thermal, conduction}}};
   if (!step.rates.forces.empty())
-    works[0].push_back(step.rates.dissipated);
+    works[0].insert(works[0].end(), {step.rates.dissipated, step.rates.kinetic_gained});
   judged_.back().second =
-      lack_of_energy(step, imbalance.size, gained_by_field, lost_by_field, works);
+      lack_of_energy(step, imbalance.size, by_field(gain), lost_by_field, works);
 }
 
 // Energy that does not change hides no lack, and neither does that of fields, such as a

@@ -368,6 +368,7 @@ BalanceRoundOff round_off_of(const Model<dim> &model, const CoupledFields &coupl
                               before = by_field(step.before.stored);
   for (int f = 0; f < 3; ++f)
     sums.energy[f] += work[f] + several * eps * (std::abs(now[f]) + std::abs(before[f]));
+  sums.energy[0] += several * eps * step.rates.kinetic_energy;
   excuse_leaks(size, sums);
   return sums;
 }
