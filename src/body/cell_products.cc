@@ -270,6 +270,8 @@ void CellProducts<dim>::multiply(double step, std::span<const double> x,
         step / composition_.reference_temperature() * taken[node];
   for (Node node = 0; !capacitors_.empty() && node < held.size(); ++node)
     y[unknown<dim>(node, Fields<dim>::potential)] -= held[node];
+  if (with_rates_)
+    with_rates_->add_rate_share(step, x, y);
   parallel::sum(y);
 }
 

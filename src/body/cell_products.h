@@ -30,6 +30,10 @@ class CellProducts {
                       const casefile::Formula &coefficient, double factor = 1);
   void clear_capacitors() { capacitors_.clear(); }
 
+  /// What resists rates of u is that of `op`, assembled: of it no more digits are lost than of a
+  /// mass.
+  void add_rate_forces(const Operator<dim> &op) { with_rates_ = &op; }
+
   /// As of `Operator`, all of them.
   void multiply(double step, std::span<const double> x, std::span<double> y) const;
   void add_history(std::span<const double> x, std::span<double> y) const;
@@ -56,6 +60,7 @@ class CellProducts {
     double factor;
   };
   std::vector<Exchange> exchanges_, capacitors_;
+  const Operator<dim> *with_rates_ = nullptr;
 };
 
 }  // namespace tourmaline::body

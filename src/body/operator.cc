@@ -163,6 +163,8 @@ typename Operator<dim>::Block Operator<dim>::step_block(std::size_t entry, doubl
   block(theta, theta) -= step / reference_temperature_ * conduction_[entry];
   if (!capacitors_.empty())
     block(Fields<dim>::potential, Fields<dim>::potential) -= capacitors_[entry];
+  if (rates_ && step > 0)
+    block.template topLeftCorner<dim, dim>() += rates_->step_block(entry, step);
   return block;
 }
 
@@ -183,7 +185,24 @@ void Operator<dim>::multiply(double step, std::span<const double> x, std::span<d
           capacitors_[e] * x[unknown<dim>(graph_.column[e], Fields<dim>::potential)];
     std::copy(sum.begin(), sum.end(), &y[unknown<dim>(i, 0)]);
   }
+  add_rate_share(step, x, y);
   parallel::sum(y);
+}
+
+template <int dim>
+void Operator<dim>::add_rate_share(double step, std::span<const double> x,
+                                   std::span<double> y) const {
+  if (rates_ && step > 0)
+    rates_->add_of_step(graph_, step, x, y);
+}
+
+template <int dim>
+std::vector<double> Operator<dim>::rate_product(typename RateForces<dim>::Kind kind,
+                                                std::span<const double> x) const {
+  std::vector<double> product(x.size(), 0.);
+  rates_->add(kind, graph_, x, product);
+  parallel::sum(product);
+  return product;
 }
 
 template <int dim>

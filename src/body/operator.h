@@ -1,11 +1,13 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "body/cell_modes.h"
 #include "body/fields.h"
+#include "body/rate_forces.h"
 #include "material/composition.h"
 #include "tourmaline/case/formula.h"
 
@@ -33,7 +35,9 @@ struct FieldProducts {
 ///
 /// G in rows and columns of theta only, X in those of phi, so that the step of (31)-(33) has the
 /// operator storage - (k / theta_ref) G - X, and its heat rows see the state before through the
-/// heat rows of `storage`. Where products with a step are meant below, X is in them.
+/// heat rows of `storage`. Where products with a step are meant below, X is in them, and so are the
+/// forces that resist rates of u (`RateForces`) in its rows and columns, once there are any; not
+/// with a step of 0.
 ///
 /// With `Modes::incompatible` the cells' modes (`CellModes`) are condensed out of `storage`, all
 /// fields at once: what is left is symmetric, as definite as before, and its heat rows are those of
@@ -63,6 +67,16 @@ class Operator {
                       const casefile::Formula &coefficient, double factor = 1);
   /// Before those of another factor are added.
   void clear_capacitors() { capacitors_.clear(); }
+
+  /// What resists rates of u, from now on.
+  void set_rate_forces(RateForces<dim> forces) { rates_ = std::move(forces); }
+  /// Null: nothing does.
+  const RateForces<dim> *rate_forces() const { return rates_ ? &*rates_ : nullptr; }
+  /// M, C_1 or C_2 times x, of all ranks; zero but for displacements.
+  std::vector<double> rate_product(typename RateForces<dim>::Kind kind,
+                                   std::span<const double> x) const;
+  /// Adds what resists rates of u in a step's product with x to y: this rank's share of it.
+  void add_rate_share(double step, std::span<const double> x, std::span<double> y) const;
 
   const NodeGraph &graph() const { return graph_; }
   double reference_temperature() const { return reference_temperature_; }
@@ -127,6 +141,7 @@ class Operator {
   std::vector<double> conduction_;
   std::vector<double> capacitors_;     // empty: there are none
   std::vector<CellModes<dim>> modes_;  // of this rank's cells
+  std::optional<RateForces<dim>> rates_;
   double reference_temperature_;
 };
 

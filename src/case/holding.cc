@@ -184,6 +184,8 @@ void check_holding(const Case &asked) {
                          : " [[electrode]]: the electric potential floats, as no electrode has a "
                            "path to a given voltage; give one a `voltage`, or a boundary a "
                            "`potential`"));
+  if (asked.time.is_dynamic())  // inertia holds it
+    return;
   const std::vector<std::string> free =
       free_motions(asked.dimension, supports_of(asked, Held::all_it_can));
   if (!free.empty())
@@ -194,7 +196,7 @@ void check_holding(const Case &asked) {
 }
 
 std::string left_to_contact(const Case &asked) {
-  return !asked.contacts.empty()
+  return !asked.contacts.empty() && !asked.time.is_dynamic()
              ? free_motions_in_words(asked.dimension, supports_of(asked, Held::never_lost))
              : "";
 }

@@ -87,9 +87,17 @@ void declare(Visitor &v, TimeCase &time) {
          .description =
              "quasistatic: heat takes its time (backward Euler), forces balance in every step; "
              "static: nothing has a rate, t is only the parameter of the loads, heat flows "
-             "steadily, and friction goes in increments from one load level to the next",
-         .choices = {"quasistatic", "static"}},
+             "steadily, and friction goes in increments from one load level to the next; dynamic: "
+             "quasistatic with the inertia of the materials' `density`, by Newmark's scheme with "
+             "1/4 and 1/2",
+         .choices = {"quasistatic", "static", "dynamic"}},
         &time.regime);
+  v.key({.name = "contact_mass",
+         .description = "redistributed: the mass of contact nodes goes to the other nodes of their "
+                        "cells, so that contact forces do not chatter; consistent: it stays",
+         .choices = {"redistributed", "consistent"},
+         .used = with("regime", time.regime, {"dynamic"})},
+        &time.contact_mass);
 }
 
 void declare(Visitor &v, LoadCase &load, int dimension) {
@@ -100,6 +108,21 @@ void declare(Visitor &v, LoadCase &load, int dimension) {
          .length = one_each_axis(dimension),
          .default_words = "none"},
         &load.force);
+  v.key({.name = "base_acceleration",
+         .description = "acceleration a of supports and foundations, which displacements are "
+                        "measured to: the force -density a on the volume, of formulas in t",
+         .unit = "m/s^2",
+         .range = any(sense::acceleration),
+         .length = one_each_axis(dimension),
+         .default_words = "none"},
+        &load.base_acceleration);
+  v.check("base_acceleration", [&]() -> std::string {
+    for (const Formula &component : load.base_acceleration)
+      if (component.depends_on_place())
+        return "depends on place; a base is rigid, so give formulas in t alone, and forces that "
+               "differ from place to place as `force`";
+    return "";
+  });
   v.key({.name = "charge",
          .description = "free charge phi_0 in the volume (5)",
          .unit = "C/m^3",
@@ -112,7 +135,7 @@ void declare(Visitor &v, LoadCase &load, int dimension) {
         &load.heat);
 }
 
-void declare(Visitor &v, InitialCase &initial, int dimension) {
+void declare(Visitor &v, InitialCase &initial, const TimeCase &time, int dimension) {
   v.key({.name = "displacement",
          .description = "displacement u_0 at the time 0",
          .unit = "m",
@@ -121,6 +144,15 @@ void declare(Visitor &v, InitialCase &initial, int dimension) {
          .constant_in_time = true,
          .default_words = "zero"},
         &initial.displacement);
+  v.key({.name = "velocity",
+         .description = "velocity at the time 0",
+         .unit = "m/s",
+         .range = any(sense::velocity),
+         .length = one_each_axis(dimension),
+         .constant_in_time = true,
+         .default_words = "zero",
+         .used = with("time.regime", time.regime, {"dynamic"})},
+        &initial.velocity);
   v.key({.name = "potential",
          .description = "electric potential at the time 0",
          .unit = "V",
@@ -244,7 +276,7 @@ void declare(Visitor &v, Case &c) {
   v.table({.name = "load", .description = "Loads on the volume"},
           [&](Visitor &inner) { declare(inner, c.load, c.dimension); });
   v.table({.name = "initial", .description = "The state at the time 0"},
-          [&](Visitor &inner) { declare(inner, c.initial, c.dimension); });
+          [&](Visitor &inner) { declare(inner, c.initial, c.time, c.dimension); });
   v.table({.name = "solver", .description = "How the equations are solved"},
           [&](Visitor &inner) { declare(inner, c.solver, c.contacts); });
   v.table({.name = "output", .description = "What a run leaves in its folder"},

@@ -101,6 +101,16 @@ std::vector<Key> make_constants() {
   add_diagonals(all, "k", "", "thermal conductivity", "W/(K m)", positive(sense::conductivity));
   all.push_back(
       also_called({"density", "rho", "kg/m^3", false, positive(sense::density)}, {"rho"}));
+  all.push_back({"stiffness_damping",
+                 "viscous stress (Kelvin-Voigt) over stiffness times strain rate; 0 when not given",
+                 "s",
+                 false,
+                 {.low = 0, .sense = sense::damping_time}});
+  all.push_back({"mass_damping",
+                 "force against the velocity over density times velocity; 0 when not given",
+                 "1/s",
+                 false,
+                 {.low = 0, .sense = sense::damping_rate}});
   all.push_back(
       also_called({"specific_heat", "c_v; the heat capacity of (6) is rho c_v / theta_ref",
                    "J/(kg K)", false, positive(sense::specific_heat)},

@@ -119,6 +119,13 @@ bool Composition<dim>::has_conductors() const {
 }
 
 template <int dim>
+bool Composition<dim>::is_damped() const {
+  return std::any_of(parts_.begin(), parts_.end(), [](const Part &part) {
+    return part.crystal.stiffness_damping > 0 || part.crystal.mass_damping > 0;
+  });
+}
+
+template <int dim>
 bool Composition<dim>::is_polar() const {
   return std::any_of(parts_.begin(), parts_.end(),
                      [](const Part &part) { return material::is_polar(part.crystal); });

@@ -39,6 +39,8 @@ class Composition {
 
   bool conducts(std::size_t region) const { return parts_.at(region).crystal.conductor; }
   bool has_conductors() const;
+  /// Whether any material resists its rate of strain or its velocity.
+  bool is_damped() const;
   double reference_temperature() const { return parts_.front().crystal.reference_temperature; }
   /// Whether materials or poling differ from place to place.
   bool varies() const;

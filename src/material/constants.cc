@@ -288,6 +288,9 @@ Constants constants_of(const MaterialCase &asked) {
   c.density = conversion.crystal().need("density");
   c.specific_heat = conversion.crystal().need("specific_heat");
   c.reference_temperature = conversion.crystal().need("reference_temperature");
+  for (const auto &[key, damping] : {std::pair{"stiffness_damping", &c.stiffness_damping},
+                                     std::pair{"mass_damping", &c.mass_damping}})
+    *damping = conversion.crystal().gives(key) ? conversion.crystal().need(key) : 0;
   check_stored_energy(c, where_of(given));
   return c;
 }

@@ -30,6 +30,8 @@ struct Constants {
   Tensor conductivity = Tensor::Zero();                 ///< K [W/(K m)]
   double density = 0;                                   ///< rho [kg/m^3]
   double specific_heat = 0;                             ///< c_v [J/(kg K)]
+  double stiffness_damping = 0;                         ///< viscous stress = this F eps(du/dt) [s]
+  double mass_damping = 0;                              ///< force = this rho du/dt [1/s]
   double reference_temperature = 0;                     ///< theta_ref [K]
   bool conductor = false;  ///< no field inside; the electric constants are zero
 

@@ -50,7 +50,10 @@ BodyConstants<2> restricted<2>(const Constants &c) {
           c.pyroelectric.head<2>(),
           c.conductivity.topLeftCorner<2, 2>(),
           c.heat_capacity(),
-          c.reference_temperature};
+          c.reference_temperature,
+          c.density,
+          c.stiffness_damping,
+          c.mass_damping};
 }
 
 }  // namespace tourmaline::material

@@ -21,6 +21,9 @@ struct BodyConstants {
   Eigen::Matrix<double, dim, dim> conductivity;
   double heat_capacity = 0;          ///< alpha [J/(K^2 m^3)]
   double reference_temperature = 0;  ///< theta_ref [K]
+  double density = 0;                ///< rho [kg/m^3]
+  double stiffness_damping = 0;      ///< [s]
+  double mass_damping = 0;           ///< [1/s]
 };
 
 /// Throws CaseError in 2D when the plane's fields would drive a displacement out of the plane or a

@@ -45,9 +45,11 @@ Recorder<dim>::Recorder(const solve::Model<dim> &model, output::ResultFolder &fo
 }
 
 template <int dim>
-void Recorder<dim>::initial(std::span<const double> state) {
+void Recorder<dim>::initial(std::span<const double> state, const solve::RateRecord &rates) {
   Stopwatch watch;
   balance_.emplace(model_, state);
+  if (model_.asked.time.is_dynamic())
+    balance_->begin_motion(rates);
   put_boundaries();
   StepCheck(0, 0).state(dim, model_.body.points(), state);
   if (has_fields(0))

@@ -22,7 +22,8 @@ class Recorder {
   /// All ranks make one and call it together; the first writes the tables, each its own cells.
   Recorder(const solve::Model<dim> &model, output::ResultFolder &folder);
 
-  void initial(std::span<const double> state);
+  /// `rates` of the start resist in a dynamic run.
+  void initial(std::span<const double> state, const solve::RateRecord &rates);
   /// Goes on behind the step that had this state; what is there of it is in the folder.
   void restore(std::span<const double> state, const output::SavedNumbers &numbers);
   void save(output::SavedNumbers &numbers) const;

@@ -21,7 +21,7 @@ void rehearse(const solve::Model<dim> &model, int n_steps) {
     for (const body::Prescribed &p : model.prescribed)
       state[p.unknown] = p.value.value(p.point, time);
     loads.assign(model.n_unknowns(), 0.);
-    model.loads.integrate(time, loads);
+    model.add_loads(time, loads);
     StepCheck(n, time).loads(dim, model.body.points(), loads);
     contact.begin_step(time, before, state);
     exchange.begin_step(time, state);

@@ -63,10 +63,11 @@ TimeLoop<dim>::TimeLoop(const casefile::Case &asked, const std::filesystem::path
                              : solves_iteratively(asked)),
       model_(announced<dim>(asked, progress_)),
       leaked_(model_),
+      motion_(model_),
+      foundations_(model_),
       most_strained_(model_.n_unknowns()),
       adrift_(model_) {
   state_ = body::initial_state(model_.body, asked.initial);
-  foundations_.emplace(model_, state_);
   rehearse(model_, 1);
   if (options.friction) {
     model_.friction = contact::checked(options.friction, options.friction_name);
@@ -102,7 +103,9 @@ void TimeLoop<dim>::open_folder(const std::filesystem::path &directory,
 template <int dim>
 int TimeLoop<dim>::begin() {
   if (!checkpoint_) {
-    recorder_->initial(state_);
+    motion_.begin(state_);
+    foundations_.begin(state_);
+    recorder_->initial(state_, motion_.record());
     temperature_.begin(recorder_->extremes(state_));
     return 1;
   }
@@ -123,7 +126,7 @@ void TimeLoop<dim>::prescribe(double time, std::vector<double> &state) {
 template <int dim>
 void TimeLoop<dim>::sum_loads(double time) {
   loads_.assign(model_.n_unknowns(), 0.);
-  model_.loads.integrate(time, loads_);
+  model_.add_loads(time, loads_);
 }
 
 // Again with other potentials of foundations, until they have the charges that their circuits say.
@@ -134,7 +137,7 @@ solve::StepOutcome TimeLoop<dim>::advance(int n) {
     prescribe(model_.time(n), next_);
     sum_right_side(n);
     solve::StepOutcome outcome = route_->advance(n, right_side_, state_, next_);
-    if (foundations_->settle(model_.time(n), next_, outcome))
+    if (foundations_.settle(model_.time(n), next_, outcome))
       return outcome;
     route_->route().take_back();
   }
@@ -150,6 +153,7 @@ void TimeLoop<dim>::sum_right_side(int n) {
     model_.cells.add_history(state_, right_side_);
   else
     model_.op.add_history(state_, right_side_);
+  motion_.add_history(state_, right_side_);
 }
 
 template <int dim>
@@ -158,6 +162,8 @@ void TimeLoop<dim>::step(int n) {
   route_->begin_step(n);
   solve::StepOutcome outcome = advance(n);
   leaked_.describe(outcome);
+  motion_.end_step(state_, next_);
+  outcome.rates = motion_.record();
   account_.step(n, outcome, watch.lap());
   adrift_.step(n, outcome);
   const output::HistoryRow row = record(n, outcome);
@@ -306,7 +312,8 @@ void TimeLoop<dim>::save(int n) {
     output::SavedNumbers &numbers = checkpoint.numbers;
     numbers.put("state", state_);
     leaked_.save(numbers);
-    foundations_->save(numbers);
+    foundations_.save(numbers);
+    motion_.save(numbers);
     account_.save(numbers);
     adrift_.save(numbers);
     route_->save(numbers);
@@ -324,7 +331,8 @@ void TimeLoop<dim>::restore() {
   const output::SavedNumbers &numbers = checkpoint_->numbers;
   numbers.fill("state", state_);
   leaked_.restore(numbers);
-  foundations_->restore(numbers);
+  foundations_.restore(numbers);
+  motion_.restore(numbers);
   account_.restore(numbers);
   adrift_.restore(numbers);
   route_->restore(numbers);

@@ -23,6 +23,7 @@
 #include "solve/foundation_circuits.h"
 #include "solve/leaked_charge.h"
 #include "solve/model.h"
+#include "solve/motion.h"
 #include "solve/steady_heat.h"
 #include "tourmaline/case/case.h"
 #include "tourmaline/run/simulation.h"
@@ -76,8 +77,9 @@ class TimeLoop {
   bool iterative_;  // decided once: what is available changes with what is taken
   solve::Model<dim> model_;
   solve::LeakedCharge<dim> leaked_;  // by the last step that is done
-  std::vector<double> state_;        // of that step
-  std::optional<solve::FoundationCircuits<dim>> foundations_;
+  solve::Motion<dim> motion_;        // of that step
+  std::vector<double> state_;        // likewise
+  solve::FoundationCircuits<dim> foundations_;
   std::vector<double> next_, loads_, right_side_;
   std::optional<output::ResultFolder> folder_;
   std::optional<Recorder<dim>> recorder_;

@@ -166,8 +166,9 @@ typename Balance<dim>::Columns Balance<dim>::step(double time, std::span<const d
     find_weights();
   }
   const auto step_from = [&](BalancedState<dim> before, bool cell_by_cell) {
-    return balance_step(model_, is_prescribed_, std::move(before), time, loads, outcome, state,
-                        cell_by_cell);
+    return balance_step(model_, is_prescribed_, std::move(before),
+                        model_.asked.time.is_dynamic() ? &forces_before_ : nullptr, time, loads,
+                        outcome, state, cell_by_cell);
   };
   Step step = step_from(std::move(before_), is_refined);
   Columns columns = columns_of(step);
@@ -183,6 +184,11 @@ typename Balance<dim>::Columns Balance<dim>::step(double time, std::span<const d
   }
   if (!model_.electrodes.empty())
     electrode_charges_ = electrode_charges(model_, before_.charges, step.known_charges());
+  if (step.is_dynamic())
+    forces_before_ = {{loads.begin(), loads.end()},
+                      std::move(step.contact),
+                      std::move(step.friction),
+                      std::move(step.rates.forces)};
   return columns;
 }
 
@@ -210,22 +216,23 @@ template <int dim>
 void Balance<dim>::add_energy(const Step &step, Columns &columns) {
   const double per_watt = -model_.step / model_.op.reference_temperature();
   double load = 0, friction = 0, electric = 0, thermal = 0, conduction = 0;
+  std::array<double, 3> by_scheme{step.rates.lost, 0, 0};  // beside W(d)
   double foundation = step.normal.pressed_in;
   for (std::size_t i = 0; i < step.now.unknowns.size(); ++i) {
     const int field = field_of<dim>(i);
     if (field == 0) {
       // What moves a prescribed displacement does work as a load does, and so does the foundation
       // along the normal: together it is zero where u_nu = 0. Friction is worked against.
-      const double moving =
-          is_prescribed_[i] ? step.now.products.sum(i) - step.contact[i] : step.loads[i];
+      const double moving = step.working_load(i, is_prescribed_[i]);
       const bool can_open = !can_open_.empty() && can_open_[i / Fields<dim>::count];
-      const double pressing = can_open ? 0 : step.contact[i] - step.friction[i];
+      const double pressing = can_open ? 0 : step.working_contact(i) - step.working_friction(i);
       const double carried = step.carried_by(i), along = step.change(i) - carried;
       load += moving * carried + (moving + pressing) * along;
       friction -= step.friction[i] * along;
-      foundation += step.contact[i] * carried;
+      by_scheme[0] += (step.friction[i] - step.working_friction(i)) * along;
+      foundation += step.working_contact(i) * carried;
     } else if (field == 1) {
-      electric -= step.now.unknowns[i] * (step.now.charges[i] - step.before.charges[i]);
+      electric -= step.working(i) * (step.now.charges[i] - step.before.charges[i]);
     } else if (model_.asked.time.is_static()) {
       // Heat that flows steadily changes no energy; what the body takes up as its entropy changes
       // comes from outside.
@@ -233,20 +240,31 @@ void Balance<dim>::add_energy(const Step &step, Columns &columns) {
     } else {
       const std::size_t node = i / Fields<dim>::count;
       const double supplied = step.heat_supplied[node] + step.heat_crossed[node];
-      thermal += step.now.unknowns[i] * (-step.loads[i] - per_watt * supplied);
+      thermal += step.working(i) * (-step.loads[i] - per_watt * supplied);
       conduction -= per_watt * step.now.unknowns[i] * step.conducted[node];
+      by_scheme[2] += per_watt * (step.now.unknowns[i] - step.working(i)) * step.conducted[node];
     }
   }
   const Energies energy = step.now.stored, shift = model_.op.energy_shift(step.now.unknowns);
-  const Energies loss = step.energy_of_change(), gain = step.change_of_energy();
+  const Energies gain = step.change_of_energy();
   const NormalEnergy &normal = step.normal;
-  const double lost = loss.sum() + normal.lost(), before = step.before.stored.sum(),
-               gained = gain.sum();
+  std::array<double, 3> lost_by_field = by_scheme;
+  Energies loss;
+  if (!step.is_dynamic()) {
+    loss = step.energy_of_change();
+    lost_by_field = by_field(loss);
+  }
+  const double lost = step.is_dynamic() ? by_scheme[0] + by_scheme[2] + normal.lost()
+                                        : loss.sum() + normal.lost(),
+               before = step.before.stored.sum(), gained = gain.sum();
   Sum imbalance;
   for (const double term : {gained, lost, -load, -electric, -thermal, friction, conduction,
                             -foundation, normal.gained, normal.dissipated})
     imbalance.add(term);
-  imbalance.size += std::abs(energy.sum()) + std::abs(before);
+  if (!step.rates.forces.empty())
+    for (const double term : {step.rates.kinetic_gained, step.rates.dissipated})
+      imbalance.add(term);
+  imbalance.size += std::abs(energy.sum()) + std::abs(before) + std::abs(step.rates.kinetic_energy);
   const double k = model_.step;
   columns.insert(columns.end(), {{"elastic_energy", energy.elastic + shift.elastic},
                                  {"electric_energy", energy.electric + shift.electric},
@@ -259,6 +277,11 @@ void Balance<dim>::add_energy(const Step &step, Columns &columns) {
                                  {"friction_dissipation", friction / k},
                                  {"conduction_loss", conduction / k},
                                  {"time_step_loss", lost / k}});
+  if (step.is_dynamic())
+    columns.insert(columns.end(), {{"kinetic_energy", step.rates.kinetic_energy},
+                                   {"kinetic_energy_rate", step.rates.kinetic_gained / k}});
+  if (has_damping_columns())
+    columns.emplace_back("viscous_dissipation", step.rates.dissipated / k);
   if (has_foundation_columns())
     columns.emplace_back("foundation_power", foundation / k);
   if (model_.laws.can_open())
@@ -269,9 +292,12 @@ void Balance<dim>::add_energy(const Step &step, Columns &columns) {
     if (std::isfinite(of_field))
       round_off += of_field;
   put_imbalance("energy_imbalance", imbalance.value, imbalance.size, round_off, columns);
-  judged_.back().second = lack_of_energy(
-      step, imbalance.size, by_field(gain), by_field(loss),
-      {{{-load, friction, -foundation, normal.received}, {-electric}, {-thermal, conduction}}});
+  std::array<std::vector<double>, 3> works{
+      {{-load, friction, -foundation, normal.received}, {-electric}, {-thermal, conduction}}};
+  if (!step.rates.forces.empty())
+    works[0].insert(works[0].end(), {step.rates.dissipated, step.rates.kinetic_gained});
+  judged_.back().second =
+      lack_of_energy(step, imbalance.size, by_field(gain), lost_by_field, works);
 }
 
 // Energy that does not change hides no lack, and neither does that of fields, such as a
@@ -321,15 +347,26 @@ void Balance<dim>::add_forces(const Step &step, Columns &columns) {
     load[c].add(step.loads[i]);
     contact[c].add(step.contact[i]);
     if (is_prescribed_[i])
-      reaction[c].add(step.now.products.sum(i) - step.loads[i] - step.contact[i]);
+      reaction[c].add(step.holding(i) - step.loads[i] - step.contact[i]);
   }
   double worst = 0, size = 0;
   for (int c = 0; c < dim; ++c) {
     columns.emplace_back(std::string("load_") + axes[c], load[c].value);
     columns.emplace_back(std::string("reaction_") + axes[c], reaction[c].value);
     columns.emplace_back(std::string("contact_force_") + axes[c], contact[c].value);
-    worst = larger(worst, std::abs(load[c].value + reaction[c].value + contact[c].value));
+    const double inertia = step.rates.inertia[static_cast<std::size_t>(c)],
+                 damping = step.rates.damping[static_cast<std::size_t>(c)];
+    if (step.is_dynamic())
+      columns.emplace_back(std::string("inertia_") + axes[c], inertia);
+    if (has_damping_columns())
+      columns.emplace_back(std::string("damping_force_") + axes[c], damping);
+    double lacks = load[c].value + reaction[c].value + contact[c].value;
     size += load[c].size + reaction[c].size + contact[c].size;
+    if (!step.rates.forces.empty()) {
+      lacks += inertia + damping;
+      size += std::abs(inertia) + std::abs(damping);
+    }
+    worst = larger(worst, std::abs(lacks));
   }
   if (has_foundation_columns())
     add_moment(step, columns);
@@ -500,6 +537,12 @@ void Balance<dim>::save(output::SavedNumbers &numbers) const {
   numbers.put("balance electrodes", electrode_charges_);
   numbers.put("balance stored energy",
               {stored.elastic, stored.electric, stored.thermal, stored.coupling});
+  if (!model_.asked.time.is_dynamic())
+    return;
+  numbers.put("balance loads", forces_before_.loads);
+  numbers.put("balance contact", forces_before_.contact);
+  numbers.put("balance friction", forces_before_.friction);
+  numbers.put("balance rates", forces_before_.rates);
 }
 
 template <int dim>
@@ -511,6 +554,15 @@ void Balance<dim>::restore(const output::SavedNumbers &numbers) {
   before_.stored.electric = stored[1];
   before_.stored.thermal = stored[2];
   before_.stored.coupling = stored[3];
+  if (!model_.asked.time.is_dynamic())
+    return;
+  for (std::vector<double> *forces : {&forces_before_.loads, &forces_before_.contact,
+                                      &forces_before_.friction, &forces_before_.rates})
+    forces->resize(before_.unknowns.size());
+  numbers.fill("balance loads", forces_before_.loads);
+  numbers.fill("balance contact", forces_before_.contact);
+  numbers.fill("balance friction", forces_before_.friction);
+  numbers.fill("balance rates", forces_before_.rates);
 }
 
 template class Balance<2>;

@@ -33,6 +33,11 @@ class Balance {
 
   Balance(const Model<dim> &model, std::span<const double> initial);
 
+  /// Of a dynamic run that begins: the initial state's inertia.
+  void begin_motion(const RateRecord &rates) {
+    forces_before_ = initial_forces(model_, before_, rates);
+  }
+
   /// Columns of history.csv for the step that ends at `time` with `state`. `loads` is the
   /// right-hand side without history; of the outcome the forces at the contact are used.
   /// Products are computed cell by cell where the route is refined, and where round-off of the
@@ -71,6 +76,9 @@ class Balance {
   bool has_foundation_columns() const {
     return model_.laws.has_moving_foundation() || model_.laws.has_normal_unknowns();
   }
+  bool has_damping_columns() const {
+    return model_.op.rate_forces() != nullptr && model_.op.rate_forces()->is_damped();
+  }
   double smallest_heat() const;
   void find_weights();
   static double exchanged(const std::map<std::string, NodeWeights> &exchange, int component,
@@ -80,6 +88,7 @@ class Balance {
   std::vector<bool> is_prescribed_;    // by unknown
   std::vector<bool> can_open_;         // by node: of a contact that can; empty: none can
   BalancedState<dim> before_;          // of the step before
+  EndForces forces_before_;            // likewise, in the dynamic regime
   Eigen::VectorXd electrode_charges_;  // of that state [C]
   double of_step_;                     // k that the following is made for [s]
   double smallest_heat_;               // [W]

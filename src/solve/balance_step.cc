@@ -142,7 +142,7 @@ NormalEnergy normal_energy(const Model<dim> &model, const BalanceStep<dim> &step
       const std::size_t i = body::unknown<dim>(at.node, c);
       then[c] = step.before.unknowns[i];
       now[c] = step.now.unknowns[i];
-      const double pressing = step.contact[i] - step.friction[i];
+      const double pressing = step.working_contact(i) - step.working_friction(i);
       received -= pressing * (step.change(i) - step.carried_by(i));
       force -= pressing * at.normal[c];
     }
@@ -290,13 +290,15 @@ BalancedState<dim> initial_balance(const Model<dim> &model, std::span<const doub
 
 template <int dim>
 BalanceStep<dim> balance_step(const Model<dim> &model, const std::vector<bool> &is_prescribed,
-                              BalancedState<dim> before, double time, std::span<const double> loads,
-                              const StepOutcome &outcome, std::span<const double> now,
-                              bool cell_by_cell) {
+                              BalancedState<dim> before, const EndForces *earlier, double time,
+                              std::span<const double> loads, const StepOutcome &outcome,
+                              std::span<const double> now, bool cell_by_cell) {
   BalanceStep<dim> step;
   step.time = time;
   step.loads = loads;
   step.before = std::move(before);
+  step.earlier = earlier;
+  step.rates = outcome.rates;
   step.now.unknowns.assign(now.begin(), now.end());
   multiply(model, cell_by_cell, step.now);
   if (cell_by_cell)
@@ -315,6 +317,26 @@ BalanceStep<dim> balance_step(const Model<dim> &model, const std::vector<bool> &
   step.heat_crossed = by_node(model, -outcome.heat_flow);
   step.heat_supplied = heat_supplied(model, is_prescribed, step);
   return step;
+}
+
+template <int dim>
+EndForces initial_forces(const Model<dim> &model, const BalancedState<dim> &initial,
+                         const RateRecord &rates) {
+  const std::size_t n = initial.unknowns.size();
+  EndForces forces{std::vector<double>(n, 0.), std::vector<double>(n, 0.),
+                   std::vector<double>(n, 0.), rates.forces};
+  model.add_loads(0, forces.loads);
+  for (const contact::InterfaceNode<dim> &at : model.interface) {
+    using Vector = typename Model<dim>::Vector;
+    const std::size_t first = body::unknown<dim>(at.node, 0);
+    Vector lacks;
+    for (int c = 0; c < dim; ++c)
+      lacks[c] =
+          initial.products.sum(first + c) + rates.forces[first + c] - forces.loads[first + c];
+    Vector::Map(&forces.contact[first]) = lacks;
+    Vector::Map(&forces.friction[first]) = lacks - lacks.dot(at.normal) * at.normal;
+  }
+  return forces;
 }
 
 // Of the diagonal some neighbours' share of the row in its own field. Couplings to other fields do
@@ -348,6 +370,7 @@ BalanceRoundOff round_off_of(const Model<dim> &model, const CoupledFields &coupl
                               before = by_field(step.before.stored);
   for (int f = 0; f < 3; ++f)
     sums.energy[f] += work[f] + several * eps * (std::abs(now[f]) + std::abs(before[f]));
+  sums.energy[0] += several * eps * step.rates.kinetic_energy;
   excuse_leaks(size, sums);
   return sums;
 }
@@ -359,11 +382,17 @@ template CoupledFields coupled_fields<3>(const Model<3> &);
 template BalancedState<2> initial_balance<2>(const Model<2> &, std::span<const double>);
 template BalancedState<3> initial_balance<3>(const Model<3> &, std::span<const double>);
 template BalanceStep<2> balance_step<2>(const Model<2> &, const std::vector<bool> &,
-                                        BalancedState<2>, double, std::span<const double>,
-                                        const StepOutcome &, std::span<const double>, bool);
+                                        BalancedState<2>, const EndForces *, double,
+                                        std::span<const double>, const StepOutcome &,
+                                        std::span<const double>, bool);
+template EndForces initial_forces<2>(const Model<2> &, const BalancedState<2> &,
+                                     const RateRecord &);
 template BalanceStep<3> balance_step<3>(const Model<3> &, const std::vector<bool> &,
-                                        BalancedState<3>, double, std::span<const double>,
-                                        const StepOutcome &, std::span<const double>, bool);
+                                        BalancedState<3>, const EndForces *, double,
+                                        std::span<const double>, const StepOutcome &,
+                                        std::span<const double>, bool);
+template EndForces initial_forces<3>(const Model<3> &, const BalancedState<3> &,
+                                     const RateRecord &);
 template BalanceRoundOff round_off_of<2>(const Model<2> &, const CoupledFields &,
                                          const BalanceStep<2> &);
 template BalanceRoundOff round_off_of<3>(const Model<3> &, const CoupledFields &,

@@ -41,7 +41,18 @@ struct NormalEnergy {
   double lost() const { return received - gained - dissipated; }
 };
 
+/// What acts on u at the end of a step, by unknown [N]: the next one's balance of energy knows the
+/// forces at both of its ends.
+struct EndForces {
+  std::vector<double> loads, contact, friction, rates;
+};
+
 /// The numbers of one step that its balances share.
+///
+/// In the dynamic regime equilibrium at both ends of a step, in their mean and times d, is the
+/// balance of energy: forces, potentials and temperatures that work are means (`working`), and the
+/// Euler step's W(d) is not lost. What laws of friction and conduction by the end's values
+/// dissipate is told by these, and the difference is the scheme's (docs/theory.md).
 template <int dim>
 struct BalanceStep {
   double time = 0;
@@ -59,12 +70,37 @@ struct BalanceStep {
   std::vector<double> contact;         ///< by unknown [N]
   std::vector<double> friction;        ///< the part of it that opposes the slip [N]
   std::vector<double> carried;  ///< by unknown: how the foundation has moved [m]; empty: it rests
-  NormalEnergy normal;          ///< of the foundation's response
+  RateRecord rates;             ///< what resists rates of u
+  const EndForces *earlier = nullptr;  ///< of the step before, in the dynamic regime; else null
+  NormalEnergy normal;                 ///< of the foundation's response
   BalanceRoundOff round_off;
 
   /// What a potential's row would have without reaction and what crosses by the contact's state.
   std::span<const double> known_charges() const {
     return with_capacitors.empty() ? loads : std::span<const double>(with_capacitors);
+  }
+  bool is_dynamic() const { return earlier != nullptr; }
+  double rate_force(std::size_t i) const { return rates.forces.empty() ? 0 : rates.forces[i]; }
+  /// What holds a prescribed displacement and the contact's force together [N].
+  double holding(std::size_t i) const { return now.products.sum(i) + rate_force(i); }
+  /// What moves a displacement beside the contact: what holds a prescribed one, else the load [N].
+  double working_load(std::size_t i, bool is_prescribed) const {
+    const double end = is_prescribed ? holding(i) - contact[i] : loads[i];
+    if (!is_dynamic())
+      return end;
+    return (end + (is_prescribed ? before.products.sum(i) + earlier->rates[i] - earlier->contact[i]
+                                 : earlier->loads[i])) /
+           2;
+  }
+  double working_contact(std::size_t i) const {
+    return is_dynamic() ? (contact[i] + earlier->contact[i]) / 2 : contact[i];
+  }
+  double working_friction(std::size_t i) const {
+    return is_dynamic() ? (friction[i] + earlier->friction[i]) / 2 : friction[i];
+  }
+  /// A potential or temperature.
+  double working(std::size_t i) const {
+    return is_dynamic() ? (now.unknowns[i] + before.unknowns[i]) / 2 : now.unknowns[i];
   }
   double change(std::size_t i) const { return now.unknowns[i] - before.unknowns[i]; }
   double carried_by(std::size_t i) const { return carried.empty() ? 0 : carried[i]; }
@@ -95,9 +131,15 @@ BalancedState<dim> initial_balance(const Model<dim> &model, std::span<const doub
 /// are taken cell by cell where the assembled ones are not sure enough, those of `before` as well.
 template <int dim>
 BalanceStep<dim> balance_step(const Model<dim> &model, const std::vector<bool> &is_prescribed,
-                              BalancedState<dim> before, double time, std::span<const double> loads,
-                              const StepOutcome &outcome, std::span<const double> now,
-                              bool cell_by_cell);
+                              BalancedState<dim> before, const EndForces *earlier, double time,
+                              std::span<const double> loads, const StepOutcome &outcome,
+                              std::span<const double> now, bool cell_by_cell);
+
+/// The forces that a dynamic run starts from: what the initial state lacks of equilibrium at
+/// contact nodes, the contact bears.
+template <int dim>
+EndForces initial_forces(const Model<dim> &model, const BalancedState<dim> &initial,
+                         const RateRecord &rates);
 
 /// A solution is uncertain by the round-off, or the backward error, of the largest scaled unknown
 /// of the fields that are coupled: that is what a field of which there is nothing consists of;

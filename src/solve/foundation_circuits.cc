@@ -18,20 +18,22 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 template <int dim>
-FoundationCircuits<dim>::FoundationCircuits(const Model<dim> &model,
-                                            std::span<const double> initial)
+FoundationCircuits<dim>::FoundationCircuits(const Model<dim> &model)
     : model_(model),
       of_step_(model.step),
       circuit_(as_electrodes(model.asked.contacts), model.step) {
   for (std::size_t c = 0; c < model.found_potentials.size(); ++c)
     if (model.found_potentials[c])
       foundations_.push_back(foundation(c));
-  const auto m = static_cast<Index>(foundations_.size());
-  charges_ = before_ = potentials_ = VectorXd::Zero(m);
+  charges_ = before_ = potentials_ = VectorXd::Zero(static_cast<Index>(foundations_.size()));
   put_potentials();
-  for (Index f = 0; f < m; ++f)
-    charges_[f] = initial_charge(foundations_[static_cast<std::size_t>(f)], initial);
   forget_slope();
+}
+
+template <int dim>
+void FoundationCircuits<dim>::begin(std::span<const double> initial) {
+  for (std::size_t f = 0; f < foundations_.size(); ++f)
+    charges_[static_cast<Index>(f)] = initial_charge(foundations_[f], initial);
 }
 
 template <int dim>

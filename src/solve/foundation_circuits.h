@@ -24,9 +24,11 @@ namespace tourmaline::solve {
 template <int dim>
 class FoundationCircuits {
  public:
-  /// `model` outlives this; its found potentials are set from here. `initial`: the state at t = 0,
-  /// at which they are 0.
-  FoundationCircuits(const Model<dim> &model, std::span<const double> initial);
+  /// `model` outlives this; its found potentials are set from here.
+  explicit FoundationCircuits(const Model<dim> &model);
+
+  /// From the state at t = 0, at which the potentials are 0.
+  void begin(std::span<const double> initial);
 
   /// Takes what the step that ends at `time` has come to with the potentials at hand. True: it
   /// fits, and `outcome` knows what the foundations have; false: there are other potentials, to

@@ -96,7 +96,40 @@ Model<dim>::Model(const casefile::Case &asked_for, Built built)
       cells.add_exchange(exchange.on, exchange.coefficient);
     }
   add_capacitors();
+  add_rate_forces();
   assemble_seconds = built.since_mesh.lap();
+}
+
+// Contact nodes have no mass, unless asked for: their inertia would make a chatter of every impact.
+template <int dim>
+void Model<dim>::add_rate_forces() {
+  const bool is_dynamic = asked.time.is_dynamic();
+  const bool is_damped = composition.is_damped() && !asked.time.is_static();
+  if (!is_dynamic && !is_damped && asked.load.base_acceleration.empty())
+    return;
+  std::vector<bool> massless(body.n_nodes(), false);
+  if (is_dynamic && asked.time.contact_mass == "redistributed")
+    for (const contact::InterfaceNode<dim> &at : interface)
+      massless[at.node] = true;
+  body::RateForces<dim> forces(
+      body, composition,
+      asked.mesh.modes != "incompatible" ? body::Modes::none : body::Modes::incompatible,
+      is_dynamic, massless);
+  if (!is_damped)
+    forces.drop_damping();
+  op.set_rate_forces(std::move(forces));
+  cells.add_rate_forces(op);
+}
+
+template <int dim>
+void Model<dim>::add_loads(double t, std::vector<double> &right_side) const {
+  loads.integrate(t, right_side);
+  for (int c = 0; c < static_cast<int>(asked.load.base_acceleration.size()); ++c) {
+    const double acceleration = asked.load.base_acceleration[c].value({}, t);
+    const std::vector<double> &masses = op.rate_forces()->node_masses();
+    for (body::Node node = 0; node < masses.size(); ++node)
+      right_side[body::unknown<dim>(node, c)] -= masses[node] * acceleration;
+  }
 }
 
 template <int dim>

@@ -32,9 +32,9 @@ struct Model {
   material::Composition<dim> composition;
   body::Discretisation<dim> body;
   body::Operator<dim> op;
-  body::CellProducts<dim> cells;                        ///< the products of `op`, cell by cell
-  std::vector<body::Prescribed> prescribed;             ///< of a static case all temperatures, too
-  std::vector<std::vector<body::Node>> electrodes;      ///< nodes by electrode of the case
+  body::CellProducts<dim> cells;                    ///< the products of `op`, cell by cell
+  std::vector<body::Prescribed> prescribed;         ///< of a static case all temperatures, too
+  std::vector<std::vector<body::Node>> electrodes;  ///< nodes by electrode of the case
   /// By contact: where the potential of its foundation is found, else nothing.
   std::vector<std::shared_ptr<double>> found_potentials;
   contact::Contacts laws;                               ///< the case's
@@ -60,12 +60,14 @@ struct Model {
   /// slip is what they differ from these. `carried` is filled where the foundation moves.
   std::span<const double> carried(std::span<const double> before, double time,
                                   std::vector<double> &carried) const;
+  /// Adds the loads at time t: `loads` and the inertia of the base's acceleration.
+  void add_loads(double t, std::vector<double> &right_side) const;
   /// K x of the step; cell by cell, where the round-off of assembled entries would stay unseen.
   std::vector<double> product(std::span<const double> x, bool by_cells) const;
 
  private:
   void add_capacitors();
-
+  void add_rate_forces();
   struct Built;  // material and mesh, made before the members that need them
   explicit Model(const casefile::Case &asked_for, Built built);
 };

@@ -9,6 +9,7 @@
 
 #include "output/checkpoint.h"
 #include "output/records.h"
+#include "solve/rate_record.h"
 
 namespace tourmaline::condensation {
 struct FactorisationStatistics;
@@ -50,6 +51,7 @@ struct StepOutcome {
     double voltage = 0, charge = 0, current = 0;  ///< [V, C, A]
   };
   std::vector<Foundation> foundations;
+  RateRecord rates;  ///< what resists rates of u
   /// Whether friction fell faster with the slip of this step, where it began, than the body
   /// unloads: then the slip is a jump. Looked for in the condensed route, on contacts of less than
   /// a thousand slipping unknowns.

@@ -138,6 +138,34 @@ void add_each_contact(const casefile::Case &asked, List &list) {
   }
 }
 
+// A material of a file of one's own may be damped without the case's saying so.
+bool is_damped(const casefile::Case &asked) {
+  const auto damps = [](const casefile::MaterialCase &material) {
+    return std::any_of(material.constants.begin(), material.constants.end(), [](const auto &entry) {
+      return entry.first.ends_with("_damping") && entry.second > 0;
+    });
+  };
+  return damps(asked.material) ||
+         std::any_of(asked.regions.begin(), asked.regions.end(),
+                     [&](const casefile::RegionCase &region) { return damps(region.material); });
+}
+
+// What resists rates of u.
+void add_motion(const casefile::Case &asked, List &list) {
+  if (asked.time.is_dynamic()) {
+    list.add(whole("J", asked.dimension), {"kinetic_energy"});
+    list.add(whole("W", asked.dimension), {"kinetic_energy_rate"});
+  }
+  if (is_damped(asked))
+    list.add(whole("W", asked.dimension), {"viscous_dissipation"});
+  for (int c = 0; c < asked.dimension; ++c) {
+    if (asked.time.is_dynamic())
+      list.add(whole("N", asked.dimension), {std::string("inertia_") + axes[c]});
+    if (is_damped(asked))
+      list.add(whole("N", asked.dimension), {std::string("damping_force_") + axes[c]});
+  }
+}
+
 void add_extremes(int dimension, List &list) {
   for (const Output &field : fields())
     list.add(field.unit, {"min_" + field.name, "max_" + field.name});
@@ -162,6 +190,7 @@ std::vector<Output> outputs_of(const casefile::Case &asked) {
   for (int c = 0; c < asked.dimension; ++c)
     for (const char *force : {"load_", "reaction_", "contact_force_"})
       list.add(whole("N", asked.dimension), {std::string(force) + axes[c]});
+  add_motion(asked, list);
   add_flows(asked, list);
   add_contact(asked, list);
   list.add(power, {"stored_heat_rate", "heat_source"});

@@ -18,6 +18,10 @@ namespace tourmaline::casefile {
 struct IntervalCase {
   double until = 1;  ///< [s]
   int steps = 1;
+  std::string regime = "quasistatic";          ///< quasistatic | dynamic
+  std::string contact_mass = "redistributed";  ///< redistributed | consistent; of the dynamic one
+
+  bool is_dynamic() const { return regime == "dynamic"; }
 };
 
 struct TimeCase {

@@ -6,12 +6,16 @@ namespace tourmaline::casefile {
 
 struct LoadCase {
   FormulaVector force;  ///< f_0 [N/m^3]; empty: none
-  Formula charge = 0;   ///< phi_0 [C/m^3]
-  Formula heat = 0;     ///< q_0 [W/m^3]
+  /// of supports and foundations, which displacements are measured to: -rho times it is a force on
+  /// the volume [m/s^2]; empty: none
+  FormulaVector base_acceleration;
+  Formula charge = 0;  ///< phi_0 [C/m^3]
+  Formula heat = 0;    ///< q_0 [W/m^3]
 };
 
 struct InitialCase {
   FormulaVector displacement;  ///< u_0 [m]; empty: zero
+  FormulaVector velocity;      ///< of the dynamic regime [m/s]; empty: zero
   Formula potential = 0;       ///< phi_0 [V]
   Formula temperature = 0;     ///< theta_0 [K]
 };

@@ -1,0 +1,139 @@
+#include "solve/motion.h"
+
+#include "solve/start_of_motion.h"
+
+namespace tourmaline::solve {
+
+using body::field_of;
+using body::Fields;
+using body::RateForces;
+
+template <int dim>
+Motion<dim>::Motion(const Model<dim> &model) : model_(model), forces_(model.op.rate_forces()) {
+  if (forces_)
+    for (std::vector<double> *of : {&rates_.velocity, &rates_.acceleration, &rates_.difference})
+      of->assign(model.n_unknowns(), 0.);
+}
+
+template <int dim>
+void Motion<dim>::multiply(Rates &rates) const {
+  using Forces = RateForces<dim>;
+  rates.momentum = model_.op.rate_product(Forces::Kind::inertia, rates.velocity);
+  rates.inertia = model_.op.rate_product(Forces::Kind::inertia, rates.acceleration);
+  rates.damping = model_.op.rate_product(Forces::Kind::damping, rates.velocity);
+  rates.backward_damping = model_.op.rate_product(Forces::Kind::backward_damping, rates.difference);
+}
+
+template <int dim>
+void Motion<dim>::begin(std::vector<double> &state) {
+  if (!forces_)
+    return;
+  if (is_inertial()) {
+    settle(model_, state);
+    rates_.velocity = initial_velocity(model_);
+    rates_.difference = rates_.velocity;
+    rates_.acceleration = initial_acceleration(model_, state, rates_.velocity);
+  }
+  multiply(rates_);
+  describe(rates_);
+  for (std::size_t i = 0; i < state.size(); ++i)
+    record_.kinetic_energy += rates_.velocity[i] * rates_.momentum[i] / 2;
+}
+
+template <int dim>
+void Motion<dim>::add_history(std::span<const double> before,
+                              std::vector<double> &right_side) const {
+  if (!forces_)
+    return;
+  const double k = model_.step;
+  std::vector<double> known(before.size(), 0.);
+  const auto add = [&](typename RateForces<dim>::Kind kind, const auto &rate) {
+    for (std::size_t i = 0; i < known.size(); ++i)
+      known[i] = field_of<dim>(i) == 0 ? rate(i) : 0;
+    const std::vector<double> product = model_.op.rate_product(kind, known);
+    for (std::size_t i = 0; i < product.size(); ++i)
+      right_side[i] += product[i];
+  };
+  const auto &v = rates_.velocity, &a = rates_.acceleration;
+  if (is_inertial())
+    add(RateForces<dim>::Kind::inertia,
+        [&](std::size_t i) { return 4 / (k * k) * before[i] + 4 / k * v[i] + a[i]; });
+  if (!forces_->is_damped())
+    return;
+  add(RateForces<dim>::Kind::damping, [&](std::size_t i) { return 2 / k * before[i] + v[i]; });
+  add(RateForces<dim>::Kind::backward_damping, [&](std::size_t i) { return before[i] / k; });
+}
+
+template <int dim>
+void Motion<dim>::end_step(std::span<const double> before, std::span<const double> now) {
+  if (!forces_)
+    return;
+  const double k = model_.step;
+  Rates next = rates_;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (field_of<dim>(i) != 0)
+      continue;
+    const double d = now[i] - before[i];
+    next.difference[i] = next.velocity[i] = d / k;
+    if (!is_inertial() || forces_->is_massless(static_cast<body::Node>(i / Fields<dim>::count)))
+      continue;
+    next.velocity[i] = 2 * d / k - rates_.velocity[i];
+    next.acceleration[i] = 4 / k * (d / k - rates_.velocity[i]) - rates_.acceleration[i];
+  }
+  multiply(next);
+  describe(next);
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    const double d = now[i] - before[i],
+                 backward = (rates_.backward_damping[i] - next.backward_damping[i]) / 2;
+    record_.dissipated += d * next.backward_damping[i];
+    if (!is_inertial())
+      continue;
+    record_.kinetic_energy += next.velocity[i] * next.momentum[i] / 2;
+    record_.kinetic_gained +=
+        (next.velocity[i] + rates_.velocity[i]) * (next.momentum[i] - rates_.momentum[i]) / 2;
+    record_.dissipated += d * (rates_.damping[i] + next.damping[i]) / 2;
+    record_.lost += d * backward;
+  }
+  rates_ = std::move(next);
+}
+
+// Forces and their resultants; energies are added by whoever knows the step.
+template <int dim>
+void Motion<dim>::describe(const Rates &now) {
+  record_ = {};
+  record_.forces.resize(now.inertia.size());
+  for (std::size_t i = 0; i < now.inertia.size(); ++i) {
+    const double damping = now.damping[i] + now.backward_damping[i],
+                 inertia = is_inertial() ? now.inertia[i] : 0;
+    record_.forces[i] = inertia + damping;
+    if (const std::size_t c = i % Fields<dim>::count; c < dim) {
+      record_.inertia[c] -= inertia;
+      record_.damping[c] -= damping;
+    }
+  }
+}
+
+template <int dim>
+void Motion<dim>::save(output::SavedNumbers &numbers) const {
+  if (!forces_)
+    return;
+  numbers.put("velocity", rates_.velocity);
+  numbers.put("acceleration", rates_.acceleration);
+  numbers.put("mean velocity", rates_.difference);
+}
+
+template <int dim>
+void Motion<dim>::restore(const output::SavedNumbers &numbers) {
+  if (!forces_)
+    return;
+  numbers.fill("velocity", rates_.velocity);
+  numbers.fill("acceleration", rates_.acceleration);
+  numbers.fill("mean velocity", rates_.difference);
+  multiply(rates_);
+  describe(rates_);
+}
+
+template class Motion<2>;
+template class Motion<3>;
+
+}  // namespace tourmaline::solve
