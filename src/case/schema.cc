@@ -80,8 +80,8 @@ void declare(Visitor &v, TimeCase &time) {
   if (!time.intervals.empty()) {
     time.end = time.intervals.back().until;
     time.steps = 0;
-    for (const IntervalCase &interval : time.intervals)
-      time.steps += interval.steps;
+    for (const IntervalCase &one : time.intervals)
+      time.steps += one.steps;
   }
   v.key({.name = "regime",
          .description =

@@ -18,19 +18,17 @@ namespace tourmaline::casefile {
 struct IntervalCase {
   double until = 1;  ///< [s]
   int steps = 1;
-  std::string regime = "quasistatic";          ///< quasistatic | dynamic
-  std::string contact_mass = "redistributed";  ///< redistributed | consistent; of the dynamic one
-
-  bool is_dynamic() const { return regime == "dynamic"; }
 };
 
 struct TimeCase {
-  double end = 1;                       ///< [s]
-  int steps = 1;                        ///< of all intervals together
-  std::vector<IntervalCase> intervals;  ///< empty: steps of one size
-  std::string regime = "quasistatic";   ///< quasistatic | static
+  double end = 1;                              ///< [s]
+  int steps = 1;                               ///< of all intervals together
+  std::vector<IntervalCase> intervals;         ///< empty: steps of one size
+  std::string regime = "quasistatic";          ///< quasistatic | static | dynamic
+  std::string contact_mass = "redistributed";  ///< redistributed | consistent; of the dynamic one
 
   bool is_static() const { return regime == "static"; }
+  bool is_dynamic() const { return regime == "dynamic"; }
 };
 
 struct SolverCase {
