@@ -46,6 +46,7 @@ double temperature(std::span<const double> state, std::size_t node, int dimensio
 // The steady problem by its definition, dense.
 template <int dim>
 Eigen::VectorXd assembled(const Model<dim> &model, double time) {
+  using Vector = Eigen::Matrix<double, dim, 1>;
   const auto n = static_cast<Eigen::Index>(model.body.n_nodes());
   Eigen::MatrixXd g = Eigen::MatrixXd::Zero(n, n);
   Eigen::VectorXd q = Eigen::VectorXd::Zero(n);
@@ -57,7 +58,8 @@ Eigen::VectorXd assembled(const Model<dim> &model, double time) {
             cell.jxw[p] * cell.value(p, a) * model.asked.load.heat.value(cell.points[p], time);
         for (std::size_t b = 0; b < cell.nodes.size(); ++b)
           g(cell.nodes[a], cell.nodes[b]) +=
-              cell.jxw[p] * cell.gradient(p, a).dot(conductivity * cell.gradient(p, b));
+              cell.jxw[p] * Vector::Map(cell.gradient(p, a).data())
+                                .dot(conductivity * Vector::Map(cell.gradient(p, b).data()));
       }
   });
   const auto add_facets = [&](const std::string &name, const auto &add) {
