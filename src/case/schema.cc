@@ -77,6 +77,7 @@ void declare(Visitor &v, TimeCase &time) {
               [](Visitor &inner, IntervalCase &one) { declare(inner, one); });
     v.check("interval", [&] { return intervals_complaint(time.intervals); });
   }
+  v.one_group({{"end", "steps"}, {"interval"}});
   if (!time.intervals.empty()) {
     time.end = time.intervals.back().until;
     time.steps = 0;
