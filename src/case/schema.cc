@@ -51,18 +51,13 @@ std::string intervals_complaint(const std::vector<IntervalCase> &intervals) {
 }
 
 void declare(Visitor &v, TimeCase &time) {
-  const Key interval{.name = "interval",
-                     .description =
-                         "Steps of different sizes, instead of `end` and `steps`: "
-                         "intervals one after the other, each of equal steps. The body "
-                         "is factorised once for each size",
-                     .optional = true};
-  const bool has_intervals = v.given(interval, !time.intervals.empty());
-  if (has_intervals) {
-    v.entries(interval, time.intervals,
-              [](Visitor &inner, IntervalCase &one) { declare(inner, one); });
-    v.check("interval", [&] { return intervals_complaint(time.intervals); });
-  }
+  const Key intervals{.name = "interval",
+                      .description =
+                          "Steps of different sizes, instead of `end` and `steps`: "
+                          "intervals one after the other, each of equal steps. The body "
+                          "is factorised once for each size",
+                      .optional = true};
+  const bool has_intervals = v.given(intervals, !time.intervals.empty());
   const Use equal{!has_intervals, "no [[time.interval]]"};
   v.key({.name = "end",
          .description = "time at which the simulation ends; it begins at 0",
@@ -77,6 +72,12 @@ void declare(Visitor &v, TimeCase &time) {
          .range = at_least(1),
          .used = equal},
         &time.steps);
+  if (has_intervals) {
+    v.entries(intervals, time.intervals,
+              [](Visitor &inner, IntervalCase &one) { declare(inner, one); });
+    v.check("interval", [&] { return intervals_complaint(time.intervals); });
+  }
+  v.one_group({{"end", "steps"}, {"interval"}});
   if (!time.intervals.empty()) {
     time.end = time.intervals.back().until;
     time.steps = 0;

@@ -75,6 +75,10 @@ def contacts(*others):
 
 # A text that stands in the case, and what stands there instead.
 RIGHT = [
+    (SQUARE, "end = 1, steps = 2", "interval = [{ until = 0.1, steps = 2 }, { until = 1, steps = 2 }]"),
+    (SQUARE, "steps = 2", 'steps = 2, regime = "static"'),
+    (SQUARE, "potential = 0 }", "potential = 0 }, { on = 'top', traction = [0, { points = [[0, 1], [1, 2.5]] }] }"),
+    (SQUARE, "potential = 0", "potential = { points = [[0, 1], [1, 2.5]] }"),
     (SQUARE, "", ""), (CUBE, "", ""), (TUBE, "", ""), (LAYERS, "", ""),
     (SQUARE, "bound = 15", 'bound = "15*(1 + x)"'),
     (SQUARE, 'law = "tresca", bound = 15', 'law = "none"'),
@@ -108,6 +112,12 @@ RIGHT = [
                                'law = "exchange", coefficient = 1, foundation_temperature = "t" } }')),
 ]
 WRONG = {
+    "steps beside intervals": (SQUARE, "steps = 2", "steps = 2, interval = [{ until = 1, steps = 2 }]"),
+    "interval without steps": (SQUARE, "end = 1, steps = 2", "interval = [{ until = 1 }]"),
+    "regime that is none": (SQUARE, "steps = 2", 'steps = 2, regime = "stationary"'),
+    "point without a value": (SQUARE, "potential = 0", "potential = { points = [[0, 1], [1]] }"),
+    "table and points": (SQUARE, "potential = 0", 'potential = { table = "a.csv", points = [[0, 1], [1, 2]] }'),
+    "table of what does not change": (SQUARE, "time =", "initial.potential = { points = [[0, 1], [1, 2]] }\ntime ="),
     "no contact in a list": (SQUARE, CONTACT, "contact = []"),
     "contact without a boundary": (SQUARE, CONTACT, contacts("{}")),
     "name that is no text": (SQUARE, CONTACT, contacts('{ on = "bottom", name = 3 }')),
@@ -214,6 +224,8 @@ def random_value(rng, schema):
     """A value for a key, from what its declaration says."""
     if "anyOf" in schema:
         return random_value(rng, rng.choice(schema["anyOf"]))
+    if "$ref" in schema:  # values over time
+        return {"points": [[0, rng.choice([0, 1, -1e6])], [rng.choice([0, 1, 2]), 1]]}
     if "enum" in schema:
         return rng.choice(schema["enum"]) if rng.random() < 0.9 else rng.choice([1, "no such choice"])
     kind = schema["type"]

@@ -161,8 +161,9 @@ TEST_P(SeveralSizes, AreReportedTogether) {
     factorisations = now.factorisations;
     seconds = now.substitution_seconds;
   }
-  if (GetParam() == std::string("solver.body=direct"))
+  if (GetParam() == std::string("solver.body=direct")) {
     EXPECT_EQ(factorisations, 2);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(OnAllRoutes, SeveralSizes,

@@ -23,7 +23,7 @@ casefile::Case read(const std::string &text, const std::vector<std::string> &ove
 std::string plate(int dimension) {
   const bool plane = dimension == 2;
   return fmt::format(R"(
-mesh.box = {{ min = [0, 0{0}], max = [0.3, 0.1{1}], cells = [9, 7{2}] }}
+mesh.box = {{ min = [0, 0{0}], max = [0.3, 0.1{1}], cells = [9, 7{2} }}
 material.library = "BaTiO3-Liu2014"
 material.poling = [1, 2{0}]
 load.heat = "1e4*t*x"
@@ -36,7 +36,8 @@ on = "left"
 friction = "none"
 heat = {{ law = "exchange", coefficient = "20 + 100*y", foundation_temperature = "-4*t" }}
 )",
-                     plane ? "" : ", 0", plane ? "" : ", 0.2", plane ? "" : ", 4");
+                     plane ? "" : ", 0", plane ? "" : ", 0.2",
+                     plane ? "]" : ", 4], cell = \"tetrahedron\"");
 }
 
 double temperature(std::span<const double> state, std::size_t node, int dimension) {
@@ -46,6 +47,7 @@ double temperature(std::span<const double> state, std::size_t node, int dimensio
 // The steady problem by its definition, dense.
 template <int dim>
 Eigen::VectorXd assembled(const Model<dim> &model, double time) {
+  using Vector = Eigen::Matrix<double, dim, 1>;
   const auto n = static_cast<Eigen::Index>(model.body.n_nodes());
   Eigen::MatrixXd g = Eigen::MatrixXd::Zero(n, n);
   Eigen::VectorXd q = Eigen::VectorXd::Zero(n);
@@ -57,7 +59,8 @@ Eigen::VectorXd assembled(const Model<dim> &model, double time) {
             cell.jxw[p] * cell.value(p, a) * model.asked.load.heat.value(cell.points[p], time);
         for (std::size_t b = 0; b < cell.nodes.size(); ++b)
           g(cell.nodes[a], cell.nodes[b]) +=
-              cell.jxw[p] * cell.gradient(p, a).dot(conductivity * cell.gradient(p, b));
+              cell.jxw[p] * Vector::Map(cell.gradient(p, a).data())
+                                .dot(conductivity * Vector::Map(cell.gradient(p, b).data()));
       }
   });
   const auto add_facets = [&](const std::string &name, const auto &add) {
@@ -76,14 +79,22 @@ Eigen::VectorXd assembled(const Model<dim> &model, double time) {
     for (std::size_t b = 0; b < facet.nodes.size(); ++b)
       g(facet.nodes[a], facet.nodes[b]) += k * facet.jxw[p] * facet.value(p, a) * facet.value(p, b);
   });
+  Eigen::VectorXd theta = Eigen::VectorXd::Zero(n);
+  std::vector<bool> is_given(static_cast<std::size_t>(n), false);
   for (const body::Prescribed &p : model.prescribed)
     if (p.is_given() && p.unknown % (dim + 2) == dim + 1) {
-      const auto node = static_cast<Eigen::Index>(p.unknown / (dim + 2));
-      g.row(node).setZero();
-      g(node, node) = 1;
-      q[node] = p.value.value(p.point, time);
+      is_given[p.unknown / (dim + 2)] = true;
+      theta[static_cast<Eigen::Index>(p.unknown / (dim + 2))] = p.value.value(p.point, time);
     }
-  return g.partialPivLu().solve(q);
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index node = 0; node < n; ++node)
+    if (!is_given[static_cast<std::size_t>(node)])
+      free.push_back(node);
+  const Eigen::VectorXd right_side = q - g * theta;
+  const Eigen::MatrixXd inside = g(free, free);
+  const Eigen::VectorXd of_free = right_side(free), found = inside.llt().solve(of_free);
+  theta(free) = found;
+  return theta;
 }
 
 template <int dim>
