@@ -137,6 +137,8 @@ struct RateForces<dim>::Assembly {
   }
 
   void add_cell(const Quadrature<dim> &cell, const material::BodyConstants<dim> &material) {
+    if (!(material.density > 0))
+      throw CaseError("[material] density: missing, but must be given for inertia and damping");
     const Eigen::MatrixXd mass = mass_of(cell, material.density);
     const bool at_massless = is_at_massless(cell), is_lumped = at_massless || is_linear;
     if (is_lumped)
