@@ -161,7 +161,8 @@ void solve_mass(const Model<dim> &model, const std::vector<bool> &free,
   p = z;
   constexpr int most = 1000;
   for (int iteration = 0; iteration < most && rz > enough; ++iteration) {
-    const std::vector<double> product = model.op.rate_product(body::RateForces<dim>::Kind::inertia, p);
+    const std::vector<double> product =
+        model.op.rate_product(body::RateForces<dim>::Kind::inertia, p);
     double curvature = 0;
     for (std::size_t i = 0; i < n; ++i)
       curvature += p[i] * product[i];
