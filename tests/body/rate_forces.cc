@@ -68,14 +68,11 @@ void expect_redistributed(CellShape shape, int degree) {
     total += mass;
     moment += mass * body.points()[i][0];
     EXPECT_NEAR(mass, forces.node_masses()[i], 1e-12 * density);
-    if (massless[i])
-      EXPECT_EQ(forces.diagonal()[i], 0);
-    else
-      EXPECT_GT(forces.diagonal()[i], 0);
+    EXPECT_EQ(forces.diagonal()[i] > 0, !massless[i]);
   }
   EXPECT_NEAR(total, density, 1e-10 * density);
-  if (shape == CellShape::quadrilateral || shape == CellShape::hexahedron)
-    EXPECT_NEAR(moment, density / 2, 1e-10 * density);
+  const bool has_parallels = shape == CellShape::quadrilateral || shape == CellShape::hexahedron;
+  EXPECT_NEAR(moment, density / 2, has_parallels ? 1e-10 * density : 0.1 * density);
 }
 
 TEST(RateForces, MassIsKeptAndItsCentreAlongTheContactToo) {
@@ -147,8 +144,9 @@ TEST(RateForces, ViscosityIsTheStiffnessOfAnUncoupledBody) {
   op.multiply(0, x, stiff);
   forces.add(Kind::backward_damping, body.graph(), x, viscous);
   for (std::size_t i = 0; i < x.size(); ++i)
-    if (i % 4 < 2)
+    if (i % 4 < 2) {
       EXPECT_NEAR(viscous[i], 0.5 * stiff[i], 1e-3);  // of 1e11
+    }
 }
 
 // What a step's matrix is made of.
