@@ -137,6 +137,8 @@ struct RateForces<dim>::Assembly {
   }
 
   void add_cell(const Quadrature<dim> &cell, const material::BodyConstants<dim> &material) {
+    if (!(material.density > 0))
+      throw CaseError("[material] density: missing, but must be given for inertia and damping");
     const Eigen::MatrixXd mass = mass_of(cell, material.density);
     const bool at_massless = is_at_massless(cell), is_lumped = at_massless || is_linear;
     if (is_lumped)
@@ -191,31 +193,46 @@ RateForces<dim>::RateForces(const Discretisation<dim> &body,
 }
 
 // In a corner of the contact a cell may have no other nodes: the nodes with mass of the cells
-// around take it.
+// around take it, or its neighbours pass it on to theirs.
 template <int dim>
 void RateForces<dim>::add_stranded(const Discretisation<dim> &body, Assembly &assembly) {
-  std::vector<double> takers(massless_.size(), 0.);
-  const auto visit = [&](const auto &take) {
+  constexpr int passes = 10;
+  std::vector<double> &stranded = assembly.stranded, &drag = assembly.stranded_drag;
+  const auto visit = [&](const auto &see) {  // pairs of a stranded node and one beside it
     body.for_each_cell([&](const Quadrature<dim> &cell) {
       for (const Node node : cell.nodes)
-        if (assembly.stranded[node] > 0)
-          for (const Node taker : assembly.with_mass(cell))
-            take(node, taker);
+        for (const Node other : cell.nodes)
+          if (stranded[node] > 0 && other != node)
+            see(node, other);
     });
   };
-  parallel::together([&] { visit([&](Node node, Node) { takers[node] += 1; }); });
-  parallel::sum(takers);
-  for (std::size_t node = 0; node < takers.size(); ++node)
-    if (assembly.stranded[node] > 0 && takers[node] == 0)
-      throw CaseError(fmt::format(
-          "[time] contact_mass: all nodes around ({:g}, {:g}, {:g}) m belong to the contact, so "
-          "none is left to take their mass; take finer cells there, or contact_mass = "
-          "\"consistent\"",
-          body.points()[node][0], body.points()[node][1], body.points()[node][2]));
-  visit([&](Node node, Node taker) {
-    assembly.add_mass(taker, taker, assembly.stranded[node] / takers[node],
-                      assembly.stranded_drag[node] / takers[node]);
-  });
+  for (int pass = 0; pass < passes; ++pass) {
+    std::vector<double> takers(massless_.size(), 0.), others(takers), left(takers),
+        left_drag(takers);
+    visit([&](Node node, Node other) { (massless_[other] ? others : takers)[node] += 1; });
+    parallel::sum(takers);
+    parallel::sum(others);
+    visit([&](Node node, Node other) {
+      if (!massless_[other]) {
+        assembly.add_mass(other, other, stranded[node] / takers[node], drag[node] / takers[node]);
+      } else if (takers[node] == 0) {
+        left[other] += stranded[node] / others[node];
+        left_drag[other] += drag[node] / others[node];
+      }
+    });
+    parallel::sum(left);
+    parallel::sum(left_drag);
+    stranded = left;
+    drag = left_drag;
+    if (std::all_of(left.begin(), left.end(), [](double mass) { return mass == 0; }))
+      return;
+  }
+  const auto node = std::max_element(stranded.begin(), stranded.end()) - stranded.begin();
+  throw CaseError(fmt::format(
+      "[time] contact_mass: all nodes around ({:g}, {:g}, {:g}) m belong to the contact, so none "
+      "is "
+      "left to take their mass; take finer cells there, or contact_mass = \"consistent\"",
+      body.points()[node][0], body.points()[node][1], body.points()[node][2]));
 }
 
 template <int dim>

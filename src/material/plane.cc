@@ -36,8 +36,9 @@ void check_plane(const Constants &c) {
 
 template <>
 BodyConstants<3> restricted<3>(const Constants &c) {
-  return {c.stiffness,    c.piezoelectric, c.permittivity,    c.thermal_stress,
-          c.pyroelectric, c.conductivity,  c.heat_capacity(), c.reference_temperature};
+  return {c.stiffness,    c.piezoelectric,     c.permittivity,    c.thermal_stress,
+          c.pyroelectric, c.conductivity,      c.heat_capacity(), c.reference_temperature,
+          c.density,      c.stiffness_damping, c.mass_damping};
 }
 
 template <>

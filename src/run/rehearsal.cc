@@ -5,6 +5,7 @@
 #include "run/step_check.h"
 #include "solve/contact_nodes.h"
 #include "solve/exchange_nodes.h"
+#include "solve/start_of_motion.h"
 
 namespace tourmaline::run {
 
@@ -12,6 +13,8 @@ template <int dim>
 void rehearse(const solve::Model<dim> &model, int n_steps) {
   const std::vector<double> before = body::initial_state(model.body, model.asked.initial);
   std::vector<double> state = before, loads;
+  if (model.asked.time.is_dynamic())
+    solve::initial_velocity(model);
   const std::vector<bool> is_prescribed = body::mask_of(model.prescribed, model.n_unknowns());
   solve::ContactNodes<dim> contact(model, is_prescribed);
   solve::ExchangeNodes<dim> exchange(model);

@@ -30,7 +30,7 @@ double at(const Table &table, const char *column, double time) {
   return values[nearest];
 }
 
-// The energy of the bar with that of its weight, over the 500 J/m^2 that it falls with.
+// The energy of the bar with that of its weight, over that of its fall, rho g L 5 m times 0.1 m.
 std::vector<double> energies_of_bar(const Table &history, double step) {
   const auto elastic_part = history.numbers("elastic_energy"),
              kinetic = history.numbers("kinetic_energy"), power = history.numbers("load_power");
@@ -38,12 +38,12 @@ std::vector<double> energies_of_bar(const Table &history, double step) {
   double worked = 0;
   for (std::size_t i = 0; i < power.size(); ++i) {
     worked += power[i] * step;
-    all.push_back((elastic_part[i] + kinetic[i] - worked) / 50);
+    all.push_back((elastic_part[i] + kinetic[i] - worked) / 5e4);
   }
   return all;
 }
 
-// Contact begins at t = 1 with the pressure rho c V = 300 Pa, which grows by 300 Pa/s until the
+// Contact begins at t = 1 with the pressure rho c V = 300 kPa, which grows by 300 kPa/s until the
 // wave is back at 5/3; later fronts of the wave are some steps wide, and left out here.
 TEST(BouncingBar, ThePressureOfTheFirstImpactIsTheWavesAndEnergyStays) {
   const RunCase run("cases/impact/bar.toml");
@@ -54,7 +54,7 @@ TEST(BouncingBar, ThePressureOfTheFirstImpactIsTheWavesAndEnergyStays) {
   const auto time = contact.numbers("time"), traction = contact.numbers("normal_traction");
   for (std::size_t i = 0; i < time.size(); ++i)
     if (time[i] > 1.02 && time[i] < 1.64) {
-      const double exact = 300 + 300 * (time[i] - 1);
+      const double exact = 3e5 + 3e5 * (time[i] - 1);
       squares += std::pow((-traction[i] - exact) / exact, 2);
       ++count;
     }
@@ -68,7 +68,7 @@ TEST(BouncingBar, ThePressureOfTheFirstImpactIsTheWavesAndEnergyStays) {
   // What is lost, the scheme has lost, and it says so.
   double lost = 0;
   for (const double loss : history.numbers("time_step_loss"))
-    lost += loss * 16. / 3 / 3200 / 50;
+    lost += loss * 16. / 3 / 3200 / 5e4;
   EXPECT_NEAR(lost, -energy.back(), 1e-6);
 }
 
@@ -116,8 +116,8 @@ contact = {{ on = "bottom", gap = 0.002, normal = "unilateral" }}
       first = first == 0 ? time[i] : first;
       last = time[i];
     }
-  EXPECT_NEAR(first, 20e-6, 2 * step);
-  EXPECT_NEAR(last, 100e-6, 4 * step);  // the front that ends it is some steps wide
+  EXPECT_NEAR(first, 20e-6, 2.01 * step);
+  EXPECT_NEAR(last, 100e-6, 2.01 * step);
   for (const double gap : contact.numbers("gap"))
     EXPECT_GE(gap, -1e-15);
   EXPECT_NEAR(-at(contact, "normal_traction", 60e-6), 4e9, 4e7);  // rho c v
@@ -136,7 +136,8 @@ constexpr double length = 1, speed = 100;  // m, m/s
 RunCase vibrating_bar(int steps, double periods, const std::string &damping = "",
                       const std::string &more = "", int cells = 64) {
   return run_text(fmt::format(R"toml(
-mesh.box = {{ min = [0, 0], max = [0.05, 1], cells = [1, {}], cell = "quadrilateral"{} }}
+mesh.box = {{ min = [0, 0], max = [0.05, 1], cells = [1, {}], cell = "quadrilateral" }}
+{}
 material = {{ {}, young = 1e7, density = 1000{} }}
 time = {{ end = {:.17g}, steps = {}, regime = "dynamic" }}
 boundary = [ {{ on = ["left", "right"], displacement = [0, "free"] }}, {{ on = "bottom", displacement = [0, 0], potential = 0 }} ]
@@ -189,8 +190,8 @@ TEST(DampedVibration, DecaysByStiffnessAndMassDampingInSecondOrder) {
 TEST(DampedVibration, CellsWithModesAndOfDegreeTwoDecayAlike) {
   const std::string damping = ", stiffness_damping = 2e-4";
   const double plain = tip(vibrating_bar(160, 1.125, damping));
-  EXPECT_NEAR(tip(vibrating_bar(160, 1.125, damping, ", modes = 'none'")), plain, 1e-7);
-  EXPECT_NEAR(tip(vibrating_bar(160, 1.125, damping, ", degree = 2", 16)), plain, 2e-6);
+  EXPECT_NEAR(tip(vibrating_bar(160, 1.125, damping, "mesh.modes = 'none'")), plain, 1e-7);
+  EXPECT_NEAR(tip(vibrating_bar(160, 1.125, damping, "mesh.degree = 2", 16)), plain, 2e-6);
 }
 
 // Backward Euler's own closed form: eps_n = (s/E)(1 - (1 + k E/eta)^-n).
@@ -242,7 +243,7 @@ region = [ {{ where = "y < 0.1", material = {{ {0}, young = 162e9, density = 1, 
 TEST(MassDamping, MovesABodyAtTheSpeedThatItsWeightDrives) {
   const RunCase run = run_text(fmt::format(R"toml(
 mesh.box = {{ min = [0,0], max = [0.1,0.1], cells = [2,2], cell = "triangle" }}
-material = {{ {}, young = 1e9, density = 2000, mass_damping = 4 }}
+material = {{ {}, young = 1e4, density = 2000, mass_damping = 4 }}
 time = {{ end = 1, steps = 4, regime = "dynamic" }}
 boundary = [ {{ on = "top", potential = 0 }} ]
 initial = {{ velocity = [0, -2.4525] }}
@@ -275,7 +276,7 @@ contact = {{ on = "bottom", normal = "unilateral", friction = {{ law = "coulomb"
              rate = contact.numbers("slip_rate");
   double worst = 0;
   for (std::size_t i = 0; i < x.size(); ++i)
-    if (std::abs(x[i] - 0.06) < 1e-9 && time[i] > 1.5e-6)
+    if (std::abs(x[i] - 0.06) < 1e-9 && time[i] > 1.5e-6 && time[i] < 1.25e-5)
       worst = std::max(worst, std::abs(rate[i] / 0.804923173 - 1));
   EXPECT_LE(worst, 0.01);
 }
@@ -284,8 +285,7 @@ contact = {{ on = "bottom", normal = "unilateral", friction = {{ law = "coulomb"
 double lowest_frequency(const std::string &electrode, const char *column) {
   const RunCase run = run_text(fmt::format(R"toml(
 mesh.box = {{ min = [0, 0], max = [0.01, 1], cells = [1, 100], cell = "quadrilateral" }}
-material = {{ c11 = 1.2e11, c12 = 0, c13 = 0, c33 = 1.2e11, c44 = 6e10, e31 = 0, e33 = 23, e15 = 0, beta11 = 1e-8,
-              beta33 = 1e-8, k11 = 1, k33 = 1, density = 7500, specific_heat = 400, reference_temperature = 293 }}
+material = {{ c11 = 1.2e11, c12 = 0, c13 = 0, c33 = 1.2e11, c44 = 6e10, e31 = 0, e33 = 23, e15 = 0, beta11 = 1e-8, beta33 = 1e-8, k11 = 1, k33 = 1, density = 7500, specific_heat = 400, reference_temperature = 293 }}
 time = {{ end = 0.012, steps = 5000, regime = "dynamic" }}
 initial = {{ velocity = [0, "1e-3*cos(pi*y)"] }}
 electrode = [ {{ name = "base", on = "bottom", voltage = 0 }}, {{ name = "top", on = "top", {} }} ]
@@ -324,8 +324,7 @@ TEST(PiezoelectricBar, ItsResonancesGiveTheCouplingFactor) {
 TEST(PiezoelectricBar, AResistorTakesItsEnergy) {
   const RunCase run = run_text(R"toml(
 mesh.box = { min = [0, 0], max = [0.01, 1], cells = [1, 40], cell = "quadrilateral" }
-material = { c11 = 1.2e11, c12 = 0, c13 = 0, c33 = 1.2e11, c44 = 6e10, e31 = 0, e33 = 23, e15 = 0, beta11 = 1e-8,
-             beta33 = 1e-8, k11 = 1, k33 = 1, density = 7500, specific_heat = 400, reference_temperature = 293 }
+material = { c11 = 1.2e11, c12 = 0, c13 = 0, c33 = 1.2e11, c44 = 6e10, e31 = 0, e33 = 23, e15 = 0, beta11 = 1e-8, beta33 = 1e-8, k11 = 1, k33 = 1, density = 7500, specific_heat = 400, reference_temperature = 293 }
 time = { end = 0.012, steps = 2000, regime = "dynamic" }
 initial = { velocity = [0, "1e-3*cos(pi*y)"] }
 electrode = [ { name = "base", on = "bottom", voltage = 0 }, { name = "top", on = "top", resistor = 7e5 } ]
