@@ -72,6 +72,13 @@ void check_regime(const Case &asked) {
              "take \"quasistatic\", or leave the electrode open");
   if (!keeps_temperature(asked))
     return;
+  if (asked.initial.temperature.depends_on_place())
+    throw CaseError(fmt::format(
+        "{}: nothing holds the temperature (no boundary prescribes one, no contact exchanges "
+        "heat), "
+        "so that with time.regime = \"static\" it stays at its initial one, which must then be a "
+        "number; or give `temperature` on a boundary",
+        asked.initial.temperature.where()));
   if (const std::string source = source_of_heat(asked); !source.empty())
     throw CaseError(fmt::format(
         "{}: {} warms a body whose temperature nothing holds (no boundary prescribes one, no "

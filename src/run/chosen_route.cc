@@ -51,35 +51,42 @@ std::unique_ptr<solve::Route> ChosenRoute<dim>::kept_of(double step) {
   return route;
 }
 
-// Other routes have nothing that is worth keeping: they factorise, or make a preconditioner, while
-// they take a step.
+// Until a further factorisation fits.
 template <int dim>
-void ChosenRoute<dim>::keep(double step, std::unique_ptr<solve::Route> route) {
-  if (is_factorised())
-    kept_.push_back({step, std::move(route)});
+void ChosenRoute<dim>::make_room() {
+  const auto has_room = [&] {
+    const bool fits = another_factorisation(model_.asked) <= available_memory().bytes;
+    return parallel::from_first(fits) != 0;
+  };
+  while (!kept_.empty() && !has_room())
+    kept_.erase(kept_.begin());
 }
 
-// A route of the size at hand is made while those that are kept leave room for it.
+// Only a factorised body is worth keeping: other routes factorise, or make a preconditioner, while
+// they take a step.
 template <int dim>
 void ChosenRoute<dim>::begin_step(int n) {
   const double before = model_.step, step = model_.steps.size(n);
   if (step == before)
     return;
-  std::unique_ptr<solve::Route> left = std::move(route_);
+  const solve::Route::Handover done = route_->hand_over();
+  if (is_factorised())
+    kept_.push_back({before, std::move(route_)});
   route_ = kept_of(step);
   model_.set_step(step);
   if (!route_) {
-    const auto has_room = [&] {
-      const bool fits = another_factorisation(model_.asked) <= available_memory().bytes;
-      return parallel::from_first(fits) != 0;
-    };
-    while (!kept_.empty() && !has_room())
-      kept_.erase(kept_.begin());
+    make_room();
     progress_.stage(iterative_ ? "preconditioner" : "factorisation");
-    route_ = make_route(model_, iterative_);
+    try {
+      route_ = make_route(model_, iterative_);
+    } catch (const MachineError &) {  // the estimate is one
+      if (kept_.empty())
+        throw;
+      kept_.clear();
+      route_ = make_route(model_, iterative_);
+    }
   }
-  route_->take_over(*left);
-  keep(before, std::move(left));
+  route_->take_over(done);
 }
 
 template <int dim>

@@ -45,7 +45,7 @@ class ChosenRoute {
  private:
   void factorise_after_all(int n, const SolveError &error);
   std::unique_ptr<solve::Route> kept_of(double step);
-  void keep(double step, std::unique_ptr<solve::Route> route);
+  void make_room();
   bool is_factorised() const { return !iterative_ && model_.asked.solver.method == "condensed"; }
 
   struct Kept {

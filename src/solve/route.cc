@@ -106,8 +106,15 @@ void Route::restore(const output::SavedNumbers &numbers, bool of_other_step) {
     forget_matrices();
 }
 
-void Route::take_over(Route &other) {
-  const RouteReport all = other.report();
+Route::Handover Route::hand_over() {
+  Handover done{report(), measured_, {}};
+  save_memory(done.memory);
+  is_counted_ = true;
+  return done;
+}
+
+void Route::take_over(const Handover &other) {
+  const RouteReport &all = other.report;
   RouteReport own;
   if (is_counted_)
     describe(own);
@@ -121,13 +128,10 @@ void Route::take_over(Route &other) {
   so_far_.krylov_iterations = all.krylov_iterations;
   so_far_.krylov_largest = all.krylov_largest;
   so_far_.safe_steps = all.safe_steps;
-  is_counted_ = other.is_counted_ = true;
-  measured_ = other.measured_;
-  output::SavedNumbers memory;
-  other.save_memory(memory);
+  measured_ = other.measured;
   if (all.is_refined && !is_refined())
     refine_again();
-  restore_memory(memory);
+  restore_memory(other.memory);
   forget_matrices();
 }
 

@@ -127,9 +127,17 @@ class Route {
   void save(output::SavedNumbers &numbers) const;
   /// `of_other_step`: the numbers are those of steps of another size than this route's.
   void restore(const output::SavedNumbers &numbers, bool of_other_step = false);
-  /// Goes on from the step that `other` has taken, a route of the same kind for steps of another
-  /// size; to the same bits whatever this one did before. Its report then has what `other` did.
-  void take_over(Route &other);
+  /// What a route for steps of another size goes on from.
+  struct Handover {
+    RouteReport report;
+    std::array<double, 3> measured{};
+    output::SavedNumbers memory;
+  };
+  /// After a step; the route may then go.
+  Handover hand_over();
+  /// Goes on from the step of a route of the same kind, to the same bits whatever this one did
+  /// before. Its report then has what that one did.
+  void take_over(const Handover &other);
 
  protected:
   void see_backward_error(double error);

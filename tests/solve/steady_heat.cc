@@ -151,8 +151,13 @@ TEST(SteadyHeat, OfABodyThatNothingHoldsIsTheInitialOne) {
   }
 }
 
+// Also where a contact exchanges heat by its name alone: its coefficient is 0 everywhere.
 TEST(SteadyHeat, OfABodyThatNothingHoldsIsRefusedWhereItWasNotUniform) {
-  const Model<2> model(read(unheld, {"initial.temperature='x'"}));
+  EXPECT_THROW(read(unheld, {"initial.temperature='x'"}), CaseError);
+  const Model<2> model(
+      read(unheld, {"initial.temperature='x'",
+                    "contact={on='right',friction='none',heat={law='exchange',coefficient=0,"
+                    "foundation_temperature=0}}"}));
   try {
     SteadyHeat<2> heat(model, false);
     FAIL();
