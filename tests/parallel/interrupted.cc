@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "../cases/slipping_block.h"
+#include "../cases/thrown_block.h"
 #include "ranks.h"
 
 namespace tourmaline::testing {
@@ -92,6 +93,14 @@ TEST_P(Interrupted, AnotherNumberOfRanksIsRefused) {
   EXPECT_EQ(alone.status, 2);
   EXPECT_THAT(alone.said, HasSubstr("mpirun -np " + std::to_string(GetParam())));
   EXPECT_TRUE(fs::exists(folder_ / "other" / "checkpoint.bin"));
+}
+
+TEST_P(Interrupted, ADynamicRunGoesOnToTheSameBytes) {
+  interrupt(file_of(thrown_block(2)) +
+                " --set time.steps=60 --set output.every=20 --set solver.body=iterative "
+                "--set output.checkpoint=2steps",
+            SIGKILL);
+  expect_same_bytes();
 }
 
 INSTANTIATE_TEST_SUITE_P(Two, Interrupted, ::testing::Values(2));
