@@ -99,7 +99,8 @@ struct Problem {
     casefile::Box &box = asked.mesh.box.emplace();
     box.min.assign(dim, 0.);
     box.max.assign(dim, length);
-    asked.time = {end, 2};
+    asked.time.end = end;
+    asked.time.steps = 2;
     asked.output.fields = false;
     asked.output.every = 1;
     for (int i = 0; i < dim; ++i) {

@@ -68,12 +68,12 @@ struct FoundationCircuitCase {
 };
 
 struct ChargeExchangeCase {
-  std::string law = "insulated";     ///< insulated | exchange | leak
-  Formula coefficient = 0;           ///< [F/m^2] of exchange, [S/m^2] of leak, no dependence on t
+  std::string law = "insulated";  ///< insulated | exchange | leak
+  Formula coefficient = 0;        ///< [F/m^2] of exchange, [S/m^2] of leak, no dependence on t
   /// phi_f [V], or what it is found from
   std::optional<Formula> foundation_potential = {};
   std::optional<FoundationCircuitCase> circuit = {};
-  std::optional<double> ramp = {};   ///< opening over which the coefficient fades [m]
+  std::optional<double> ramp = {};  ///< opening over which the coefficient fades [m]
 
   bool exchanges() const { return law != "insulated"; }
 };
