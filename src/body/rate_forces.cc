@@ -115,7 +115,7 @@ struct RateForces<dim>::Assembly {
   void add_mass(Node a, Node b, double mass, double drag) {
     const std::size_t entry = entry_of(graph, a, b);
     to.mass_[entry] += mass;
-    if (drag > 0)
+    if (drag != 0)
       add_damping(!to.is_dynamic_, entry, drag * Block::Identity());
   }
 

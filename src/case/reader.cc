@@ -307,7 +307,7 @@ Case read_text(const std::string &text, const std::string &name,
   Reader(GivenTable(root), "", context).read_all([&](Visitor &visitor) {
     declare(visitor, asked);
   });
-  if (asked.output.every == 0)
+  if (!asked.output.every && !asked.time.tolerance)
     asked.output.every = steps_between_files(asked.time.steps);
   check_plane(asked);
   check_tables(asked);

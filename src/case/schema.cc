@@ -93,6 +93,22 @@ void declare(Visitor &v, TimeCase &time) {
              "1/4 and 1/2",
          .choices = {"quasistatic", "static", "dynamic"}},
         &time.regime);
+  v.optional({.name = "tolerance",
+              .description =
+                  "the program chooses the steps, `steps` is the least number of them: each errs "
+                  "by at most so much of the largest change of u, phi and theta so far, and times "
+                  "at which the contact status changes by so much of `end`; no step goes across a "
+                  "bend of a load table",
+              .range = {.low = 1e-8, .high = 0.1, .sense = sense::tolerance},
+              .used = with("regime", time.regime, {"quasistatic"})},
+             time.tolerance);
+  v.check("tolerance", [&] {
+    return time.tolerance && has_intervals
+               ? std::string(
+                     "chooses the sizes of the steps, as `interval` does; give `end` and "
+                     "`steps` with it, or leave it out")
+               : std::string();
+  });
   v.key({.name = "contact_mass",
          .description = "redistributed: the mass of contact nodes goes to the other nodes of their "
                         "cells, so that contact forces do not chatter; consistent: it stays",
@@ -146,14 +162,20 @@ void declare(Visitor &v, InitialCase &initial, const TimeCase &time, int dimensi
          .default_words = "zero"},
         &initial.displacement);
   v.key({.name = "velocity",
-         .description = "velocity at the time 0",
+         .description = "velocity at the time 0, of a dynamic case",
          .unit = "m/s",
          .range = any(sense::velocity),
          .length = one_each_axis(dimension),
          .constant_in_time = true,
-         .default_words = "zero",
-         .used = with("time.regime", time.regime, {"dynamic"})},
+         .default_words = "zero"},
         &initial.velocity);
+  v.check("velocity", [&] {
+    return initial.velocity.empty() || time.is_dynamic()
+               ? std::string()
+               : fmt::format(
+                     "is only used with time.regime = \"dynamic\", and the regime is \"{}\"",
+                     time.regime);
+  });
   v.key({.name = "potential",
          .description = "electric potential at the time 0",
          .unit = "V",
@@ -245,11 +267,12 @@ void declare(Visitor &v, OutputCase &output) {
          .description =
              "whether VTU files are written; without them only the tables and the summary"},
         &output.fields);
-  v.key({.name = "every",
-         .description = "steps between two field files",
-         .range = at_least(1),
-         .default_words = "time.steps / 50, rounded up: at most about 50 files"},
-        &output.every);
+  v.optional({.name = "every",
+              .description = "steps between two field files",
+              .range = at_least(1),
+              .default_words = "time.steps / 50, rounded up: at most about 50 files; with "
+                               "time.tolerance the first step in each 50th of the time"},
+             output.every);
   v.key({.name = "report", .description = "whether the report, a web page, is written"},
         &output.report);
   v.key({.name = "checkpoint",

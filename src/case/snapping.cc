@@ -32,6 +32,8 @@ std::string warning(const FrictionCoefficientCase &mu) {
 }  // namespace
 
 std::vector<std::string> snapping_warnings(const Case &asked) {
+  if (asked.time.is_dynamic())  // inertia holds what snaps
+    return {};
   std::vector<std::string> warnings;
   for (const ContactCase &contact : asked.contacts)
     if (const FrictionCoefficientCase &mu = contact.friction.coefficient;

@@ -2,6 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
 #include "case/load_table.h"
 #include "case/schema.h"
 #include "case/toml_text.h"
@@ -12,21 +17,23 @@ namespace tourmaline::casefile {
 
 namespace {
 
+using Look = std::function<void(const Formula &formula, const LoadTable &table)>;
+
 /// Looks at every table that a case has.
-class OverTheRun : public Visitor {
+class EachTable : public Visitor {
  public:
-  explicit OverTheRun(double end) : end_(end) {}
+  explicit EachTable(Look look) : look_(std::move(look)) {}
 
   void key(const Key &, Value value) override {
     if (const auto *formula = std::get_if<Formula *>(&value))
-      look(**formula);
+      see(**formula);
     if (const auto *formulas = std::get_if<FormulaVector *>(&value))
       for (const Formula &formula : **formulas)
-        look(formula);
+        see(formula);
     if (const auto *components = std::get_if<Displacement *>(&value))
       for (const std::optional<Formula> &formula : **components)
         if (formula)
-          look(*formula);
+          see(*formula);
   }
   bool given(const Key &, bool present) override { return present; }
   void table(const Key &, const Body &body) override { body(*this); }
@@ -34,29 +41,66 @@ class OverTheRun : public Visitor {
   void entry(const Key &, int, const Body &body) override { body(*this); }
 
  private:
-  // An end that differs by round-off, as of a sum of steps, is the same.
-  void look(const Formula &formula) const {
-    const LoadTable *table = formula.table();
-    if (!table)
-      return;
-    const double same = 1e-9 * end_;
-    if (table->begin() <= same && table->end() >= end_ - same)
-      return;
-    throw CaseError(fmt::format(
-        "{} = {}: the table goes from t = {} s to {} s, the run from 0 to {} s; give the table "
-        "points at the ends of the run, as nothing says what is outside it",
-        formula.where(), shortened(formula.text()), table->begin(), table->end(), end_));
+  void see(const Formula &formula) const {
+    if (const LoadTable *table = formula.table())
+      look_(formula, *table);
   }
 
-  double end_;
+  Look look_;
 };
+
+void for_each_table(const Case &asked, const Look &look) {
+  Case copy = asked;
+  EachTable visitor(look);
+  declare(visitor, copy);
+}
+
+// An end that differs by round-off, as of a sum of steps, is the same.
+double same_time(const Case &asked) {
+  return 1e-9 * asked.time.end;
+}
+
+void require_all_times(const Case &asked, const Formula &formula, const LoadTable &table) {
+  const double same = same_time(asked), end = asked.time.end;
+  if (table.begin() <= same && table.end() >= end - same)
+    return;
+  throw CaseError(fmt::format(
+      "{} = {}: the table goes from t = {} s to {} s, the run from 0 to {} s; give the table "
+      "points at the ends of the run, as nothing says what is outside it",
+      formula.where(), shortened(formula.text()), table.begin(), table.end(), end));
+}
+
+// Where the slope changes by more than the points' own round-off.
+void add_bends(const LoadTable &table, std::vector<double> &times) {
+  const LoadTable::Points &points = table.points();
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+    const auto [t0, v0] = points[i - 1];
+    const auto [t, v] = points[i];
+    const auto [t1, v1] = points[i + 1];
+    const double between = v0 + (v1 - v0) * ((t - t0) / (t1 - t0));
+    if (std::abs(v - between) > 1e-12 * std::max({std::abs(v0), std::abs(v), std::abs(v1)}))
+      times.push_back(t);
+  }
+}
 
 }  // namespace
 
 void check_tables(const Case &asked) {
-  Case copy = asked;
-  OverTheRun visitor(asked.time.end);
-  declare(visitor, copy);
+  for_each_table(asked, [&](const Formula &formula, const LoadTable &table) {
+    require_all_times(asked, formula, table);
+  });
+}
+
+std::vector<double> bends(const Case &asked) {
+  std::vector<double> times;
+  for_each_table(asked, [&](const Formula &, const LoadTable &table) { add_bends(table, times); });
+  std::sort(times.begin(), times.end());
+  std::vector<double> inside;
+  for (const double time : times)
+    if (time - (inside.empty() ? 0 : inside.back()) > same_time(asked) &&
+        asked.time.end - time > same_time(asked))
+      inside.push_back(time);
+  return inside;
 }
 
 }  // namespace tourmaline::casefile

@@ -40,12 +40,15 @@ TimeSteps::TimeSteps(const TimeCase &asked) {
 }
 
 const TimeSteps::Interval &TimeSteps::of(int n) const {
-  const auto found = std::find_if(intervals_.begin(), intervals_.end(),
-                                  [n](const Interval &interval) { return n <= interval.last; });
+  const auto found =
+      std::partition_point(intervals_.begin(), intervals_.end(),
+                           [n](const Interval &interval) { return interval.last < n; });
   return found == intervals_.end() ? intervals_.back() : *found;
 }
 
 double TimeSteps::at(int n) const {
+  if (n == 0)
+    return 0;
   const Interval &interval = of(n);
   if (interval.begin > 0 && n == interval.last)
     return interval.end;
@@ -54,11 +57,12 @@ double TimeSteps::at(int n) const {
 }
 
 int TimeSteps::number(double time) const {
-  for (const Interval &interval : intervals_)
-    if (time <= interval.end)
-      return interval.first - 1 +
-             static_cast<int>(std::lround((time - interval.begin) / interval.size));
-  return count();
+  const auto found =
+      std::partition_point(intervals_.begin(), intervals_.end(),
+                           [time](const Interval &interval) { return interval.end < time; });
+  if (found == intervals_.end())
+    return count();
+  return found->first - 1 + static_cast<int>(std::lround((time - found->begin) / found->size));
 }
 
 int TimeSteps::sizes(int n) const {
@@ -67,6 +71,16 @@ int TimeSteps::sizes(int n) const {
     if (interval.first <= n)
       sizes.insert(interval.size);
   return static_cast<int>(sizes.size());
+}
+
+void TimeSteps::keep(int n) {
+  while (!intervals_.empty() && intervals_.back().last > n)
+    intervals_.pop_back();
+}
+
+void TimeSteps::append(double size, double end) {
+  const int last = intervals_.empty() ? 0 : count();
+  intervals_.push_back({last > 0 ? at(last) : 0, end, last + 1, last + 1, size});
 }
 
 }  // namespace tourmaline::casefile

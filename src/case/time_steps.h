@@ -9,7 +9,8 @@ struct TimeCase;
 
 /// The steps of a case, numbered from 1: of one size, or of one size in each interval. Sizes of
 /// intervals that differ by round-off alone are one size, so that what is factorised for it serves
-/// all of them.
+/// all of them. Where the program chooses the steps, those that were asked for only stand there
+/// until it does.
 class TimeSteps {
  public:
   explicit TimeSteps(const TimeCase &asked);
@@ -25,6 +26,11 @@ class TimeSteps {
   int number(double time) const;
   /// How many sizes the steps 1 to n have.
   int sizes(int n) const;
+
+  /// Of steps that are chosen as they come: only the first n are left; and another one follows
+  /// them, of that size, which ends at `end`.
+  void keep(int n);
+  void append(double size, double end);
 
  private:
   struct Interval {

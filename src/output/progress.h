@@ -8,8 +8,8 @@
 
 namespace tourmaline::output {
 
-/// What the progress line says after a step; `seconds_left` is left out when it is negative (not
-/// known yet).
+/// What the progress line says after a step; `steps` of all is left out when it is 0 (not known),
+/// `seconds_left` when it is negative (not known yet).
 std::string progress_text(const HistoryRow &row, int steps, double seconds_left);
 
 /// Says on stderr how far a run is: on a terminal in one line with a bar that is rewritten in
@@ -17,7 +17,9 @@ std::string progress_text(const HistoryRow &row, int steps, double seconds_left)
 /// nothing. Says nothing when `quiet`. Never throws for what the terminal does.
 class Progress {
  public:
-  Progress(int steps, bool quiet, std::chrono::milliseconds pause = std::chrono::seconds(5));
+  /// `steps` is 0 where nobody knows how many there will be before the time `end` [s].
+  Progress(int steps, double end, bool quiet,
+           std::chrono::milliseconds pause = std::chrono::seconds(5));
   Progress(const Progress &) = delete;
   Progress &operator=(const Progress &) = delete;
   ~Progress() { done(); }
@@ -34,15 +36,16 @@ class Progress {
  private:
   using Clock = std::chrono::steady_clock;
 
-  double seconds_left(int step, Clock::time_point now) const;
+  double seconds_left(double share, Clock::time_point now) const;
   bool due() const { return line_.since_last() >= pause_; }
 
   int steps_;
+  double end_;
   bool quiet_;
   StatusLine line_;
   std::chrono::milliseconds pause_;  // between two drawings
   bool started_ = false;             // whether a step has been reported
-  int first_step_ = 0;
+  double first_share_ = 0;           // of the whole, done by then
   Clock::time_point first_step_end_;
 };
 

@@ -72,16 +72,27 @@ void Account::put_iterations(const solve::RouteReport &report, output::Summary &
   }
 }
 
-std::string Account::jump_warning() const {
+std::string Account::jump_warning(bool is_dynamic) const {
   if (slip_jumps_ == 0)
     return "";
+  if (is_dynamic)
+    return fmt::format(
+        "slip jumped in {}: friction falls faster with slip than the body and its inertia over one "
+        "step resist. Of several states that a step may then come to this is one; shorter steps "
+        "leave one only",
+        steps_with_jumps());
   return fmt::format(
       "slip jumped in {}: where it set in, friction falls faster with slip than the body unloads, "
       "and nothing quasistatic holds it until it has come to rest. What stands behind such a step "
       "is in equilibrium; of several such states it need not be the one that a simulation with "
       "inertia comes to",
-      slip_jumps_ == 1 ? fmt::format("step {}", first_slip_jump_)
-                       : fmt::format("{} steps, first in step {}", slip_jumps_, first_slip_jump_));
+      steps_with_jumps());
+}
+
+std::string Account::steps_with_jumps() const {
+  return slip_jumps_ == 1
+             ? fmt::format("step {}", first_slip_jump_)
+             : fmt::format("{} steps, first in step {}", slip_jumps_, first_slip_jump_);
 }
 
 void Account::save(output::SavedNumbers &numbers) const {

@@ -22,12 +22,13 @@ class Account {
   void put(const solve::RouteReport &report, int steps, output::Summary &summary) const;
 
   /// A warning of slip that jumped; empty where none did.
-  std::string jump_warning() const;
+  std::string jump_warning(bool is_dynamic) const;
 
   void save(output::SavedNumbers &numbers) const;
   void restore(const output::SavedNumbers &numbers);
 
  private:
+  std::string steps_with_jumps() const;
   void put_iterations(const solve::RouteReport &report, output::Summary &summary) const;
 
   double start_;         // seconds of this process before it made an account

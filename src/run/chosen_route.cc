@@ -65,35 +65,63 @@ void ChosenRoute<dim>::make_room() {
 // Only a factorised body is worth keeping: other routes factorise, or make a preconditioner, while
 // they take a step.
 template <int dim>
-void ChosenRoute<dim>::begin_step(int n) {
-  const double before = model_.step, step = model_.steps.size(n);
+void ChosenRoute<dim>::take_size(double step) {
+  const double before = model_.step;
   if (step == before)
     return;
-  const solve::Route::Handover done = route_->hand_over();
   if (is_factorised())
     kept_.push_back({before, std::move(route_)});
   route_ = kept_of(step);
   model_.set_step(step);
-  if (!route_) {
-    make_room();
-    progress_.stage(iterative_ ? "preconditioner" : "factorisation");
-    try {
-      route_ = make_route(model_, iterative_);
-    } catch (const MachineError &) {  // the estimate is one
-      if (kept_.empty())
-        throw;
-      kept_.clear();
-      route_ = make_route(model_, iterative_);
-    }
+  if (route_)
+    return;
+  make_room();
+  progress_.stage(iterative_ ? "preconditioner" : "factorisation");
+  try {
+    route_ = make_route(model_, iterative_);
+  } catch (const MachineError &) {  // the estimate is one
+    if (kept_.empty())
+      throw;
+    kept_.clear();
+    route_ = make_route(model_, iterative_);
   }
+}
+
+template <int dim>
+void ChosenRoute<dim>::begin_step(int n) {
+  const double step = model_.steps.size(n);
+  if (step == model_.step)
+    return;
+  const solve::Route::Handover done = route_->hand_over();
+  take_size(step);
   route_->take_over(done);
 }
 
 template <int dim>
-solve::RouteReport ChosenRoute<dim>::report(int n) const {
+typename ChosenRoute<dim>::Memory ChosenRoute<dim>::memory() const {
+  return {iterative_, route_->accumulated_slip(), route_->memory()};
+}
+
+// What an iterative route remembers serves no other one, but for the slip.
+template <int dim>
+void ChosenRoute<dim>::begin_step(int n, const Memory &from) {
+  const double step = model_.steps.size(n);
+  if (from.iterative == iterative_) {
+    const solve::Route::Handover done{route_->hand_over().report, from.of_route};
+    take_size(step);
+    route_->take_over(done);
+    return;
+  }
+  take_size(step);
+  if (from.accumulated_slip.size() > 0)
+    route_->go_on_from(from.accumulated_slip);
+}
+
+template <int dim>
+solve::RouteReport ChosenRoute<dim>::report(int sizes) const {
   solve::RouteReport report = route_->report();
   if (is_factorised())
-    report.factorisations = model_.steps.sizes(n);
+    report.factorisations = sizes;
   return report;
 }
 

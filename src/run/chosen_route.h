@@ -26,14 +26,23 @@ class ChosenRoute {
 
   /// Makes model and route those of step n.
   void begin_step(int n);
+  /// Of the steps so far, for later.
+  struct Memory {
+    bool iterative = false;
+    Eigen::VectorXd accumulated_slip;
+    solve::Route::Memory of_route;
+  };
+  Memory memory() const;
+  /// Likewise, and forgets what was done since then.
+  void begin_step(int n, const Memory &from);
   /// Step n, as `Route::advance` from `state` to `next`.
   solve::StepOutcome advance(int n, std::span<const double> right_side,
                              std::span<const double> state, std::span<double> next);
 
   solve::Route &route() { return *route_; }
   const solve::Route &route() const { return *route_; }
-  /// Of the first n steps.
-  solve::RouteReport report(int n) const;
+  /// Of steps of so many sizes.
+  solve::RouteReport report(int sizes) const;
   /// What `solver.body = "automatic"` did that the user may not expect.
   std::vector<std::string> warnings() const;
 
@@ -45,6 +54,7 @@ class ChosenRoute {
  private:
   void factorise_after_all(int n, const SolveError &error);
   std::unique_ptr<solve::Route> kept_of(double step);
+  void take_size(double step);
   void make_room();
   bool is_factorised() const { return !iterative_ && model_.asked.solver.method == "condensed"; }
 

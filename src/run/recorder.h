@@ -51,7 +51,7 @@ class Recorder {
                                                std::span<const double> state) const;
   void put_boundaries();
   void prepare_fields();
-  bool has_fields(int n) const { return writes_fields(model_.asked, n); }
+  bool has_fields(int n) const { return writes_fields(model_.asked, model_.steps, n); }
   output::CellFields checked_fields(int n, std::span<const double> state);
   void put_fields(int n, std::span<const double> state, const output::CellFields &cells);
   bool has_contact() const { return !model_.asked.contacts.empty(); }

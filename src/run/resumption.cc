@@ -148,21 +148,28 @@ bool is_of_fields(const std::string &name) {
   return std::find(field_groups.begin(), field_groups.end(), name) != field_groups.end();
 }
 
-int ranks_of(const nlohmann::json &summary) {
+int size_of(const nlohmann::json &summary, const char *name, int otherwise) {
   const auto sizes = summary.value("sizes", nlohmann::json::object());
-  return sizes.is_object() && sizes.contains("ranks") && sizes["ranks"].is_number_integer()
-             ? sizes["ranks"].get<int>()
-             : 1;
+  return sizes.is_object() && sizes.contains(name) && sizes[name].is_number_integer()
+             ? sizes[name].get<int>()
+             : otherwise;
 }
 
-std::vector<std::string> field_names(const casefile::Case &asked, bool of_contact, int ranks) {
-  std::vector<std::string> names;
-  for (int n = of_contact ? 1 : 0; n <= asked.time.steps; ++n)
-    if (writes_fields(asked, n) && of_contact)
-      names.push_back(output::contact_field_file(n));
-    else if (writes_fields(asked, n))
-      std::ranges::copy(output::field_files(n, ranks), std::back_inserter(names));
-  names.emplace_back(of_contact ? "contact.pvd" : "result.pvd");
+// Those that the collection has, and itself.
+std::vector<std::string> field_names(const nlohmann::json &summary, const fs::path &directory,
+                                     bool of_contact, int steps) {
+  std::vector<std::string> names{of_contact ? "contact.pvd" : "result.pvd"};
+  const std::string listed = text_in(directory / names[0]);
+  const auto is_listed = [&](const std::string &name) {
+    return listed.find('"' + name + '"') != std::string::npos;
+  };
+  for (int n = 0; n <= size_of(summary, "steps", steps); ++n) {
+    const std::vector<std::string> of_step =
+        of_contact ? std::vector{output::contact_field_file(n)}
+                   : output::field_files(n, size_of(summary, "ranks", 1));
+    if (std::any_of(of_step.begin(), of_step.end(), is_listed))
+      names.insert(names.end(), of_step.begin(), of_step.end());
+  }
   return names;
 }
 
@@ -171,7 +178,8 @@ std::vector<std::string> missing_fields(const casefile::Case &asked, const nlohm
   std::vector<std::string> missing;
   for (const char *group : field_groups)
     if (summary["files"].contains(group))
-      for (const std::string &name : field_names(asked, group[0] == 'c', ranks_of(summary)))
+      for (const std::string &name :
+           field_names(summary, directory, group[0] == 'c', asked.time.steps))
         if (std::error_code error; !fs::exists(directory / name, error))
           missing.push_back(name);
   return missing;

@@ -3,13 +3,14 @@
 #include <chrono>
 
 #include "case/interval.h"
+#include "case/time_steps.h"
 #include "run/stop_signals.h"
 #include "tourmaline/case/case.h"
 
 namespace tourmaline::run {
 
-/// Whether a run of the case writes fields behind step n; 0 is the beginning.
-bool writes_fields(const casefile::Case &asked, int n);
+/// Whether a run of the case writes fields behind step n of these; 0 is the beginning.
+bool writes_fields(const casefile::Case &asked, const casefile::TimeSteps &steps, int n);
 
 /// What a run does between two steps besides going on. All ranks ask together and get the same
 /// answer.
@@ -22,7 +23,8 @@ class Schedule {
 
   explicit Schedule(const casefile::Interval &interval) : interval_(interval) {}
 
-  Pause after(int step);
+  /// Behind the steps `first` to `last`, between which nothing pauses.
+  Pause after(int first, int last);
 
   /// As StopSignals has them: behind the last step nothing pauses any more.
   void answer(const char *text) { signals_.answer(text); }
@@ -31,7 +33,7 @@ class Schedule {
  private:
   using Clock = std::chrono::steady_clock;
 
-  bool is_due(int step) const;
+  bool is_due(int first, int last) const;
 
   StopSignals signals_;
   casefile::Interval interval_;

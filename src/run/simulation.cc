@@ -82,8 +82,8 @@ void tell_start(const Resumption &found, const casefile::Case &asked, const std:
   else if (found.has_all_steps)
     say("all steps of the run in " + name + " are done; making its page, which is missing", quiet);
   else if (found.checkpoint)
-    say(fmt::format("going on in {} after step {} of {}", name, found.checkpoint->step,
-                    asked.time.steps),
+    say(fmt::format("going on in {} after step {}{}", name, found.checkpoint->step,
+                    asked.time.tolerance ? "" : fmt::format(" of {}", asked.time.steps)),
         quiet);
   else
     say("there is no checkpoint in " + name + "; starting from the beginning", quiet);

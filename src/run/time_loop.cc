@@ -58,16 +58,14 @@ TimeLoop<dim>::TimeLoop(const casefile::Case &asked, const std::filesystem::path
       contents_(parallel::is_first() ? contents_of(asked) : decltype(contents_){}),
       friction_name_(options.friction_name),
       quiet_(options.quiet),
-      progress_(asked.time.steps, options.quiet || !parallel::is_first()),
+      progress_(asked.time.tolerance ? 0 : asked.time.steps, asked.time.end,
+                options.quiet || !parallel::is_first()),
       iterative_(checkpoint_ ? ChosenRoute<dim>::was_iterative(checkpoint_->numbers)
                              : solves_iteratively(asked)),
       model_(announced<dim>(asked, progress_)),
-      leaked_(model_),
-      motion_(model_),
-      foundations_(model_),
+      evolution_(model_),
       most_strained_(model_.n_unknowns()),
       adrift_(model_) {
-  state_ = body::initial_state(model_.body, asked.initial);
   rehearse(model_, 1);
   if (options.friction) {
     model_.friction = contact::checked(options.friction, options.friction_name);
@@ -75,10 +73,10 @@ TimeLoop<dim>::TimeLoop(const casefile::Case &asked, const std::filesystem::path
   }
   open_folder(directory, std::move(lock));
   recorder_.emplace(model_, *folder_);
-  if (asked.time.is_static())
-    steady_heat_.emplace(model_, iterative_);
-  route_.emplace(model_, iterative_, progress_,
-                 checkpoint_ ? static_cast<int>(checkpoint_->step) + 1 : 1);
+  if (asked.time.tolerance)
+    chosen_.emplace(model_, evolution_).plan(checkpoint_ ? &checkpoint_->numbers : nullptr);
+  evolution_.make_ready(iterative_, progress_,
+                        checkpoint_ ? static_cast<int>(checkpoint_->step) + 1 : 1);
 }
 
 template <int dim>
@@ -99,116 +97,85 @@ void TimeLoop<dim>::open_folder(const std::filesystem::path &directory,
     open();
 }
 
-// Returns the first step to take.
 template <int dim>
-int TimeLoop<dim>::begin() {
-  if (!checkpoint_) {
-    motion_.begin(state_);
-    foundations_.begin(state_);
-    recorder_->initial(state_, motion_.record());
-    temperature_.begin(recorder_->extremes(state_));
-    return 1;
+void TimeLoop<dim>::begin() {
+  if (checkpoint_) {
+    restore();
+    done_ = saved_step_ = static_cast<int>(checkpoint_->step);
+    checkpoint_.reset();
+  } else {
+    evolution_.begin();
+    recorder_->initial(evolution_.state(), evolution_.motion().record());
+    temperature_.begin(recorder_->extremes(evolution_.state()));
   }
-  restore();
-  done_ = saved_step_ = static_cast<int>(checkpoint_->step);
-  checkpoint_.reset();
-  return done_ + 1;
+  state_ = evolution_.state();
 }
 
 template <int dim>
-void TimeLoop<dim>::prescribe(double time, std::vector<double> &state) {
-  for (const body::Prescribed &p : model_.prescribed)
-    state[p.unknown] = p.value.value(p.point, time);
-  if (steady_heat_)
-    steady_heat_->fill(time, state);
-}
-
-template <int dim>
-void TimeLoop<dim>::sum_loads(double time) {
-  loads_.assign(model_.n_unknowns(), 0.);
-  model_.add_loads(time, loads_);
-}
-
-// Again with other potentials of foundations, until they have the charges that their circuits say.
-template <int dim>
-solve::StepOutcome TimeLoop<dim>::advance(int n) {
-  next_ = state_;
-  for (;;) {
-    prescribe(model_.time(n), next_);
-    sum_right_side(n);
-    solve::StepOutcome outcome = route_->advance(n, right_side_, state_, next_);
-    if (foundations_.settle(model_.time(n), next_, outcome))
-      return outcome;
-    route_->route().take_back();
-  }
-}
-
-template <int dim>
-void TimeLoop<dim>::sum_right_side(int n) {
-  sum_loads(model_.time(n));
-  StepCheck(n, model_.time(n)).loads(dim, model_.body.points(), loads_);
-  right_side_ = loads_;
-  leaked_.add_to(right_side_);
-  if (route_->route().is_refined())
-    model_.cells.add_history(state_, right_side_);
-  else
-    model_.op.add_history(state_, right_side_);
-  motion_.add_history(state_, right_side_);
-}
-
-template <int dim>
-void TimeLoop<dim>::step(int n) {
-  Stopwatch watch;
-  route_->begin_step(n);
-  solve::StepOutcome outcome = advance(n);
-  leaked_.describe(outcome);
-  motion_.end_step(state_, next_);
-  outcome.rates = motion_.record();
-  account_.step(n, outcome, watch.lap());
-  adrift_.step(n, outcome);
-  const output::HistoryRow row = record(n, outcome);
+void TimeLoop<dim>::book(TakenStep step) {
+  account_.step(step.n, step.outcome, step.seconds);
+  adrift_.step(step.n, step.outcome);
+  const output::HistoryRow row = record(step);
   highlights_.see(row);
-  most_strained_.step(row, next_);
+  most_strained_.step(row, step.state);
   temperature_.step(row);
   progress_.step(row);
-  std::swap(state_, next_);
-  leaked_.end_step(model_.time(n), state_);
-  done_ = n;
+  std::swap(state_, step.state);
+  done_ = step.n;
 }
 
 template <int dim>
-output::HistoryRow TimeLoop<dim>::record(int n, const solve::StepOutcome &outcome) {
-  solve::Route &route = route_->route();
-  return recorder_->step(n, outcome, loads_, state_, next_, route,
-                         [&] { return route.accuracy(right_side_, next_, outcome); });
+output::HistoryRow TimeLoop<dim>::record(const TakenStep &step) {
+  solve::Route &route = evolution_.route().route();
+  return recorder_->step(step.n, step.outcome, step.loads, step.before, step.state, route,
+                         [&] { return route.accuracy(step.right_side, step.state, step.outcome); });
 }
 
 template <int dim>
-void TimeLoop<dim>::march(int first, Schedule &schedule) {
-  for (int n = first; n <= model_.asked.time.steps; ++n) {
-    step(n);
-    if (n < model_.asked.time.steps)
-      pause(n, schedule.after(n));
+bool TimeLoop<dim>::is_at_end() const {
+  return chosen_ ? chosen_->is_at_end() : done_ == model_.asked.time.steps;
+}
+
+// Checkpoints stand behind whole pairs.
+template <int dim>
+void TimeLoop<dim>::march(Schedule &schedule) {
+  while (!is_at_end()) {
+    const int first = done_ + 1;
+    if (chosen_)
+      for (TakenStep &step : chosen_->next(done_))
+        book(std::move(step));
+    else
+      book(evolution_.take(first));
+    if (!is_at_end())
+      pause(schedule.after(first, done_));
   }
 }
 
 template <int dim>
-void TimeLoop<dim>::pause(int n, const Schedule::Pause &pause) {
+void TimeLoop<dim>::pause(const Schedule::Pause &pause) {
   if (pause.saves)
-    save(n);
+    save();
   if (pause.stopped_by != 0)
-    throw Stopped(fmt::format("stopped by {} after step {} of {}; the results of these steps and a "
-                              "checkpoint are in {}",
-                              signal_name(pause.stopped_by), n, model_.asked.time.steps,
-                              folder_->directory().string()),
-                  pause.stopped_by);
+    throw Stopped(
+        fmt::format("stopped by {} after step {}{}; the results of these steps and a "
+                    "checkpoint are in {}",
+                    signal_name(pause.stopped_by), done_, of_all(), folder_->directory().string()),
+        pause.stopped_by);
+}
+
+// As far as the number of all steps is known.
+template <int dim>
+std::string TimeLoop<dim>::of_all() const {
+  return chosen_
+             ? fmt::format(" at t = {:.4g} of {:.4g} s", model_.time(done_), model_.asked.time.end)
+             : fmt::format(" of {}", model_.asked.time.steps);
 }
 
 template <int dim>
 void TimeLoop<dim>::run() {
-  const int first = begin();
+  begin();
   Schedule schedule(casefile::interval(model_.asked.output.checkpoint));
-  const output::Summary done = take_steps(first, schedule);
+  const output::Summary done = take_steps(schedule);
   // From here on only the page may be missing, which `--resume` makes.
   parallel::on_first([&] { put_report(); });
   progress_.done();
@@ -217,9 +184,9 @@ void TimeLoop<dim>::run() {
 
 // A program's laws are asked on every rank, and may fail on one of them alone.
 template <int dim>
-void TimeLoop<dim>::march_together(int first, Schedule &schedule) {
+void TimeLoop<dim>::march_together(Schedule &schedule) {
   try {
-    march(first, schedule);
+    march(schedule);
   } catch (const Error &error) {
     require_error_of_all(error);
     throw;
@@ -228,9 +195,9 @@ void TimeLoop<dim>::march_together(int first, Schedule &schedule) {
 
 // The error that ends the steps also says where those before it are.
 template <int dim>
-output::Summary TimeLoop<dim>::take_steps(int first, Schedule &schedule) {
+output::Summary TimeLoop<dim>::take_steps(Schedule &schedule) {
   try {
-    march_together(first, schedule);
+    march_together(schedule);
     return close_tables(schedule);
   } catch (const CaseError &error) {
     keep_what_there_is();
@@ -257,9 +224,9 @@ template <int dim>
 std::string TimeLoop<dim>::what_is_left() const {
   if (done_ == 0)
     return "; no step has been computed";
-  return fmt::format("; the results of {} of {} are in {}",
-                     done_ == 1 ? "step 1" : fmt::format("steps 1 to {}", done_),
-                     model_.asked.time.steps, folder_->directory().string());
+  return fmt::format("; the results of {}{} are in {}",
+                     done_ == 1 ? "step 1" : fmt::format("steps 1 to {}", done_), of_all(),
+                     folder_->directory().string());
 }
 
 // From now on a signal lets the run be finished: it is nearly done.
@@ -302,41 +269,35 @@ void TimeLoop<dim>::tell(const output::Summary &done, int signal) const {
 
 // Everything that later steps, or what is told of the run at its end, depend on.
 template <int dim>
-void TimeLoop<dim>::save(int n) {
+void TimeLoop<dim>::save() {
   parallel::on_first([&] {
     output::Checkpoint checkpoint;
     checkpoint.program = program_version();
     checkpoint.inputs = inputs_;
     checkpoint.ranks = parallel::n_ranks();
-    checkpoint.step = n;
+    checkpoint.step = done_;
     output::SavedNumbers &numbers = checkpoint.numbers;
-    numbers.put("state", state_);
-    leaked_.save(numbers);
-    foundations_.save(numbers);
-    motion_.save(numbers);
+    evolution_.save(numbers);
+    if (chosen_)
+      chosen_->save(numbers);
     account_.save(numbers);
     adrift_.save(numbers);
-    route_->save(numbers);
     recorder_->save(numbers);
     highlights_.save(numbers);
     most_strained_.save(numbers);
     temperature_.save(numbers);
     folder_->put_checkpoint(std::move(checkpoint));
   });
-  saved_step_ = n;
+  saved_step_ = done_;
 }
 
 template <int dim>
 void TimeLoop<dim>::restore() {
   const output::SavedNumbers &numbers = checkpoint_->numbers;
-  numbers.fill("state", state_);
-  leaked_.restore(numbers);
-  foundations_.restore(numbers);
-  motion_.restore(numbers);
+  evolution_.restore(numbers);
   account_.restore(numbers);
   adrift_.restore(numbers);
-  route_->restore(numbers);
-  recorder_->restore(state_, numbers);
+  recorder_->restore(evolution_.state(), numbers);
   highlights_.restore(numbers);
   most_strained_.restore(numbers);
   temperature_.restore(numbers);
@@ -364,7 +325,8 @@ void TimeLoop<dim>::keep_what_there_is() {
 
 template <int dim>
 output::Summary TimeLoop<dim>::summary() const {
-  const solve::RouteReport report = route_->report(done_);
+  const int sizes = chosen_ ? chosen_->sizes() : model_.steps.sizes(done_);
+  const solve::RouteReport report = evolution_.route().report(sizes);
   output::Summary summary;
   summary.title = model_.asked.title;
   summary.friction_name = friction_name_;
@@ -379,11 +341,15 @@ output::Summary TimeLoop<dim>::summary() const {
                    {"contact_nodes", model_.interface.size()},
                    {"factor_entries", report.factor_entries},
                    {"factor_flops", static_cast<std::int64_t>(report.factor_flops)},
-                   {"steps", model_.asked.time.steps},
+                   {"steps", done_},
                    {"ranks", parallel::n_ranks()}};
-  if (!model_.asked.time.intervals.empty())
-    summary.sizes["step_sizes"] = model_.steps.sizes(done_);
-  account_.put(report, model_.asked.time.steps, summary);
+  if (!model_.asked.time.intervals.empty() || chosen_)
+    summary.sizes["step_sizes"] = sizes;
+  if (chosen_) {
+    summary.sizes["rejected_steps"] = chosen_->rejected();
+    summary.sizes["computed_steps"] = chosen_->computed();
+  }
+  account_.put(report, done_, summary);
   summary.seconds.mesh = model_.mesh_seconds;
   summary.seconds.assemble = model_.assemble_seconds;
   summary.seconds.output = recorder_->seconds();
@@ -401,11 +367,13 @@ std::vector<std::string> TimeLoop<dim>::warnings() const {
     if (!text.empty())
       all.push_back(text);
   };
-  for (const std::string &warning : route_->warnings())
+  for (const std::string &warning : evolution_.route().warnings())
     add(warning);
+  if (chosen_)
+    add(chosen_->warning());
   if (most_strained_.step() > 0)
     add(locking_warning(model_, most_strained_.state()));
-  add(account_.jump_warning());
+  add(account_.jump_warning(model_.asked.time.is_dynamic()));
   add(adrift_.warning());
   for (const std::string &text : material_warnings(model_.asked))
     add(text);

@@ -14,17 +14,14 @@
 #include "output/summary.h"
 #include "run/account.h"
 #include "run/adrift.h"
-#include "run/chosen_route.h"
 #include "run/ending.h"
+#include "run/evolution.h"
 #include "run/most_strained.h"
 #include "run/recorder.h"
 #include "run/schedule.h"
+#include "run/step_doubling.h"
 #include "run/temperatures.h"
-#include "solve/foundation_circuits.h"
-#include "solve/leaked_charge.h"
 #include "solve/model.h"
-#include "solve/motion.h"
-#include "solve/steady_heat.h"
 #include "tourmaline/case/case.h"
 #include "tourmaline/run/simulation.h"
 
@@ -46,23 +43,21 @@ class TimeLoop {
  private:
   void open_folder(const std::filesystem::path &directory,
                    std::unique_ptr<output::FolderLock> lock);
-  int begin();
-  void march(int first, Schedule &schedule);
-  void march_together(int first, Schedule &schedule);
-  output::Summary take_steps(int first, Schedule &schedule);
-  void prescribe(double time, std::vector<double> &state);
-  void sum_loads(double time);
-  void sum_right_side(int n);
-  solve::StepOutcome advance(int n);
-  void step(int n);
-  output::HistoryRow record(int n, const solve::StepOutcome &outcome);
-  void pause(int n, const Schedule::Pause &pause);
-  void save(int n);
+  void begin();
+  void march(Schedule &schedule);
+  void march_together(Schedule &schedule);
+  output::Summary take_steps(Schedule &schedule);
+  bool is_at_end() const;
+  void book(TakenStep step);
+  output::HistoryRow record(const TakenStep &step);
+  void pause(const Schedule::Pause &pause);
+  void save();
   void restore();
   output::Summary close_tables(Schedule &schedule);
   void put_report();
   void keep_what_there_is();
   std::string what_is_left() const;
+  std::string of_all() const;
   void tell(const output::Summary &done, int signal) const;
   output::Summary summary() const;
   std::vector<std::string> warnings() const;
@@ -76,17 +71,13 @@ class TimeLoop {
   output::Progress progress_;
   bool iterative_;  // decided once: what is available changes with what is taken
   solve::Model<dim> model_;
-  solve::LeakedCharge<dim> leaked_;  // by the last step that is done
-  solve::Motion<dim> motion_;        // of that step
-  std::vector<double> state_;        // likewise
-  solve::FoundationCircuits<dim> foundations_;
-  std::vector<double> next_, loads_, right_side_;
+  Evolution<dim> evolution_;
+  std::optional<StepDoubling<dim>> chosen_;  // steps, where the program chooses them
   std::optional<output::ResultFolder> folder_;
   std::optional<Recorder<dim>> recorder_;
-  std::optional<solve::SteadyHeat<dim>> steady_heat_;  // of a static case
-  std::optional<ChosenRoute<dim>> route_;
-  int done_ = 0;        // steps
-  int saved_step_ = 0;  // of the checkpoint that is there; 0: none
+  std::vector<double> state_;  // of the last step that is written
+  int done_ = 0;               // steps
+  int saved_step_ = 0;         // of the checkpoint that is there; 0: none
   Highlights highlights_;
   MostStrained most_strained_;
   Adrift<dim> adrift_;

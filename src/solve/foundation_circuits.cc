@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "larger.h"
 #include "solve/exchange_weights.h"
@@ -26,8 +28,8 @@ FoundationCircuits<dim>::FoundationCircuits(const Model<dim> &model)
     if (model.found_potentials[c])
       foundations_.push_back(foundation(c));
   charges_ = before_ = potentials_ = VectorXd::Zero(static_cast<Index>(foundations_.size()));
+  search_ = ProbedNewton(potentials_.size());
   put_potentials();
-  forget_slope();
 }
 
 template <int dim>
@@ -54,13 +56,15 @@ std::vector<casefile::ElectrodeCase> FoundationCircuits<dim>::as_electrodes(
 
 template <int dim>
 void FoundationCircuits<dim>::follow_step() {
-  if (model_.step == of_step_)
-    return;
-  of_step_ = model_.step;
-  circuit_ = Circuit(as_electrodes(model_.asked.contacts), of_step_);
-  for (Foundation &one : foundations_)
-    one = foundation(one.contact);
-  forget_slope();
+  if (model_.step != of_step_) {
+    of_step_ = model_.step;
+    circuit_ = Circuit(as_electrodes(model_.asked.contacts), of_step_);
+    for (Foundation &one : foundations_)
+      one = foundation(one.contact);
+  }
+  if (slope_of_step_ != of_step_)
+    search_.forget();
+  slope_of_step_ = of_step_;
 }
 
 // A law that asks for the contact's state is summed at the nodes; the most that it lets pass, with
@@ -85,6 +89,14 @@ typename FoundationCircuits<dim>::Foundation FoundationCircuits<dim>::foundation
   }
   for (const auto &[node, weight] : made.weights)
     made.capacitance += weight;
+  if (made.capacitance == 0)
+    throw CaseError(
+        fmt::format("{} [contact]: electric.coefficient is 0 all over contact \"{}\", so that no "
+                    "charge comes to "
+                    "its foundation, whose circuit then finds no potential; give it a coefficient "
+                    "> 0, or leave "
+                    "electric out",
+                    model_.asked.source, model_.asked.contacts[contact].called()));
   return made;
 }
 
@@ -143,65 +155,116 @@ double FoundationCircuits<dim>::size(std::size_t f, std::span<const double> stat
 }
 
 template <int dim>
+typename FoundationCircuits<dim>::Lack FoundationCircuits<dim>::lack(
+    double time, std::span<const double> state, const StepOutcome &outcome) const {
+  const VectorXd supplied = circuit_.right_side(time, charges_, before_, potentials_);
+  Lack lack;
+  lack.charges.resize(potentials_.size());
+  lack.sizes.resize(potentials_.size());
+  for (std::size_t f = 0; f < foundations_.size(); ++f) {
+    const auto row = static_cast<Index>(f);
+    lack.charges[row] = -crossed(f, state, outcome);
+    lack.sizes[row] = size(f, state) + std::abs(supplied[row]);
+  }
+  lack.of = lack.charges + circuit_.admittance() * potentials_ - supplied;
+  return lack;
+}
+
+template <int dim>
 bool FoundationCircuits<dim>::settle(double time, std::span<const double> state,
                                      StepOutcome &outcome) {
   if (foundations_.empty())
     return true;
   constexpr int most = 100;
-  constexpr double tolerance = 1e-13;
   follow_step();
-  const VectorXd supplied = circuit_.right_side(time, charges_, before_, potentials_);
-  VectorXd charges(potentials_.size());
-  double sizes = 0;
-  for (std::size_t f = 0; f < foundations_.size(); ++f) {
-    charges[static_cast<Index>(f)] = -crossed(f, state, outcome);
-    sizes = larger(sizes, size(f, state) + std::abs(supplied[static_cast<Index>(f)]));
-  }
-  const VectorXd lacks = charges + circuit_.admittance() * potentials_ - supplied;
-  const double lack = relative_to(lacks.cwiseAbs().maxCoeff(), sizes);
+  const Lack lack = this->lack(time, state, outcome);
   newton_iterations_ += outcome.newton_iterations;
-  if (lack <= tolerance || stall_.see(lack)) {
-    end_step(charges, outcome);
+  if (is_found(lack)) {
+    require_digits(time, lack);
+    end_step(lack.charges, outcome);
     return true;
   }
-  if (++rounds_ == most || !std::isfinite(lack))
+  require_contact(time, lack);
+  if (++rounds_ == most || !lack.of.allFinite())
     throw SolveError(fmt::format(
         "the potential of the foundation at t = {:g} s was not found in {} solutions of the step: "
         "its charge lacks {:.3g} of what its circuit asks for; take smaller time steps, or let the "
         "conductance fade over a longer ramp",
-        time, rounds_, lack));
-  improve(lacks, lack);
+        time, rounds_, relative_to(lack.of.cwiseAbs().maxCoeff(), lack.sizes.maxCoeff())));
+  potentials_ = search_.next(potentials_, lack.of, probe(lack));
+  put_potentials();
   return false;
 }
 
-// Broyden's update, forgotten where it leads nowhere: the slope at the start is more than that of
-// R, with which each round goes in the right direction, if not far. Near round-off it is kept.
+// What is left is round-off of the charges, or moves the potentials no more, or has stopped to
+// fall.
 template <int dim>
-void FoundationCircuits<dim>::improve(const VectorXd &lacks, double lack) {
-  constexpr double near_round_off = 1e-8;
-  if (rounds_ > 1 && lack > near_round_off) {
-    const VectorXd moved = potentials_ - tried_;
-    const VectorXd more = lacks - lacked_ - slope_ * moved;
-    slope_ += more * moved.transpose() / moved.squaredNorm();
-    if (!(lacks.norm() < 2 * lacked_.norm()))
-      forget_slope();
-  }
-  tried_ = potentials_;
-  lacked_ = lacks;
-  VectorXd change = slope_.partialPivLu().solve(lacks);
-  if (!change.allFinite() || change.dot(lacks) <= 0) {
-    forget_slope();
-    change = slope_.partialPivLu().solve(lacks);
-  }
-  potentials_ -= change;
-  put_potentials();
+bool FoundationCircuits<dim>::is_found(const Lack &lack) {
+  constexpr double round_off = std::numeric_limits<double>::epsilon(), nothing = 1e-13;
+  const double left = relative_to(lack.of.cwiseAbs().maxCoeff(), lack.sizes.maxCoeff());
+  if (left <= round_off)
+    return true;
+  if (search_.knows_slope() && search_.distance(lack.of).maxCoeff() <= nothing * probe(lack))
+    return true;
+  return stall_.see(left);
 }
 
+// Of the size of the potentials at hand.
 template <int dim>
-void FoundationCircuits<dim>::forget_slope() {
-  slope_ = circuit_.admittance();
+double FoundationCircuits<dim>::probe(const Lack &lack) const {
+  double size = 0;
+  for (std::size_t f = 0; f < foundations_.size(); ++f) {
+    const auto row = static_cast<Index>(f);
+    size = std::max(
+        size, lack.sizes[row] / (foundations_[f].capacitance + circuit_.admittance()(row, row)));
+  }
+  return size;
+}
+
+// Where nothing touches a foundation, and nothing but the contact is connected to it, its charge is
+// the same with all potentials.
+template <int dim>
+void FoundationCircuits<dim>::require_contact(double time, const Lack &lack) const {
+  constexpr double nothing = 1e-12;
+  if (!search_.knows_slope())
+    return;
+  for (std::size_t f = 0; f < foundations_.size(); ++f) {
+    const auto row = static_cast<Index>(f);
+    const double most = foundations_[f].capacitance + circuit_.admittance()(row, row);
+    if (search_.slope().row(row).cwiseAbs().maxCoeff() > nothing * most ||
+        std::abs(lack.of[row]) <= nothing * lack.sizes[row])
+      continue;
+    throw SolveError(fmt::format(
+        "nothing that touches the foundation of contact \"{}\" at t = {:g} s lets charge through, "
+        "and its "
+        "circuit asks for {:.6g} C on it: no potential gives it that charge. Keep the contact "
+        "closed, or connect the foundation to a capacitor or a resistor",
+        model_.asked.contacts[foundations_[f].contact].called(), time,
+        lack.charges[row] - lack.of[row]));
+  }
+}
+
+// The charge is a difference of what the contact lets pass one way and the other, of which little
+// is left where it conducts far better than the body behind it.
+template <int dim>
+void FoundationCircuits<dim>::require_digits(double time, const Lack &lack) const {
+  constexpr double round_off = std::numeric_limits<double>::epsilon(), most = 1e-6;
+  if (!search_.knows_slope())
+    return;
+  const VectorXd uncertain = lack.of.cwiseAbs() + round_off * lack.sizes;
+  const VectorXd off = search_.distance(uncertain);
   for (std::size_t f = 0; f < foundations_.size(); ++f)
-    slope_(static_cast<Index>(f), static_cast<Index>(f)) += foundations_[f].capacitance;
+    if (const auto row = static_cast<Index>(f);
+        !(off[row] <= most * probe(lack)) && uncertain[row] > 0)
+      throw SolveError(fmt::format(
+          "the potential of the foundation of contact \"{}\" at t = {:g} s is known to {:.2g} V of "
+          "{:.6g} V "
+          "only: electric.coefficient is so large beside the permittivity of the body that the "
+          "charge has no digits left. A smaller one, a thousand times what the body conducts, "
+          "gives the same fields and is as good a conductor; or take `solver.body = \"direct\"` "
+          "where it is \"iterative\"",
+          model_.asked.contacts[foundations_[f].contact].called(), time, off[row],
+          potentials_[row]));
 }
 
 template <int dim>
@@ -222,6 +285,7 @@ void FoundationCircuits<dim>::end_step(const VectorXd &charges, StepOutcome &out
   before_ = potentials_;
   rounds_ = newton_iterations_ = 0;
   stall_ = {};
+  search_.end();
 }
 
 template <int dim>
@@ -230,7 +294,8 @@ void FoundationCircuits<dim>::save(output::SavedNumbers &numbers) const {
     return;
   numbers.put("foundations' charges", charges_);
   numbers.put("foundations' potentials", potentials_);
-  numbers.put("foundations' slope", VectorXd(slope_.reshaped()));
+  search_.save("foundations'", numbers);
+  numbers.put("foundations' step", {slope_of_step_});
 }
 
 template <int dim>
@@ -239,10 +304,11 @@ void FoundationCircuits<dim>::restore(const output::SavedNumbers &numbers) {
     return;
   numbers.fill("foundations' charges", charges_);
   numbers.fill("foundations' potentials", potentials_);
-  VectorXd slope(slope_.size());
-  numbers.fill("foundations' slope", slope);
-  slope_ = slope.reshaped(slope_.rows(), slope_.cols());
+  search_.restore("foundations'", numbers);
+  slope_of_step_ = numbers.get("foundations' step", 1)[0];
   before_ = potentials_;
+  rounds_ = newton_iterations_ = 0;
+  stall_ = {};
   put_potentials();
 }
 

@@ -8,6 +8,7 @@
 #include "output/checkpoint.h"
 #include "solve/circuit.h"
 #include "solve/model.h"
+#include "solve/probed_newton.h"
 #include "solve/route.h"
 #include "solve/stall.h"
 
@@ -18,9 +19,9 @@ namespace tourmaline::solve {
 ///
 ///     R(V) = Q(V) + Y V - j = 0
 ///
-/// (`Circuit`). Body and contact are a capacitor whose charge grows with V, so R does as well. It
-/// is found by Broyden's method, whose matrix is kept from step to step: where the contact's status
-/// stays, R is linear, and the second solution of a step is the last one. All ranks do the same.
+/// (`Circuit`). Body and contact are a capacitor whose charge grows with V, so R does as well.
+/// Where the contact's status stays, R is linear, and the second solution of a step is the last
+/// one (`ProbedNewton`). All ranks do the same.
 template <int dim>
 class FoundationCircuits {
  public:
@@ -53,8 +54,16 @@ class FoundationCircuits {
   double initial_charge(const Foundation &of, std::span<const double> initial) const;
   double crossed(std::size_t f, std::span<const double> state, const StepOutcome &outcome) const;
   double size(std::size_t f, std::span<const double> state) const;
-  void improve(const Eigen::VectorXd &lacks, double lack);
-  void forget_slope();
+  /// R of the potentials at hand [C], by foundation.
+  struct Lack {
+    Eigen::VectorXd of, charges;
+    Eigen::VectorXd sizes;  // of the terms that they were summed from
+  };
+  Lack lack(double time, std::span<const double> state, const StepOutcome &outcome) const;
+  bool is_found(const Lack &lack);
+  double probe(const Lack &lack) const;
+  void require_contact(double time, const Lack &lack) const;
+  void require_digits(double time, const Lack &lack) const;
   void put_potentials() const;
   void end_step(const Eigen::VectorXd &charges, StepOutcome &outcome);
 
@@ -63,9 +72,10 @@ class FoundationCircuits {
   std::vector<Foundation> foundations_;
   Circuit circuit_;
   Eigen::VectorXd charges_, before_;  // at the end of the last step: Q [C], V [V]
-  Eigen::MatrixXd slope_;             // of R [F]
+  ProbedNewton search_{0};
+  double slope_of_step_ = 0;  // k with which it knows the slope of R [s]
   // Of the step at hand:
-  Eigen::VectorXd potentials_, tried_, lacked_;  // V; V and R of the solution before
+  Eigen::VectorXd potentials_;  // V
   int rounds_ = 0, newton_iterations_ = 0;
   Stall stall_;
 };

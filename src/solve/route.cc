@@ -106,9 +106,14 @@ void Route::restore(const output::SavedNumbers &numbers, bool of_other_step) {
     forget_matrices();
 }
 
+Route::Memory Route::memory() const {
+  Memory memory{measured_, {}};
+  save_memory(memory.numbers);
+  return memory;
+}
+
 Route::Handover Route::hand_over() {
-  Handover done{report(), measured_, {}};
-  save_memory(done.memory);
+  Handover done{report(), memory()};
   is_counted_ = true;
   return done;
 }
@@ -128,10 +133,10 @@ void Route::take_over(const Handover &other) {
   so_far_.krylov_iterations = all.krylov_iterations;
   so_far_.krylov_largest = all.krylov_largest;
   so_far_.safe_steps = all.safe_steps;
-  measured_ = other.measured;
+  measured_ = other.memory.measured;
   if (all.is_refined && !is_refined())
     refine_again();
-  restore_memory(other.memory);
+  restore_memory(other.memory.numbers);
   forget_matrices();
 }
 

@@ -127,16 +127,21 @@ class Route {
   void save(output::SavedNumbers &numbers) const;
   /// `of_other_step`: the numbers are those of steps of another size than this route's.
   void restore(const output::SavedNumbers &numbers, bool of_other_step = false);
+  /// What the next step depends on of those before, besides the state.
+  struct Memory {
+    std::array<double, 3> measured{};
+    output::SavedNumbers numbers;
+  };
+  Memory memory() const;
   /// What a route for steps of another size goes on from.
   struct Handover {
     RouteReport report;
-    std::array<double, 3> measured{};
-    output::SavedNumbers memory;
+    Memory memory;
   };
   /// After a step; the route may then go.
   Handover hand_over();
-  /// Goes on from the step of a route of the same kind, to the same bits whatever this one did
-  /// before. Its report then has what that one did.
+  /// Goes on from the step of a route of the same kind, or its own, to the same bits whatever this
+  /// one did before. Its report then has what that one did.
   void take_over(const Handover &other);
 
  protected:

@@ -10,6 +10,7 @@
 #include "../output/temporary_folder.h"
 #include "case/resolved.h"
 #include "case/table_file.h"
+#include "case/tables_in_time.h"
 #include "tourmaline/case/case.h"
 #include "tourmaline/case/reader.h"
 #include "tourmaline/error.h"
@@ -156,6 +157,18 @@ TEST(PointsOverTime, AreRefusedWhereNothingMayDependOnTime) {
                           "case.toml");
               }),
               HasSubstr("must not depend on the time t"));
+}
+
+TEST_F(FileTable, WithTwoColumnsOfOneNameIsRefused) {
+  EXPECT_THAT(complaint_of("t,F,F\n0,1,2\n2,3,4\n", R"({ table = "load.csv", column = "F" })"),
+              HasSubstr("several columns"));
+}
+
+TEST(LoadTable, BendsWhereItsSlopeChanges) {
+  const Case asked = read_text(
+      case_with("{ points = [[0, 0], [0.5, 1], [0.75, 1.5], [1.2, 0], [2, 0]] }"), "case.toml");
+  EXPECT_THAT(bends(asked), ::testing::ElementsAre(0.75, 1.2));
+  EXPECT_THAT(bends(read_text(case_with("\"t*t\""), "case.toml")), ::testing::IsEmpty());
 }
 
 }  // namespace

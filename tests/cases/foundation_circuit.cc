@@ -193,6 +193,48 @@ void expect_refused(const std::string &electric, const std::string &words) {
   }
 }
 
+// The charge that comes through a good conductor is a small difference of large numbers.
+TEST(FoundationCircuit, OfGoodConductorsKeepsItsDigitsOrSaysThatItLostThem) {
+  const auto with = [](double coefficient, const Overrides &more) {
+    Overrides all{fmt::format("contact.electric={{law='exchange',coefficient={},circuit={{}}}}",
+                              coefficient)};
+    all.insert(all.end(), more.begin(), more.end());
+    return RunCase("cases/verification/charge-exchange.toml", all);
+  };
+  for (const double coefficient : {1e-7, 1e-3, 1.})
+    for (const Overrides &route : routes)
+      for (const double voltage : with(coefficient, route).history().numbers("foundation_voltage"))
+        EXPECT_NEAR(voltage, pressed / capacity, 1e-6 * pressed / capacity) << coefficient;
+  try {
+    with(1e8, {});
+    FAIL() << "found a potential that nobody can know";
+  } catch (const SolveError &error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("electric.coefficient is so large"));
+  }
+}
+
+TEST(FoundationCircuit, ThatNothingTouchesAndThatHasAChargeIsAnError) {
+  const std::string gap = "contact.gap=1", law = "contact.normal.law='unilateral'",
+                    ramp = "contact.electric.ramp=1e-6";
+  try {
+    column("{charge='1e-9*t'}", {law, gap, ramp});
+    FAIL() << "found a potential that does not exist";
+  } catch (const SolveError &error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("nothing that touches the foundation"));
+  }
+  expect_closed_balances(column("{}", {law, gap, ramp}).history());
+}
+
+TEST(FoundationCircuit, ThatNoChargeComesToIsRefused) {
+  try {
+    RunCase("cases/verification/charge-exchange.toml",
+            {"contact.electric={law='exchange',coefficient='0*x',circuit={}}"});
+    FAIL() << "was not refused";
+  } catch (const CaseError &error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("is 0 all over contact"));
+  }
+}
+
 TEST(FoundationCircuit, ThatContradictsItselfIsRefused) {
   const std::string law = "{law='exchange',coefficient=1e-7,";
   expect_refused(law + "circuit={},foundation_potential=1}",

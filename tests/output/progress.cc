@@ -68,7 +68,7 @@ TEST(ProgressBar, ItFillsFromTheLeft) {
 TEST(ProgressLine, InAPipeAShortRunSaysNothing) {
   testing::internal::CaptureStderr();
   {
-    Progress progress(20, false);
+    Progress progress(20, 1, false);
     progress.stage("mesh");
     progress.step(row(1));
     progress.done();
@@ -79,7 +79,7 @@ TEST(ProgressLine, InAPipeAShortRunSaysNothing) {
 TEST(ProgressLine, InAPipeALineFollowsEveryPause) {
   testing::internal::CaptureStderr();
   {
-    Progress progress(20, false, std::chrono::milliseconds(100));
+    Progress progress(20, 1, false, std::chrono::milliseconds(100));
     for (int i = 1; i <= 3; ++i) {
       progress.step(row(2 * i - 1));
       ::usleep(120000);
@@ -95,7 +95,7 @@ TEST(ProgressLine, InAPipeALineFollowsEveryPause) {
 TEST(ProgressLine, WhenQuietNothingIsSaidInAPipe) {
   testing::internal::CaptureStderr();
   {
-    Progress progress(20, true, std::chrono::milliseconds(0));
+    Progress progress(20, 1, true, std::chrono::milliseconds(0));
     progress.stage("mesh");
     progress.step(row(1));
   }
@@ -105,7 +105,7 @@ TEST(ProgressLine, WhenQuietNothingIsSaidInAPipe) {
 TEST(ProgressLine, WhenQuietNothingIsSaidOnATerminal) {
   EXPECT_EQ(on_a_terminal(80,
                           [] {
-                            Progress progress(20, true);
+                            Progress progress(20, 1, true);
                             progress.stage("mesh");
                             progress.step(row(1));
                           }),
@@ -114,7 +114,7 @@ TEST(ProgressLine, WhenQuietNothingIsSaidOnATerminal) {
 
 TEST(ProgressLine, ItIsRewrittenInPlaceAndClearedInTheEnd) {
   const std::string text = on_a_terminal(80, [] {
-    Progress progress(20, false);
+    Progress progress(20, 1, false);
     progress.stage("factorise");
     progress.step(row(1));
     progress.done();
@@ -128,7 +128,7 @@ TEST(ProgressLine, ItIsRewrittenInPlaceAndClearedInTheEnd) {
 TEST(ProgressLine, ItIsClearedWhenAnErrorEndsTheRun) {
   const std::string text = on_a_terminal(80, [] {
     try {
-      Progress progress(20, false);
+      Progress progress(20, 1, false);
       progress.stage("factorise");
       throw std::runtime_error("out of memory");
     } catch (const std::runtime_error &) {
@@ -139,7 +139,7 @@ TEST(ProgressLine, ItIsClearedWhenAnErrorEndsTheRun) {
 
 TEST(ProgressLine, FastStepsAreNotAllDrawn) {
   const std::string text = on_a_terminal(80, [] {
-    Progress progress(1000, false);
+    Progress progress(1000, 1, false);
     for (int i = 1; i <= 1000; ++i)
       progress.step(row(i));
   });
@@ -150,7 +150,7 @@ TEST(ProgressLine, FastStepsAreNotAllDrawn) {
 
 TEST(ProgressLine, TheTimeLeftIsKnownFromTheSecondStepOn) {
   const std::string text = on_a_terminal(80, [] {
-    Progress progress(3, false);
+    Progress progress(3, 1, false);
     progress.step(row(1));
     ::usleep(150000);
     progress.step(row(2));
@@ -162,7 +162,7 @@ TEST(ProgressLine, TheTimeLeftIsKnownFromTheSecondStepOn) {
 }
 
 TEST(ProgressLine, ItNeverWrapsOnANarrowTerminal) {
-  const std::string text = on_a_terminal(20, [] { Progress(20, false).step(row(1)); });
+  const std::string text = on_a_terminal(20, [] { Progress(20, 1, false).step(row(1)); });
   EXPECT_EQ(text, "\r\033[K" + progress_text(row(1), 20, -1).substr(0, 19) + "\r\033[K");
 }
 

@@ -21,10 +21,11 @@ struct IntervalCase {
 };
 
 struct TimeCase {
-  double end = 1;                              ///< [s]
-  int steps = 1;                               ///< of all intervals together
-  std::vector<IntervalCase> intervals;         ///< empty: steps of one size
-  std::string regime = "quasistatic";          ///< quasistatic | static | dynamic
+  double end = 1;                       ///< [s]
+  int steps = 1;                        ///< of all intervals together
+  std::vector<IntervalCase> intervals;  ///< empty: steps of one size
+  std::optional<double> tolerance;      ///< the program chooses steps, the longest end / steps
+  std::string regime = "quasistatic";   ///< quasistatic | static | dynamic
   std::string contact_mass = "redistributed";  ///< redistributed | consistent; of the dynamic one
 
   bool is_static() const { return regime == "static"; }
@@ -46,8 +47,8 @@ struct SolverCase {
 
 struct OutputCase {
   bool fields = true;
-  int every =
-      0;  ///< steps between two field files; 0 while reading: so many that at most 50 are left
+  /// Steps between two field files; not given: as many as 50 parts of the time begin.
+  std::optional<int> every;
   bool report = true;
   std::string checkpoint = "5 min";  ///< between two checkpoints: steps, a time, or never
 };

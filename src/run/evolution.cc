@@ -1,0 +1,126 @@
+#include "run/evolution.h"
+
+#include <utility>
+
+#include "body/prescribed.h"
+#include "run/step_check.h"
+#include "stopwatch.h"
+
+namespace tourmaline::run {
+
+template <int dim>
+Evolution<dim>::Evolution(solve::Model<dim> &model)
+    : model_(model),
+      leaked_(model),
+      motion_(model),
+      foundations_(model),
+      state_(body::initial_state(model.body, model.asked.initial)) {}
+
+template <int dim>
+void Evolution<dim>::make_ready(bool iterative, output::Progress &progress, int first) {
+  if (model_.asked.time.is_static())
+    steady_heat_.emplace(model_, iterative);
+  route_.emplace(model_, iterative, progress, first);
+}
+
+template <int dim>
+void Evolution<dim>::begin() {
+  motion_.begin(state_);
+  foundations_.begin(state_);
+}
+
+template <int dim>
+void Evolution<dim>::prescribe(double time, std::vector<double> &state) {
+  for (const body::Prescribed &p : model_.prescribed)
+    state[p.unknown] = p.value.value(p.point, time);
+  if (steady_heat_)
+    steady_heat_->fill(time, state);
+}
+
+template <int dim>
+void Evolution<dim>::sum_right_side(TakenStep &step) {
+  const double time = model_.time(step.n);
+  step.loads.assign(model_.n_unknowns(), 0.);
+  model_.add_loads(time, step.loads);
+  StepCheck(step.n, time).loads(dim, model_.body.points(), step.loads);
+  step.right_side = step.loads;
+  leaked_.add_to(step.right_side);
+  if (route_->route().is_refined())
+    model_.cells.add_history(state_, step.right_side);
+  else
+    model_.op.add_history(state_, step.right_side);
+  motion_.add_history(state_, step.right_side);
+}
+
+// Again with other potentials of foundations, until they have the charges that their circuits say.
+template <int dim>
+void Evolution<dim>::advance(TakenStep &step) {
+  const double time = model_.time(step.n);
+  step.state = state_;
+  for (;;) {
+    prescribe(time, step.state);
+    sum_right_side(step);
+    step.outcome = route_->advance(step.n, step.right_side, state_, step.state);
+    if (foundations_.settle(time, step.state, step.outcome))
+      return;
+    route_->route().take_back();
+  }
+}
+
+template <int dim>
+TakenStep Evolution<dim>::take(int n) {
+  Stopwatch watch;
+  route_->begin_step(n);
+  TakenStep step;
+  step.n = n;
+  step.before = state_;
+  advance(step);
+  leaked_.describe(step.outcome);
+  motion_.end_step(state_, step.state);
+  step.outcome.rates = motion_.record();
+  state_ = step.state;
+  leaked_.end_step(model_.time(n), state_);
+  step.seconds = watch.lap();
+  return step;
+}
+
+template <int dim>
+typename Evolution<dim>::Point Evolution<dim>::point() const {
+  Point point{state_, {}, route_->memory()};
+  leaked_.save(point.rest);
+  foundations_.save(point.rest);
+  motion_.save(point.rest);
+  return point;
+}
+
+template <int dim>
+void Evolution<dim>::go_back(const Point &point, int n) {
+  state_ = point.state;
+  leaked_.restore(point.rest);
+  foundations_.restore(point.rest);
+  motion_.restore(point.rest);
+  route_->begin_step(n, point.route);
+}
+
+template <int dim>
+void Evolution<dim>::save(output::SavedNumbers &numbers) const {
+  numbers.put("state", state_);
+  leaked_.save(numbers);
+  foundations_.save(numbers);
+  motion_.save(numbers);
+  route_->save(numbers);
+}
+
+template <int dim>
+void Evolution<dim>::restore(const output::SavedNumbers &numbers) {
+  numbers.fill("state", state_);
+  leaked_.restore(numbers);
+  foundations_.restore(numbers);
+  motion_.restore(numbers);
+  route_->restore(numbers);
+}
+
+template class Evolution<2>;
+template class Evolution<3>;
+
+}  // namespace tourmaline::run
