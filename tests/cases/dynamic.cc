@@ -141,8 +141,9 @@ TEST(PlateOnAStop, ThePressureInTheMiddleIsTheWavesAndTheRestIsOpen) {
   int seen = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     EXPECT_GE(gap[i], -1e-15);
-    if (x[i] > 0.061)
+    if (x[i] > 0.061) {
       EXPECT_EQ(traction[i], 0);
+    }
     if (x[i] < 1e-9 && time[i] > 4e-6) {
       EXPECT_NEAR(-traction[i], 4e7, 0.01 * 4e7) << time[i];
       ++seen;
