@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <numbers>
 
 #include "closed_balances.h"
@@ -93,6 +95,72 @@ TEST(BouncingBar, EveryRouteBouncesAlike) {
     expect_equal_quantities(other.nodes(), direct.nodes(), {{"u_x", "u_y"}}, 1e-8);
     expect_equal_quantities(other.history(), direct.history(), {{"kinetic_energy"}}, 1e-8);
   }
+}
+
+// How high the front of the plate's wave stands above the middle of its stop: where between two
+// nodes of the left side the strain is half of V/c.
+double front_of_plate(int steps) {
+  constexpr double c = 5000, v = 1;
+  const RunCase run("cases/impact/plate.toml", {fmt::format("time.steps={}", steps),
+                                                fmt::format("time.end={}", steps * 1.25e-7)});
+  expect_closed_balances(run.history(), 1e-9);
+  const Table nodes = run.nodes();
+  const auto x = nodes.numbers("x"), y = nodes.numbers("y"), u = nodes.numbers("u_y");
+  std::map<double, double> column;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (x[i] < 1e-9)
+      column[y[i]] = u[i];
+  double above = 0, middle_above = 0;
+  for (auto upper = std::prev(column.end()); upper != column.begin(); --upper) {
+    const auto lower = std::prev(upper);
+    const double strain = (lower->second - upper->second) / (upper->first - lower->first) * c / v;
+    const double middle = (upper->first + lower->first) / 2;
+    if (strain >= 0.5)
+      return middle + (middle_above - middle) * (strain - 0.5) / (strain - above);
+    above = strain;
+    middle_above = middle;
+  }
+  ADD_FAILURE() << "no front";
+  return 0;
+}
+
+// c = sqrt(E/rho) = 5000 m/s; the front is some cells of 2 mm wide, which grow.
+TEST(PlateThatAStopHits, TheFrontRisesWithTheSpeedOfSound) {
+  const double early = front_of_plate(80), late = front_of_plate(160);
+  EXPECT_NEAR((late - early) / 1e-5, 5000, 0.01 * 5000);
+  EXPECT_NEAR(late, 0.1, 2e-3);
+}
+
+// rho c V = 40 MPa, until waves from the stop's end come after 0.06/5000 = 12 us; the first
+// microseconds have the overshoot of a jump on cells.
+TEST(PlateThatAStopHits, ThePressureInTheMiddleIsTheWavesAndTheRestIsOpen) {
+  const RunCase run("cases/impact/plate.toml", {"time.steps=80", "time.end=1e-5"});
+  const Table contact = run.contact();
+  const auto x = contact.numbers("x"), time = contact.numbers("time"),
+             traction = contact.numbers("normal_traction"), gap = contact.numbers("gap");
+  int seen = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    EXPECT_GE(gap[i], -1e-15);
+    if (x[i] > 0.061) {
+      EXPECT_EQ(traction[i], 0);
+    }
+    if (x[i] < 1e-9 && time[i] > 4e-6) {
+      EXPECT_NEAR(-traction[i], 4e7, 0.01 * 4e7) << time[i];
+      ++seen;
+    }
+  }
+  EXPECT_GE(seen, 40);
+}
+
+// Whoever moves: a plate that falls on the stop at rest feels the same.
+TEST(PlateThatAStopHits, OnlyTheRelativeVelocityCounts) {
+  const std::vector<std::string> until{"time.steps=80", "time.end=1e-5"};
+  auto falls = until;
+  falls.emplace_back("contact.foundation_displacement=[0,0]");
+  falls.emplace_back("initial.velocity=[0,-1]");
+  const RunCase pushed("cases/impact/plate.toml", until), falling("cases/impact/plate.toml", falls);
+  EXPECT_LE(difference(falling.contact(), pushed.contact(), "normal_traction"), 1e-9);
+  EXPECT_LE(difference(falling.history(), pushed.history(), "elastic_energy"), 1e-9);
 }
 
 // SDNV100: a bar of 0.2 m meets a wall at 100 m/s, 2 mm away.
