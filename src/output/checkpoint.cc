@@ -131,6 +131,11 @@ void SavedNumbers::put(const std::string &name, std::initializer_list<double> va
   values_[name] = values;
 }
 
+std::size_t SavedNumbers::size(const std::string &name) const {
+  const auto found = values_.find(name);
+  return found == values_.end() ? 0 : found->second.size();
+}
+
 std::span<const double> SavedNumbers::get(const std::string &name, std::size_t size) const {
   const auto found = values_.find(name);
   if (found == values_.end() || found->second.size() != size)

@@ -24,6 +24,8 @@ class SavedNumbers {
   void put(const std::string &name, std::initializer_list<double> values);
   /// Throws MachineError when nothing of that name, or another number of values, is there.
   std::span<const double> get(const std::string &name, std::size_t size) const;
+  /// 0 where nothing of that name is there.
+  std::size_t size(const std::string &name) const;
   /// Into a vector of the right size.
   template <class Vector3>
   void fill(const std::string &name, Vector3 &values) const {

@@ -155,21 +155,31 @@ int size_of(const nlohmann::json &summary, const char *name, int otherwise) {
              : otherwise;
 }
 
-// Those that the collection has, and itself.
-std::vector<std::string> field_names(const nlohmann::json &summary, const fs::path &directory,
-                                     bool of_contact, int steps) {
-  std::vector<std::string> names{of_contact ? "contact.pvd" : "result.pvd"};
-  const std::string listed = text_in(directory / names[0]);
-  const auto is_listed = [&](const std::string &name) {
-    return listed.find('"' + name + '"') != std::string::npos;
-  };
-  for (int n = 0; n <= size_of(summary, "steps", steps); ++n) {
-    const std::vector<std::string> of_step =
-        of_contact ? std::vector{output::contact_field_file(n)}
-                   : output::field_files(n, size_of(summary, "ranks", 1));
-    if (std::any_of(of_step.begin(), of_step.end(), is_listed))
+std::vector<std::string> names_of_step(int n, bool of_contact, int ranks) {
+  return of_contact ? std::vector{output::contact_field_file(n)} : output::field_files(n, ranks);
+}
+
+// Which steps the program chose is known from the collection alone.
+bool has_fields(const casefile::Case &asked, const std::string &collection, int n,
+                const std::vector<std::string> &names) {
+  if (!asked.time.tolerance)
+    return writes_fields(asked, casefile::TimeSteps(asked.time), n);
+  return std::any_of(names.begin(), names.end(), [&](const std::string &name) {
+    return collection.find('"' + name + '"') != std::string::npos;
+  });
+}
+
+std::vector<std::string> field_names(const casefile::Case &asked, const nlohmann::json &summary,
+                                     const fs::path &directory, bool of_contact) {
+  const char *collection = of_contact ? "contact.pvd" : "result.pvd";
+  const std::string listed = text_in(directory / collection);
+  std::vector<std::string> names;
+  for (int n = of_contact ? 1 : 0; n <= size_of(summary, "steps", asked.time.steps); ++n) {
+    const auto of_step = names_of_step(n, of_contact, size_of(summary, "ranks", 1));
+    if (has_fields(asked, listed, n, of_step))
       names.insert(names.end(), of_step.begin(), of_step.end());
   }
+  names.emplace_back(collection);
   return names;
 }
 
@@ -178,8 +188,7 @@ std::vector<std::string> missing_fields(const casefile::Case &asked, const nlohm
   std::vector<std::string> missing;
   for (const char *group : field_groups)
     if (summary["files"].contains(group))
-      for (const std::string &name :
-           field_names(summary, directory, group[0] == 'c', asked.time.steps))
+      for (const std::string &name : field_names(asked, summary, directory, group[0] == 'c'))
         if (std::error_code error; !fs::exists(directory / name, error))
           missing.push_back(name);
   return missing;

@@ -58,12 +58,13 @@ StepLadder::StepLadder(double end, double longest, const std::vector<double> &be
   }
 }
 
-// The largest power of two that is neither longer than wanted nor than what is left.
+// The largest power of two that is neither longer than wanted nor than what is left, and that the
+// place is a multiple of: so no stretch ends in ever shorter pairs.
 StepLadder::Ticks StepLadder::length() const {
   const double wanted = std::min(wanted_, longest_) * (1 + round_off) / stretch().tick;
   const int power = std::clamp(std::ilogb(wanted), smallest, 62);
   Ticks length = Ticks{1} << power;
-  while (length > stretch().length - place_)
+  while (length > stretch().length - place_ || place_ % length != 0)
     length /= 2;
   return length;
 }
@@ -80,16 +81,16 @@ StepLadder::Pair StepLadder::pair() const {
           time(place_ + whole)};
 }
 
-// A pair that the end of its stretch has cut short says nothing against longer ones.
+// A pair that its place or the end of its stretch has cut short says little about longer ones.
 void StepLadder::accept(double error) {
-  constexpr int most = 3;  // doublings
-  const int doublings =
-      error > 0 ? static_cast<int>(std::clamp(std::floor(-halvings_for(error)), 0., 1. * most))
-                : most;
+  constexpr double most = 3, any = 60;  // doublings
   const Ticks length = this->length();
   const double taken = static_cast<double>(length) * stretch().tick;
-  const bool was_cut = taken < wanted_ * (1 - round_off) && taken < longest_ * (1 - round_off) / 2;
-  wanted_ = std::min(longest_, std::max(was_cut ? wanted_ : 0, std::ldexp(taken, doublings)));
+  const double doublings = error > 0 ? std::clamp(std::floor(-halvings_for(error)), 0., any) : any;
+  const bool was_cut = 2 * taken <= std::min(wanted_, longest_) * (1 + round_off);
+  const double grown = taken * std::exp2(std::min(doublings, most));
+  wanted_ = std::min(
+      longest_, was_cut ? std::min(taken * std::exp2(doublings), std::max(wanted_, grown)) : grown);
   place_ += length;
   if (place_ < stretch().length)
     return;

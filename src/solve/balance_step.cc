@@ -342,16 +342,36 @@ EndForces initial_forces(const Model<dim> &model, const BalancedState<dim> &init
 // Of the diagonal some neighbours' share of the row in its own field. Couplings to other fields do
 // not count: no larger in a sound case, they would excuse any imbalance of constants out of all
 // proportion.
+namespace {
+
+// Adds what contact nodes let through by their state, closed and without pressure, to the diagonal
+// of potentials and temperatures, which the operator has without it.
+template <int dim>
+void add_exchanges(const Model<dim> &model, double watt, std::vector<double> &diagonal) {
+  const auto add = [&](contact::Crossing what, int component, double unit) {
+    for (const contact::InterfaceNode<dim> &at : model.interface)
+      if (!model.laws.of(at).linear(what))
+        if (const auto exchange = model.laws.of(at).exchange(what, at.point, 0, 0))
+          diagonal[body::unknown<dim>(at.node, component)] +=
+              std::abs(at.weight * exchange->at(0, {}).by_value) / unit;
+  };
+  add(contact::Crossing::charge, Fields<dim>::potential, 1);
+  add(contact::Crossing::heat, Fields<dim>::temperature, watt);
+}
+
+}  // namespace
+
 template <int dim>
 BalanceRoundOff round_off_of(const Model<dim> &model, const CoupledFields &coupled,
                              const BalanceStep<dim> &step) {
   constexpr double several = 1e2, neighbours = 10;
   const double eps = larger(std::numeric_limits<double>::epsilon(), step.backward_error);
-  const std::vector<double> diagonal = model.op.diagonal(model.step);
+  std::vector<double> diagonal = model.op.diagonal(model.step);
   const std::array<double, Fields<dim>::count> scale = body::Operator<dim>::scales(diagonal);
   std::array<double, 3> size = coupled_sizes(coupled, step, scale);
   size[0] = std::max(size[0], widest_opening(model, step) / scale[0]);
   const double watt = model.op.reference_temperature() / model.step;
+  add_exchanges(model, watt, diagonal);
   BalanceRoundOff sums;
   for (std::size_t i = 0; i < diagonal.size(); ++i) {
     const int field = field_of<dim>(i);

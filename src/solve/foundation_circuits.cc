@@ -179,19 +179,20 @@ bool FoundationCircuits<dim>::settle(double time, std::span<const double> state,
   follow_step();
   const Lack lack = this->lack(time, state, outcome);
   newton_iterations_ += outcome.newton_iterations;
+  search_.see(potentials_, lack.of, probe(lack));
+  require_contact(time, lack, outcome);
   if (is_found(lack)) {
     require_digits(time, lack);
     end_step(lack.charges, outcome);
     return true;
   }
-  require_contact(time, lack);
   if (++rounds_ == most || !lack.of.allFinite())
     throw SolveError(fmt::format(
         "the potential of the foundation at t = {:g} s was not found in {} solutions of the step: "
         "its charge lacks {:.3g} of what its circuit asks for; take smaller time steps, or let the "
         "conductance fade over a longer ramp",
         time, rounds_, relative_to(lack.of.cwiseAbs().maxCoeff(), lack.sizes.maxCoeff())));
-  potentials_ = search_.next(potentials_, lack.of, probe(lack));
+  potentials_ = search_.next();
   put_potentials();
   return false;
 }
@@ -224,24 +225,35 @@ double FoundationCircuits<dim>::probe(const Lack &lack) const {
 // Where nothing touches a foundation, and nothing but the contact is connected to it, its charge is
 // the same with all potentials.
 template <int dim>
-void FoundationCircuits<dim>::require_contact(double time, const Lack &lack) const {
+void FoundationCircuits<dim>::require_contact(double time, const Lack &lack,
+                                              const StepOutcome &outcome) const {
   constexpr double nothing = 1e-12;
   if (!search_.knows_slope())
     return;
   for (std::size_t f = 0; f < foundations_.size(); ++f) {
     const auto row = static_cast<Index>(f);
     const double most = foundations_[f].capacitance + circuit_.admittance()(row, row);
-    if (search_.slope().row(row).cwiseAbs().maxCoeff() > nothing * most ||
+    if (touches(f, outcome) || search_.slope().row(row).cwiseAbs().maxCoeff() > nothing * most ||
         std::abs(lack.of[row]) <= nothing * lack.sizes[row])
       continue;
     throw SolveError(fmt::format(
-        "nothing that touches the foundation of contact \"{}\" at t = {:g} s lets charge through, "
-        "and its "
-        "circuit asks for {:.6g} C on it: no potential gives it that charge. Keep the contact "
-        "closed, or connect the foundation to a capacitor or a resistor",
+        "nothing touches the foundation of contact \"{}\" at t = {:g} s, and its circuit asks for "
+        "{:.6g} C on it: no potential gives it that charge. Keep the contact closed, or connect "
+        "the foundation to a capacitor or a resistor",
         model_.asked.contacts[foundations_[f].contact].called(), time,
         lack.charges[row] - lack.of[row]));
   }
+}
+
+template <int dim>
+bool FoundationCircuits<dim>::touches(std::size_t f, const StepOutcome &outcome) const {
+  if (foundations_[f].is_linear)
+    return true;
+  for (std::size_t i = 0; i < model_.interface.size(); ++i)
+    if (model_.interface[i].contact == foundations_[f].contact &&
+        outcome.status[i] != ContactStatus::open)
+      return true;
+  return false;
 }
 
 // The charge is a difference of what the contact lets pass one way and the other, of which little

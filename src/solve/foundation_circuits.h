@@ -62,7 +62,8 @@ class FoundationCircuits {
   Lack lack(double time, std::span<const double> state, const StepOutcome &outcome) const;
   bool is_found(const Lack &lack);
   double probe(const Lack &lack) const;
-  void require_contact(double time, const Lack &lack) const;
+  void require_contact(double time, const Lack &lack, const StepOutcome &outcome) const;
+  bool touches(std::size_t f, const StepOutcome &outcome) const;
   void require_digits(double time, const Lack &lack) const;
   void put_potentials() const;
   void end_step(const Eigen::VectorXd &charges, StepOutcome &outcome);

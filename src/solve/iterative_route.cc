@@ -127,10 +127,11 @@ void IterativeRoute<dim>::save_memory(output::SavedNumbers &numbers) const {
 
 template <int dim>
 void IterativeRoute<dim>::restore_memory(const output::SavedNumbers &numbers) {
-  body_.system().restore(numbers, model_.interface.size());
-  restore_contact(numbers);
-  two_before_.resize(model_.n_unknowns());
+  two_before_.resize(numbers.size("state before"));
   numbers.fill("state before", two_before_);
+  restore_contact(numbers);
+  if (!two_before_.empty())  // of a step, whose contact the preconditioner has
+    body_.system().restore(numbers, model_.interface.size());
 }
 
 template <int dim>

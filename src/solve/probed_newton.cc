@@ -14,38 +14,44 @@ VectorXd ProbedNewton::distance(const VectorXd &residual) const {
              : VectorXd::Constant(residual.size(), std::numeric_limits<double>::infinity());
 }
 
-// From one probe to the next, and from the last one back to where they began.
-VectorXd ProbedNewton::probe_on(const VectorXd &residual, double probe) {
-  if (probed_ >= 0)
+void ProbedNewton::see_probe(const VectorXd &x, const VectorXd &residual) {
+  if (probed_ < 0) {
+    x_ = x;
+    residual_ = residual;
+  } else {
     slope_.col(probed_) = (residual - residual_) / probe_;
-  VectorXd x = x_;
-  if (++probed_ < x.size()) {
-    probe_ = probe;
-    x[probed_] += probe;
-    return x;
   }
+  if (++probed_ < x.size())
+    return;
   probed_ = -1;
   knows_slope_ = true;
-  return x - slope_.partialPivLu().solve(residual_);
 }
 
-// What has led away is half taken back.
-VectorXd ProbedNewton::next(const VectorXd &x, const VectorXd &residual, double probe) {
-  if (!knows_slope_) {
-    if (probed_ < 0) {
-      x_ = x;
-      residual_ = residual;
-    }
-    return probe_on(residual, probe);
-  }
+void ProbedNewton::see(const VectorXd &x, const VectorXd &residual, double probe) {
   constexpr double far = 1e-4;  // below it the difference of two residuals has too few digits
-  if (x_.size() > 0 && (x - x_).norm() > far * std::abs(probe))
+  if (!knows_slope_) {
+    see_probe(x, residual);
+    probe_ = probe;
+    return;
+  }
+  const bool goes_on = x_.size() > 0;
+  if (goes_on && (x - x_).norm() > far * std::abs(probe))
     update(x, residual);
-  if (residual_.size() > 0 && residual.norm() > 2 * residual_.norm())
-    return (x_ + x) / 2;
+  halfway_.resize(0);
+  if (goes_on && residual.norm() > 2 * residual_.norm()) {
+    halfway_ = (x_ + x) / 2;
+    return;
+  }
   x_ = x;
   residual_ = residual;
-  return x - slope_.partialPivLu().solve(residual);
+}
+
+VectorXd ProbedNewton::next() const {
+  if (knows_slope_)
+    return halfway_.size() > 0 ? halfway_ : VectorXd(x_ - slope_.partialPivLu().solve(residual_));
+  VectorXd x = x_;
+  x[probed_] += probe_;
+  return x;
 }
 
 void ProbedNewton::update(const VectorXd &x, const VectorXd &residual) {
@@ -57,6 +63,12 @@ void ProbedNewton::end() {
   probed_ = -1;
   x_.resize(0);
   residual_.resize(0);
+  halfway_.resize(0);
+}
+
+void ProbedNewton::forget() {
+  knows_slope_ = false;
+  end();
 }
 
 void ProbedNewton::save(const std::string &name, output::SavedNumbers &numbers) const {

@@ -14,30 +14,34 @@ class ProbedNewton {
  public:
   explicit ProbedNewton(Eigen::Index n) : slope_(n, n) {}
 
-  /// Where to evaluate R next, having evaluated it at x. A probe changes a component by `probe`.
-  Eigen::VectorXd next(const Eigen::VectorXd &x, const Eigen::VectorXd &residual, double probe);
+  /// R has been evaluated at x, where the last `next` wanted it or where the search begins; a
+  /// probe is to change a component by `probe`.
+  void see(const Eigen::VectorXd &x, const Eigen::VectorXd &residual, double probe);
+  /// Where to evaluate R next.
+  Eigen::VectorXd next() const;
   /// The next search may begin somewhere else.
   void end();
-  void forget() { knows_slope_ = false; }
+  void forget();
 
   bool knows_slope() const { return knows_slope_; }
   const Eigen::MatrixXd &slope() const { return slope_; }
-  /// By how much x is off with such a residual, by component; not finite where nothing moves R.
+  /// By how much x is off with such a residual, by component; infinite where nothing moves R.
   Eigen::VectorXd distance(const Eigen::VectorXd &residual) const;
 
   void save(const std::string &name, output::SavedNumbers &numbers) const;
   void restore(const std::string &name, const output::SavedNumbers &numbers);
 
  private:
-  Eigen::VectorXd probe_on(const Eigen::VectorXd &residual, double probe);
+  void see_probe(const Eigen::VectorXd &x, const Eigen::VectorXd &residual);
   void update(const Eigen::VectorXd &x, const Eigen::VectorXd &residual);
 
   Eigen::MatrixXd slope_;
   bool knows_slope_ = false;
   // Of the search at hand:
-  Eigen::Index probed_ = -1;  // component; -1: none
+  Eigen::Index probed_ = -1;  // component that the next probe changes; -1: none
   double probe_ = 0;
-  Eigen::VectorXd x_, residual_;  // of the last point that is no probe
+  Eigen::VectorXd x_, residual_;  // of the best point that is no probe
+  Eigen::VectorXd halfway_;       // to one that is worse; empty: there is none
 };
 
 }  // namespace tourmaline::solve

@@ -62,20 +62,22 @@ TEST(StepLadder, GrowsAgainWhereErrorsFall) {
   while (ladder.pair().size > 1e-3)
     ladder.reject(4);
   const double small = ladder.pair().size;
-  ladder.accept(1e-9);
-  EXPECT_EQ(ladder.pair().size, 8 * small);
+  for (const double times : {1., 1., 2., 4., 8., 16.}) {
+    EXPECT_EQ(ladder.pair().size, times * small);
+    ladder.accept(1e-9);
+  }
+  const double large = ladder.pair().size;
   ladder.accept(0.9);
-  EXPECT_EQ(ladder.pair().size, 8 * small);
-  ladder.accept(0);
-  EXPECT_EQ(ladder.pair().size, 64 * small);
+  EXPECT_EQ(ladder.pair().size, large);
 }
 
 TEST(StepLadder, ThatABendCutsShortGoesOnAsBefore) {
   StepLadder ladder(1, 0.1, {0.21});
-  ladder.accept(0.9);
   const double size = ladder.pair().size;
+  ladder.accept(0.9);
+  EXPECT_LT(ladder.pair().size, size);
   while (ladder.pair().end <= 0.21)
-    ladder.accept(0.9);
+    ladder.accept(0.9 * std::pow(ladder.pair().size / size, 2));
   EXPECT_EQ(ladder.pair().size, size);
 }
 
