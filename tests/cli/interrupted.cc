@@ -220,6 +220,28 @@ electric = { law = "leak", coefficient = 1e-6, ramp = 2e-7, circuit = { resistor
   }
 }
 
+// Killed in the second interval, whose steps have another size.
+TEST_F(Interrupted, TheCircuitOfAFoundationGoesOnInALaterInterval) {
+  std::string text = weakening.substr(0, weakening.find("heat"));
+  const std::size_t begin = text.find("time = "), end = text.find('\n', begin);
+  text.replace(begin, end - begin,
+               "time.interval = [{ until = 1e-3, steps = 1 }, { until = 1, steps = 40 }]");
+  std::ofstream(here() / "circuit.toml") << text << R"toml(
+electric = { law = "leak", coefficient = 1e-6, ramp = 2e-7, circuit = { resistor = 1e9, capacitor = 1e-10, voltage = "30*t" } }
+)toml";
+  expect_to_go_on("circuit.toml", "10steps");
+}
+
+TEST_F(Interrupted, StepsThatTheProgramChoosesGoOn) {
+  for (const char *route :
+       {"", " --set solver.method=monolithic", " --set solver.body=iterative"}) {
+    SCOPED_TRACE(route);
+    expect_to_go_on(paper + " --set time.steps=10 --set time.tolerance=3e-5" + route, "60steps");
+    fs::remove_all(here() / "one");
+    fs::remove_all(here() / "other");
+  }
+}
+
 TEST_F(Interrupted, FrictionThatRemembersItsSlipGoesOnIteratively) {
   std::ofstream(here() / "weakening.toml") << weakening;
   expect_to_go_on("weakening.toml --set solver.body=iterative");

@@ -132,6 +132,15 @@ TEST_P(Ranks, TheCircuitOfAFoundationIsTheSame) {
     }
 }
 
+TEST_P(Ranks, StepsThatTheProgramChoosesAreTheSame) {
+  for (const std::string route : {"", " --set solver.method=monolithic", iteratively}) {
+    SCOPED_TRACE(route);
+    ASSERT_NO_FATAL_FAILURE(run_twice(file_of(rubbed) + " --set time.tolerance=3e-3" + route));
+    EXPECT_EQ(one_.history.numbers("time"), several_.history.numbers("time"));
+    expect_same_rubbing(one_, several_, 2);
+  }
+}
+
 TEST_P(Ranks, ARubbedBodyThatComesOffIsTheSameIteratively) {
   ASSERT_NO_FATAL_FAILURE(run_twice(file_of(rubbed) + iteratively));
   expect_same_rubbing(one_, several_, 2);
