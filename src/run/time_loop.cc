@@ -22,6 +22,7 @@
 #include "run/step_check.h"
 #include "run/survey.h"
 #include "run/versions.h"
+#include "solve/settling.h"
 #include "stopwatch.h"
 #include "tourmaline/contact/friction.h"
 #include "tourmaline/error.h"
@@ -103,8 +104,12 @@ void TimeLoop<dim>::open_folder(const std::filesystem::path &directory,
 template <int dim>
 int TimeLoop<dim>::begin() {
   if (!checkpoint_) {
-    motion_.begin(state_);
     foundations_.begin(state_);
+    if (motion_.is_inertial()) {
+      solve::settle(model_, foundations_, state_);
+      route_->route().begin(state_);
+    }
+    motion_.begin(state_);
     recorder_->initial(state_, motion_.record());
     temperature_.begin(recorder_->extremes(state_));
     return 1;

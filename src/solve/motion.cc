@@ -25,11 +25,10 @@ void Motion<dim>::multiply(Rates &rates) const {
 }
 
 template <int dim>
-void Motion<dim>::begin(std::vector<double> &state) {
+void Motion<dim>::begin(std::span<const double> state) {
   if (!forces_)
     return;
   if (is_inertial()) {
-    settle(model_, state);
     rates_.velocity = initial_velocity(model_);
     rates_.difference = rates_.velocity;
     rates_.acceleration = initial_acceleration(model_, state, rates_.velocity);

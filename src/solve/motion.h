@@ -25,10 +25,9 @@ class Motion {
   /// `model` outlives this. Nothing is resisted: it does nothing.
   explicit Motion(const Model<dim> &model);
 
-  /// From the initial state: potentials, and nodes without mass, go where they are in equilibrium
-  /// with the loads at t = 0, supports to where they are prescribed; acceleration from the
-  /// equilibrium of all others. On all ranks.
-  void begin(std::vector<double> &state);
+  /// From the initial state, which is settled in the dynamic regime (`settle`); acceleration from
+  /// the equilibrium of what has mass. On all ranks.
+  void begin(std::span<const double> state);
   /// What the step that begins at `before` knows of the motion.
   void add_history(std::span<const double> before, std::vector<double> &right_side) const;
   /// The step to `now` is done. On all ranks.
