@@ -158,7 +158,7 @@ void TimeLoop<dim>::sum_right_side(int n) {
     model_.cells.add_history(state_, right_side_);
   else
     model_.op.add_history(state_, right_side_);
-  motion_.add_history(state_, right_side_);
+  motion_.add_history(model_.time(n), state_, next_, right_side_);
 }
 
 template <int dim>

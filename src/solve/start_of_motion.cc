@@ -1,5 +1,6 @@
 #include "solve/start_of_motion.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tourmaline::solve {
@@ -11,15 +12,42 @@ using body::unknown;
 
 namespace {
 
-// Differences of the prescribed motion over the first steps, of order 2: one-sided, as it begins.
-double first_difference(const body::Prescribed &p, double k) {
-  const auto u = [&](int n) { return p.value.value(p.point, n * k); };
-  return (-3 * u(0) + 4 * u(1) - u(2)) / (2 * k);
+// Where differences of a prescribed motion are taken: at `time` and in steps of `h` beside it,
+// inside the run. At its ends that is one side alone.
+struct Stencil {
+  double time, h, end;
+  int side;  // 0: both, 1: later, -1: earlier
+
+  Stencil(double at, double step, double end_of_run)
+      : time(at), h(std::min(step, end_of_run / 3)), end(end_of_run) {
+    const double round_off = 1e-6 * h;
+    side = time < h - round_off ? 1 : time > end - h + round_off ? -1 : 0;
+  }
+  double value(const body::Prescribed &p, int n) const {
+    return p.value.value(p.point, std::clamp(time + n * h, 0., end));
+  }
+};
+
+// Both of order 2.
+double first_difference(const body::Prescribed &p, const Stencil &at) {
+  const auto u = [&](int n) { return at.value(p, n); };
+  const int s = at.side;
+  if (s == 0)
+    return (u(1) - u(-1)) / (2 * at.h);
+  return s * (-3 * u(0) + 4 * u(s) - u(2 * s)) / (2 * at.h);
 }
 
-double second_difference(const body::Prescribed &p, double k) {
-  const auto u = [&](int n) { return p.value.value(p.point, n * k); };
-  return (2 * u(0) - 5 * u(1) + 4 * u(2) - u(3)) / (k * k);
+double second_difference(const body::Prescribed &p, const Stencil &at) {
+  const auto u = [&](int n) { return at.value(p, n); };
+  const int s = at.side;
+  if (s == 0)
+    return (u(1) - 2 * u(0) + u(-1)) / (at.h * at.h);
+  return (2 * u(0) - 5 * u(s) + 4 * u(2 * s) - u(3 * s)) / (at.h * at.h);
+}
+
+template <int dim>
+Stencil stencil(const Model<dim> &model, double time) {
+  return {time, model.step, model.time(model.steps.count())};
 }
 
 // The components that M decides: those of nodes with mass that nothing prescribes.
@@ -87,6 +115,14 @@ std::vector<double> left_at_start(const Model<dim> &model, std::span<const doubl
 }
 
 template <int dim>
+PrescribedRates prescribed_rates(const Model<dim> &model, const body::Prescribed &p, double time) {
+  if (!p.value.depends_on_time())
+    return {};
+  const Stencil at = stencil(model, time);
+  return {first_difference(p, at), second_difference(p, at)};
+}
+
+template <int dim>
 std::vector<double> initial_velocity(const Model<dim> &model) {
   std::vector<double> velocity(model.n_unknowns(), 0.);
   const casefile::FormulaVector &asked = model.asked.initial.velocity;
@@ -95,7 +131,7 @@ std::vector<double> initial_velocity(const Model<dim> &model) {
       velocity[unknown<dim>(node, c)] = asked[c].value(model.body.points()[node], 0);
   for (const body::Prescribed &p : model.prescribed)
     if (field_of<dim>(p.unknown) == 0)
-      velocity[p.unknown] = first_difference(p, model.step);
+      velocity[p.unknown] = prescribed_rates(model, p, 0).velocity;
   return velocity;
 }
 
@@ -108,7 +144,7 @@ std::vector<double> initial_acceleration(const Model<dim> &model, std::span<cons
   for (const body::Prescribed &p : model.prescribed)
     if (field_of<dim>(p.unknown) == 0 &&
         !rates.is_massless(static_cast<Node>(p.unknown / Fields<dim>::count)))
-      acceleration[p.unknown] = second_difference(p, model.step);
+      acceleration[p.unknown] = prescribed_rates(model, p, 0).acceleration;
   std::vector<double> force = left_at_start(model, state);
   const auto subtract = [&](const std::vector<double> &product) {
     for (std::size_t i = 0; i < force.size(); ++i)
@@ -123,6 +159,8 @@ std::vector<double> initial_acceleration(const Model<dim> &model, std::span<cons
 
 template std::vector<double> left_at_start<2>(const Model<2> &, std::span<const double>);
 template std::vector<double> left_at_start<3>(const Model<3> &, std::span<const double>);
+template PrescribedRates prescribed_rates<2>(const Model<2> &, const body::Prescribed &, double);
+template PrescribedRates prescribed_rates<3>(const Model<3> &, const body::Prescribed &, double);
 template std::vector<double> initial_velocity<2>(const Model<2> &);
 template std::vector<double> initial_velocity<3>(const Model<3> &);
 template std::vector<double> initial_acceleration<2>(const Model<2> &, std::span<const double>,
