@@ -4,6 +4,7 @@
 
 #include "body/prescribed.h"
 #include "run/step_check.h"
+#include "solve/settling.h"
 #include "stopwatch.h"
 
 namespace tourmaline::run {
@@ -25,8 +26,12 @@ void Evolution<dim>::make_ready(bool iterative, output::Progress &progress, int 
 
 template <int dim>
 void Evolution<dim>::begin() {
-  motion_.begin(state_);
   foundations_.begin(state_);
+  if (motion_.is_inertial()) {
+    solve::settle(model_, foundations_, state_);
+    route_->route().begin(state_);
+  }
+  motion_.begin(state_);
 }
 
 template <int dim>
@@ -49,7 +54,7 @@ void Evolution<dim>::sum_right_side(TakenStep &step) {
     model_.cells.add_history(state_, step.right_side);
   else
     model_.op.add_history(state_, step.right_side);
-  motion_.add_history(state_, step.right_side);
+  motion_.add_history(time, state_, step.state, step.right_side);
 }
 
 // Again with other potentials of foundations, until they have the charges that their circuits say.

@@ -71,7 +71,8 @@ Balance<dim>::Balance(const Model<dim> &model, std::span<const double> initial)
       smallest_heat_(smallest_heat()),
       coupled_(coupled_fields(model)) {
   if (!model.electrodes.empty())
-    electrode_charges_ = initial_charges(model, initial);
+    electrode_charges_ = model.asked.time.is_dynamic() ? settled_charges(model, initial)
+                                                       : initial_charges(model, initial);
   for (const body::Prescribed &p : model.prescribed) {
     const int component = static_cast<int>(p.unknown % Fields<dim>::count);
     if (component == Fields<dim>::temperature && p.is_given())

@@ -18,8 +18,7 @@ std::size_t index_of(const std::string &name,
 
 }  // namespace
 
-Circuit::Circuit(const std::vector<casefile::ElectrodeCase> &electrodes, double step)
-    : step_(step) {
+Circuit::Circuit(const std::vector<casefile::ElectrodeCase> &electrodes, double step) {
   for (std::size_t e = 0; e < electrodes.size(); ++e) {
     const casefile::ElectrodeCase &electrode = electrodes[e];
     if (!electrode.is_driven()) {
@@ -54,15 +53,15 @@ void Circuit::add(const Branch &branch) {
   }
 }
 
-VectorXd Circuit::right_side(double time, const VectorXd &charges, const VectorXd &voltages_before,
-                             const VectorXd &voltages) const {
+VectorXd Circuit::right_side(std::optional<double> before, double time, const VectorXd &charges,
+                             const VectorXd &voltages_before, const VectorXd &voltages) const {
   VectorXd j = charges;
   for (const Branch &branch : branches_) {
     const Index row = *row_of(branch.from), from = static_cast<Index>(branch.from);
     const auto other = branch.to ? row_of(*branch.to) : std::nullopt;
     const Index to = branch.to ? static_cast<Index>(*branch.to) : 0;
-    const double end_before =
-        branch.to ? voltages_before[to] : branch.voltage.value({}, time - step_);
+    const double source_before = before ? branch.voltage.value({}, *before) : 0;
+    const double end_before = branch.to ? voltages_before[to] : source_before;
     const double kept = branch.capacitance * (voltages_before[from] - end_before);
     j[row] += kept;
     if (other)

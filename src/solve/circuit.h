@@ -15,7 +15,8 @@ namespace tourmaline::solve {
 ///
 /// Kirchhoff's law for the charge that has come in during the step. A resistor R adds k / R and a
 /// capacitor C adds C to Y, which is symmetric and not negative; an electrode with given charge,
-/// and an open one, has a row of zeros.
+/// and an open one, has a row of zeros. A step of 0 is what happens at once: charge comes in
+/// through capacitors, and none through resistors.
 class Circuit {
  public:
   Circuit(const std::vector<casefile::ElectrodeCase> &electrodes, double step);
@@ -24,11 +25,12 @@ class Circuit {
   const std::vector<std::size_t> &free() const { return free_; }
   /// Y [F]
   const Eigen::MatrixXd &admittance() const { return admittance_; }
-  /// j_n [C] for the step that ends at `time`; `charges` are those of the free electrodes at the
-  /// last step, `voltages_before` and `voltages` those of all electrodes at the last step and now
-  /// (of which only the given ones are read).
-  Eigen::VectorXd right_side(double time, const Eigen::VectorXd &charges,
-                             const Eigen::VectorXd &voltages_before,
+  /// j_n [C] for the step from the time `before` to `time`; `charges` are those of the free
+  /// electrodes at the last step, `voltages_before` and `voltages` those of all electrodes at the
+  /// last step and now (of which only the given ones are read). `before` is nothing where what was
+  /// before is the case's initial state: sources are switched on at t = 0, and were at 0 V.
+  Eigen::VectorXd right_side(std::optional<double> before, double time,
+                             const Eigen::VectorXd &charges, const Eigen::VectorXd &voltages_before,
                              const Eigen::VectorXd &voltages) const;
 
  private:
@@ -42,7 +44,6 @@ class Circuit {
   std::optional<Eigen::Index> row_of(std::size_t electrode) const;
   void add(const Branch &branch);
 
-  double step_;
   std::vector<std::size_t> free_;
   std::vector<std::optional<casefile::Formula>> given_charge_;  // by free electrode
   std::vector<Branch> branches_;

@@ -65,6 +65,7 @@ class CondensedRoute : public Route {
  public:
   explicit CondensedRoute(const Model<dim> &model);
 
+  void begin(std::span<const double> settled) override { condensed_.begin(settled); }
   StepOutcome advance(double time, std::span<const double> right_side,
                       std::span<const double> before, std::span<double> state) override;
   Accuracy accuracy(std::span<const double> right_side, std::span<const double> state,

@@ -32,6 +32,9 @@ class ConnectedBody {
  public:
   explicit ConnectedBody(const Model<dim> &model);
 
+  /// A run begins whose initial state has been settled to this one (`settle`).
+  void begin(std::span<const double> settled);
+
   /// As of `CondensedBody`, all with the electrodes in their circuit.
   const Eigen::MatrixXd &stiffness() const;
   Eigen::VectorXd reduce(double time, std::span<const double> right_side,

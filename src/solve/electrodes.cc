@@ -47,10 +47,25 @@ VectorXd electrode_voltages(const Model<dim> &model, std::span<const double> sta
 
 template <int dim>
 VectorXd initial_charges(const Model<dim> &model, std::span<const double> initial) {
-  std::vector<double> products(initial.size()), loads(initial.size(), 0.);
+  std::vector<double> products(initial.size());
+  const std::vector<double> no_loads(initial.size(), 0.);
   model.op.multiply(model.step, initial, products);
+  return electrode_charges<dim>(model, products, no_loads);
+}
+
+template <int dim>
+VectorXd settled_charges(const Model<dim> &model, std::span<const double> settled) {
+  std::vector<double> products(settled.size()), loads(settled.size(), 0.);
+  model.op.multiply(model.step, settled, products);
   model.loads.integrate(0, loads);
-  return electrode_charges(model, products, loads);
+  return electrode_charges<dim>(model, products, loads);
+}
+
+template <int dim>
+std::optional<double> sources_before(const Model<dim> &model, double time) {
+  if (model.steps.number(time) == 1 && !model.asked.time.is_dynamic())
+    return std::nullopt;
+  return model.time_before(time);
 }
 
 template VectorXd electrode_charges<2>(const Model<2> &, std::span<const double>,
@@ -61,5 +76,9 @@ template VectorXd electrode_voltages<2>(const Model<2> &, std::span<const double
 template VectorXd electrode_voltages<3>(const Model<3> &, std::span<const double>);
 template VectorXd initial_charges<2>(const Model<2> &, std::span<const double>);
 template VectorXd initial_charges<3>(const Model<3> &, std::span<const double>);
+template VectorXd settled_charges<2>(const Model<2> &, std::span<const double>);
+template VectorXd settled_charges<3>(const Model<3> &, std::span<const double>);
+template std::optional<double> sources_before(const Model<2> &, double);
+template std::optional<double> sources_before(const Model<3> &, double);
 
 }  // namespace tourmaline::solve

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,8 +21,20 @@ Eigen::VectorXd electrode_charges(const Model<dim> &model, std::span<const doubl
 template <int dim>
 Eigen::VectorXd electrode_voltages(const Model<dim> &model, std::span<const double> state);
 
-/// The initial charges, by the initial state and the loads at the time 0.
+/// The charges of the case's initial state, in which there is no load yet: it is switched on at
+/// t = 0, as voltages are. Counted at the electrodes' nodes without the potential that belongs to
+/// it, a volume charge would leave them a charge by the width of a cell.
 template <int dim>
 Eigen::VectorXd initial_charges(const Model<dim> &model, std::span<const double> initial);
+
+/// Those of a state that is in equilibrium with the loads at t = 0.
+template <int dim>
+Eigen::VectorXd settled_charges(const Model<dim> &model, std::span<const double> settled);
+
+/// Since when the sources of circuits have been what their formulas say, as the step that ends at
+/// `time` sees it [s]; nothing: they are switched on in it, since the first step begins at the
+/// case's initial state. A dynamic run begins at one that is settled.
+template <int dim>
+std::optional<double> sources_before(const Model<dim> &model, double time);
 
 }  // namespace tourmaline::solve

@@ -65,6 +65,19 @@ std::vector<ExchangeSite> exchange_sites(const Model<dim> &model) {
 }
 
 template <int dim>
+contact::Exchange::Value charge_exchange_at_start(const Model<dim> &model,
+                                                  const contact::InterfaceNode<dim> &at,
+                                                  std::span<const double> state) {
+  contact::ContactState contact;
+  contact.penetration = -model.reach(at, 0);
+  for (int c = 0; c < dim; ++c)
+    contact.penetration += at.normal[c] * state[body::unknown<dim>(at.node, c)];
+  return model.laws.of(at)
+      .exchange(Crossing::charge, at.point, 0, 0)
+      ->at(state[body::unknown<dim>(at.node, Fields<dim>::potential)], contact);
+}
+
+template <int dim>
 std::vector<std::size_t> contact_unknowns(const Model<dim> &model,
                                           const std::vector<ExchangeSite> &sites) {
   std::vector<std::size_t> unknowns;
@@ -235,6 +248,12 @@ void ExchangeNodes<dim>::restore(const output::SavedNumbers &numbers) {
 
 template std::vector<ExchangeSite> exchange_sites<2>(const Model<2> &);
 template std::vector<ExchangeSite> exchange_sites<3>(const Model<3> &);
+template contact::Exchange::Value charge_exchange_at_start(const Model<2> &,
+                                                           const contact::InterfaceNode<2> &,
+                                                           std::span<const double>);
+template contact::Exchange::Value charge_exchange_at_start(const Model<3> &,
+                                                           const contact::InterfaceNode<3> &,
+                                                           std::span<const double>);
 template std::vector<std::size_t> contact_unknowns<2>(const Model<2> &,
                                                       const std::vector<ExchangeSite> &);
 template std::vector<std::size_t> contact_unknowns<3>(const Model<3> &,

@@ -25,6 +25,12 @@ struct ExchangeSite {
 template <int dim>
 std::vector<ExchangeSite> exchange_sites(const Model<dim> &model);
 
+/// What crosses of charge at a contact node by the state at t = 0; its contact has such a law.
+template <int dim>
+contact::Exchange::Value charge_exchange_at_start(const Model<dim> &model,
+                                                  const contact::InterfaceNode<dim> &at,
+                                                  std::span<const double> state);
+
 /// The unknowns that the body is condensed onto: the displacements of the contact nodes, dim for
 /// each, then `sites`.
 template <int dim>

@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "larger.h"
+#include "solve/electrodes.h"
+#include "solve/exchange_nodes.h"
 #include "solve/exchange_weights.h"
 #include "tourmaline/error.h"
 
@@ -35,7 +37,36 @@ FoundationCircuits<dim>::FoundationCircuits(const Model<dim> &model)
 template <int dim>
 void FoundationCircuits<dim>::begin(std::span<const double> initial) {
   for (std::size_t f = 0; f < foundations_.size(); ++f)
-    charges_[static_cast<Index>(f)] = initial_charge(foundations_[f], initial);
+    if (!model_.laws[foundations_[f].contact].remembers_charge())
+      charges_[static_cast<Index>(f)] = charge_at_start(f, initial);
+}
+
+// Q - what has come in, beyond what the potentials hold in capacitors: what is there at once.
+template <int dim>
+VectorXd FoundationCircuits<dim>::brought_at_once() const {
+  const Circuit at_once(as_electrodes(model_.asked.contacts), 0);
+  return at_once.right_side(std::nullopt, 0, charges_, before_, potentials_) -
+         at_once.admittance() * potentials_;
+}
+
+template <int dim>
+VectorXd FoundationCircuits<dim>::lacks_at_start(std::span<const double> state) const {
+  VectorXd lacks = -brought_at_once();
+  for (std::size_t f = 0; f < foundations_.size(); ++f)
+    lacks[static_cast<Index>(f)] += charge_at_start(f, state);
+  return lacks;
+}
+
+template <int dim>
+void FoundationCircuits<dim>::put_at_start(const VectorXd &potentials) {
+  potentials_ = potentials;
+  put_potentials();
+}
+
+template <int dim>
+void FoundationCircuits<dim>::begin_settled() {
+  charges_ = brought_at_once();
+  before_ = potentials_;
 }
 
 template <int dim>
@@ -100,28 +131,21 @@ typename FoundationCircuits<dim>::Foundation FoundationCircuits<dim>::foundation
   return made;
 }
 
+// What has crossed a leak by then is what crosses it in one step, which the body has in it as well.
 template <int dim>
-double FoundationCircuits<dim>::initial_charge(const Foundation &of,
-                                               std::span<const double> initial) const {
-  if (model_.laws[of.contact].remembers_charge())
-    return 0;
+double FoundationCircuits<dim>::charge_at_start(std::size_t f,
+                                                std::span<const double> state) const {
+  const Foundation &of = foundations_[f];
   double crossed = 0;
-  if (of.is_linear)
+  if (of.is_linear) {
     for (const auto &[node, weight] : of.weights)
-      crossed += weight * initial[unknown<dim>(node, Fields<dim>::potential)];
-  else
-    for (const contact::InterfaceNode<dim> &at : model_.interface)
-      if (at.contact == of.contact) {
-        contact::ContactState state;
-        state.penetration = -model_.reach(at, 0);
-        for (int c = 0; c < dim; ++c)
-          state.penetration += at.normal[c] * initial[unknown<dim>(at.node, c)];
-        crossed +=
-            at.weight * model_.laws.of(at)
-                            .exchange(Crossing::charge, at.point, 0, 0)
-                            ->at(initial[unknown<dim>(at.node, Fields<dim>::potential)], state)
-                            .flow;
-      }
+      crossed += weight * (state[unknown<dim>(node, Fields<dim>::potential)] -
+                           potentials_[static_cast<Index>(f)]);
+    return -crossed;
+  }
+  for (const contact::InterfaceNode<dim> &at : model_.interface)
+    if (at.contact == of.contact)
+      crossed += at.weight * charge_exchange_at_start(model_, at, state).flow;
   return -crossed;
 }
 
@@ -157,7 +181,8 @@ double FoundationCircuits<dim>::size(std::size_t f, std::span<const double> stat
 template <int dim>
 typename FoundationCircuits<dim>::Lack FoundationCircuits<dim>::lack(
     double time, std::span<const double> state, const StepOutcome &outcome) const {
-  const VectorXd supplied = circuit_.right_side(time, charges_, before_, potentials_);
+  const VectorXd supplied =
+      circuit_.right_side(sources_before(model_, time), time, charges_, before_, potentials_);
   Lack lack;
   lack.charges.resize(potentials_.size());
   lack.sizes.resize(potentials_.size());

@@ -28,8 +28,16 @@ class FoundationCircuits {
   /// `model` outlives this; its found potentials are set from here.
   explicit FoundationCircuits(const Model<dim> &model);
 
-  /// From the state at t = 0, at which the potentials are 0.
+  /// From the case's state at t = 0, at which the potentials are 0.
   void begin(std::span<const double> initial);
+
+  /// A dynamic run settles that state (`settle`): what lacks each foundation at its potential, of
+  /// what its circuit brings at once, R of above for a step of 0 [C].
+  Eigen::VectorXd lacks_at_start(std::span<const double> state) const;
+  const Eigen::VectorXd &potentials() const { return potentials_; }
+  void put_at_start(const Eigen::VectorXd &potentials);
+  /// It is settled: the first step goes on from there.
+  void begin_settled();
 
   /// Takes what the step that ends at `time` has come to with the potentials at hand. True: it
   /// fits, and `outcome` knows what the foundations have; false: there are other potentials, to
@@ -51,7 +59,8 @@ class FoundationCircuits {
       const std::vector<casefile::ContactCase> &contacts);
   void follow_step();
   Foundation foundation(std::size_t contact) const;
-  double initial_charge(const Foundation &of, std::span<const double> initial) const;
+  double charge_at_start(std::size_t f, std::span<const double> state) const;
+  Eigen::VectorXd brought_at_once() const;
   double crossed(std::size_t f, std::span<const double> state, const StepOutcome &outcome) const;
   double size(std::size_t f, std::span<const double> state) const;
   /// R of the potentials at hand [C], by foundation.

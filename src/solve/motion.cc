@@ -1,7 +1,5 @@
 #include "solve/motion.h"
 
-#include "solve/start_of_motion.h"
-
 namespace tourmaline::solve {
 
 using body::field_of;
@@ -10,9 +8,20 @@ using body::RateForces;
 
 template <int dim>
 Motion<dim>::Motion(const Model<dim> &model) : model_(model), forces_(model.op.rate_forces()) {
-  if (forces_)
-    for (std::vector<double> *of : {&rates_.velocity, &rates_.acceleration, &rates_.difference})
-      of->assign(model.n_unknowns(), 0.);
+  if (!forces_)
+    return;
+  for (std::vector<double> *of : {&rates_.velocity, &rates_.acceleration, &rates_.difference})
+    of->assign(model.n_unknowns(), 0.);
+  for (const body::Prescribed &p : model.prescribed)
+    if (is_inertial() && field_of<dim>(p.unknown) == 0 && p.value.depends_on_time() &&
+        !forces_->is_massless(static_cast<body::Node>(p.unknown / Fields<dim>::count)))
+      given_.push_back({&p, {}});
+}
+
+template <int dim>
+void Motion<dim>::find_given(double time) {
+  for (Given &one : given_)
+    one.rates = prescribed_rates(model_, *one.of, time);
 }
 
 template <int dim>
@@ -25,11 +34,10 @@ void Motion<dim>::multiply(Rates &rates) const {
 }
 
 template <int dim>
-void Motion<dim>::begin(std::vector<double> &state) {
+void Motion<dim>::begin(std::span<const double> state) {
   if (!forces_)
     return;
   if (is_inertial()) {
-    settle(model_, state);
     rates_.velocity = initial_velocity(model_);
     rates_.difference = rates_.velocity;
     rates_.acceleration = initial_acceleration(model_, state, rates_.velocity);
@@ -40,28 +48,39 @@ void Motion<dim>::begin(std::vector<double> &state) {
     record_.kinetic_energy += rates_.velocity[i] * rates_.momentum[i] / 2;
 }
 
+// Of given rates it is what leaves them of the product with the end's value.
 template <int dim>
-void Motion<dim>::add_history(std::span<const double> before,
-                              std::vector<double> &right_side) const {
+void Motion<dim>::add_history(double time, std::span<const double> before,
+                              std::span<const double> now, std::vector<double> &right_side) {
   if (!forces_)
     return;
+  find_given(time);
   const double k = model_.step;
   std::vector<double> known(before.size(), 0.);
-  const auto add = [&](typename RateForces<dim>::Kind kind, const auto &rate) {
+  const auto fill = [&](const auto &rate) {
     for (std::size_t i = 0; i < known.size(); ++i)
       known[i] = field_of<dim>(i) == 0 ? rate(i) : 0;
+  };
+  const auto add = [&](typename RateForces<dim>::Kind kind) {
     const std::vector<double> product = model_.op.rate_product(kind, known);
     for (std::size_t i = 0; i < product.size(); ++i)
       right_side[i] += product[i];
   };
   const auto &v = rates_.velocity, &a = rates_.acceleration;
-  if (is_inertial())
-    add(RateForces<dim>::Kind::inertia,
-        [&](std::size_t i) { return 4 / (k * k) * before[i] + 4 / k * v[i] + a[i]; });
+  if (is_inertial()) {
+    fill([&](std::size_t i) { return 4 / (k * k) * before[i] + 4 / k * v[i] + a[i]; });
+    for (const Given &one : given_)
+      known[one.of->unknown] = 4 / (k * k) * now[one.of->unknown] - one.rates.acceleration;
+    add(RateForces<dim>::Kind::inertia);
+  }
   if (!forces_->is_damped())
     return;
-  add(RateForces<dim>::Kind::damping, [&](std::size_t i) { return 2 / k * before[i] + v[i]; });
-  add(RateForces<dim>::Kind::backward_damping, [&](std::size_t i) { return before[i] / k; });
+  fill([&](std::size_t i) { return 2 / k * before[i] + v[i]; });
+  for (const Given &one : given_)
+    known[one.of->unknown] = 2 / k * now[one.of->unknown] - one.rates.velocity;
+  add(RateForces<dim>::Kind::damping);
+  fill([&](std::size_t i) { return before[i] / k; });
+  add(RateForces<dim>::Kind::backward_damping);
 }
 
 template <int dim>
@@ -70,31 +89,62 @@ void Motion<dim>::end_step(std::span<const double> before, std::span<const doubl
     return;
   const double k = model_.step;
   Rates next = rates_;
+  std::vector<double> moved(now.size(), 0.);
   for (std::size_t i = 0; i < now.size(); ++i) {
     if (field_of<dim>(i) != 0)
       continue;
-    const double d = now[i] - before[i];
+    const double d = moved[i] = now[i] - before[i];
     next.difference[i] = next.velocity[i] = d / k;
     if (!is_inertial() || forces_->is_massless(static_cast<body::Node>(i / Fields<dim>::count)))
       continue;
     next.velocity[i] = 2 * d / k - rates_.velocity[i];
     next.acceleration[i] = 4 / k * (d / k - rates_.velocity[i]) - rates_.acceleration[i];
   }
+  for (const Given &one : given_) {
+    next.velocity[one.of->unknown] = one.rates.velocity;
+    next.acceleration[one.of->unknown] = one.rates.acceleration;
+  }
   multiply(next);
   describe(next);
-  for (std::size_t i = 0; i < now.size(); ++i) {
-    const double d = now[i] - before[i],
-                 backward = (rates_.backward_damping[i] - next.backward_damping[i]) / 2;
-    record_.dissipated += d * next.backward_damping[i];
+  add_energies(next, moved);
+  rates_ = std::move(next);
+}
+
+template <int dim>
+void Motion<dim>::add_energies(const Rates &next, std::span<const double> d) {
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    record_.dissipated += d[i] * next.backward_damping[i];
     if (!is_inertial())
       continue;
     record_.kinetic_energy += next.velocity[i] * next.momentum[i] / 2;
     record_.kinetic_gained +=
         (next.velocity[i] + rates_.velocity[i]) * (next.momentum[i] - rates_.momentum[i]) / 2;
-    record_.dissipated += d * (rates_.damping[i] + next.damping[i]) / 2;
-    record_.lost += d * backward;
+    record_.dissipated += d[i] * (rates_.damping[i] + next.damping[i]) / 2;
+    record_.lost += d[i] * (rates_.backward_damping[i] - next.backward_damping[i]) / 2;
   }
-  rates_ = std::move(next);
+  if (!given_.empty())
+    record_.lost += lost_at_supports(next, d);
+}
+
+// By how much d.M a of the mean of both ends exceeds the kinetic energy gained: with v and a the
+// means, and what d and a are beyond k v and (v_n - v_(n-1)) / k at supports,
+// d.M a = k v.M (v_n - v_(n-1)) / k + d.M (a - ...) + (d - k v).M (v_n - v_(n-1)) / k.
+template <int dim>
+double Motion<dim>::lost_at_supports(const Rates &next, std::span<const double> d) const {
+  const double k = model_.step;
+  std::vector<double> beyond(d.size(), 0.);
+  double lost = 0;
+  for (const Given &one : given_) {
+    const std::size_t i = one.of->unknown;
+    beyond[i] = (next.acceleration[i] + rates_.acceleration[i]) / 2 -
+                (next.velocity[i] - rates_.velocity[i]) / k;
+    lost += (d[i] / k - (next.velocity[i] + rates_.velocity[i]) / 2) *
+            (next.momentum[i] - rates_.momentum[i]);
+  }
+  const std::vector<double> force = model_.op.rate_product(RateForces<dim>::Kind::inertia, beyond);
+  for (std::size_t i = 0; i < d.size(); ++i)
+    lost += d[i] * force[i];
+  return lost;
 }
 
 // Forces and their resultants; energies are added by whoever knows the step.

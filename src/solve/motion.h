@@ -7,6 +7,7 @@
 #include "output/checkpoint.h"
 #include "solve/model.h"
 #include "solve/rate_record.h"
+#include "solve/start_of_motion.h"
 
 namespace tourmaline::solve {
 
@@ -19,18 +20,23 @@ namespace tourmaline::solve {
 /// (`body::RateForces`). Times d, in the mean of both ends, it is the balance of energy: what M and
 /// C_1 take is the kinetic energy gained and k v.C_1 v of the mean velocity, exactly. Nodes without
 /// mass have the velocity d / k and no acceleration. In the quasistatic regime only C_2 is there.
+///
+/// Where u is prescribed this recursion would swing for ever after a kink. There the rates are
+/// central differences of the formula, v_n = (u_(n+1) - u_(n-1)) / 2k, a_n = (u_(n+1) - 2 u_n +
+/// u_(n-1)) / k^2, which a kink touches in one step. What the mean of both ends then makes too much
+/// of T adds up to nothing, m k^2 (a_(n-1)^2 - a_n^2) / 8 with equal steps, and is told as lost.
 template <int dim>
 class Motion {
  public:
   /// `model` outlives this. Nothing is resisted: it does nothing.
   explicit Motion(const Model<dim> &model);
 
-  /// From the initial state: potentials, and nodes without mass, go where they are in equilibrium
-  /// with the loads at t = 0, supports to where they are prescribed; acceleration from the
-  /// equilibrium of all others. On all ranks.
-  void begin(std::vector<double> &state);
-  /// What the step that begins at `before` knows of the motion.
-  void add_history(std::span<const double> before, std::vector<double> &right_side) const;
+  /// From the initial state, which is settled in the dynamic regime (`settle`); acceleration from
+  /// the equilibrium of what has mass. On all ranks.
+  void begin(std::span<const double> state);
+  /// What the step from `before` to `time` knows of the motion; `now` has its prescribed values.
+  void add_history(double time, std::span<const double> before, std::span<const double> now,
+                   std::vector<double> &right_side);
   /// The step to `now` is done. On all ranks.
   void end_step(std::span<const double> before, std::span<const double> now);
   /// Of that step, or of the start.
@@ -48,9 +54,19 @@ class Motion {
   };
   void multiply(Rates &rates) const;
   void describe(const Rates &now);
+  void find_given(double time);
+  void add_energies(const Rates &next, std::span<const double> d);
+  double lost_at_supports(const Rates &next, std::span<const double> d) const;
 
   const Model<dim> &model_;
   const body::RateForces<dim> *forces_;
+  // Prescribed displacements that move in time, of nodes with mass, and their rates at the end of
+  // the step at hand.
+  struct Given {
+    const body::Prescribed *of;
+    PrescribedRates rates;
+  };
+  std::vector<Given> given_;
   Rates rates_;
   RateRecord record_;
 };

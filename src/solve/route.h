@@ -96,6 +96,10 @@ class Route {
  public:
   virtual ~Route() = default;
 
+  /// The run begins at a state that the case's initial one has been settled to (`settle`), not at
+  /// that itself.
+  virtual void begin(std::span<const double> /*settled*/) {}
+
   /// From the state of the last step and the right-hand side of this one (loads and history) to the
   /// new state at `time`. `state` holds the prescribed values already and is filled; `before` is
   /// the state of the last step. Throws SolveError when the iteration does not converge.

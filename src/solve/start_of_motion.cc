@@ -1,8 +1,7 @@
 #include "solve/start_of_motion.h"
 
+#include <algorithm>
 #include <cmath>
-
-#include "condensation/condensed_body.h"
 
 namespace tourmaline::solve {
 
@@ -13,117 +12,42 @@ using body::unknown;
 
 namespace {
 
-// What the state leaves of the equations at t = 0, rates apart; K x without history.
-template <int dim>
-std::vector<double> left_at_start(const Model<dim> &model, std::span<const double> state) {
-  std::vector<double> loads(state.size(), 0.), product(state.size());
-  model.add_loads(0, loads);
-  model.op.multiply(0, state, product);
-  for (std::size_t i = 0; i < loads.size(); ++i)
-    loads[i] -= product[i];
-  return loads;
-}
+// Where differences of a prescribed motion are taken: at `time` and in steps of `h` beside it,
+// inside the run. At its ends that is one side alone.
+struct Stencil {
+  double time, h, end;
+  int side;  // 0: both, 1: later, -1: earlier
 
-// By interface node: whether its contact keeps it where it is.
-template <int dim>
-std::vector<bool> touching(const Model<dim> &model, std::span<const double> state) {
-  std::vector<bool> touches;
-  for (const contact::InterfaceNode<dim> &at : model.interface) {
-    const Eigen::Map<const typename Model<dim>::Vector> u(&state[unknown<dim>(at.node, 0)]);
-    const double reach = model.reach(at, 0);
-    touches.push_back(!model.laws.of(at).can_open() || u.dot(at.normal) >= reach);
+  Stencil(double at, double step, double end_of_run)
+      : time(at), h(std::min(step, end_of_run / 3)), end(end_of_run) {
+    const double round_off = 1e-6 * h;
+    side = time < h - round_off ? 1 : time > end - h + round_off ? -1 : 0;
   }
-  return touches;
-}
-
-template <int dim>
-class Settling {
- public:
-  Settling(const Model<dim> &model, std::vector<double> &state)
-      : model_(model),
-        state_(state),
-        is_free_(state.size(), false),
-        touches_(touching(model, state)) {
-    const std::vector<bool> prescribed = body::mask_of(model.prescribed, state.size());
-    for (std::size_t i = Fields<dim>::potential; i < state.size(); i += Fields<dim>::count)
-      is_free_[i] = !prescribed[i];
-    for (std::size_t n = 0; n < model.interface.size(); ++n)
-      for (int c = 0; c < dim && !touches_[n]; ++c)
-        release(n, c, prescribed);
-    is_prescribed_ = prescribed;
+  double value(const body::Prescribed &p, int n) const {
+    return p.value.value(p.point, std::clamp(time + n * h, 0., end));
   }
-
-  void run() {
-    constexpr int passes = 10;
-    for (int i = 0; i < passes; ++i) {
-      solve();
-      if (!release_drawn())
-        return;
-    }
-  }
-
- private:
-  void release(std::size_t n, int c, const std::vector<bool> &prescribed) {
-    const std::size_t i = unknown<dim>(model_.interface[n].node, c);
-    is_free_[i] = !prescribed[i] && model_.op.rate_forces()->is_massless(model_.interface[n].node);
-  }
-
-  // The condensed body of what is free alone. Rows of massless nodes have what resists rates of u
-  // only of damping, by which they go as far as in one step.
-  void solve() {
-    const std::vector<double> left = left_at_start(model_, state_);
-    bool is_settled = true;
-    std::vector<body::Prescribed> held;
-    for (std::size_t i = 0; i < state_.size(); ++i)
-      if (!is_free_[i])
-        held.push_back({i, model_.body.points()[i / Fields<dim>::count], 0., ""});
-      else if (left[i] != 0)
-        is_settled = false;
-    if (is_settled)
-      return;
-    condensation::CondensedBody<dim> body(model_.op, model_.step, held, {},
-                                          model_.asked.solver.threads);
-    std::vector<double> right_side(state_.size());
-    model_.op.multiply(model_.step, state_, right_side);
-    for (std::size_t i = 0; i < left.size(); ++i)
-      right_side[i] += left[i];
-    body.reduce(right_side, state_);
-    body.expand(Eigen::VectorXd(0), state_);
-  }
-
-  // What the foundation exerts on the node has to press.
-  bool release_drawn() {
-    const std::vector<double> left = left_at_start(model_, state_);
-    bool released = false;
-    for (std::size_t n = 0; n < touches_.size(); ++n) {
-      const contact::InterfaceNode<dim> &at = model_.interface[n];
-      if (!touches_[n] || !model_.laws.of(at).can_open())
-        continue;
-      const Eigen::Map<const typename Model<dim>::Vector> force(&left[unknown<dim>(at.node, 0)]);
-      if (force.dot(at.normal) >= 0)
-        continue;
-      touches_[n] = false;
-      released = true;
-      for (int c = 0; c < dim; ++c)
-        release(n, c, is_prescribed_);
-    }
-    return released;
-  }
-
-  const Model<dim> &model_;
-  std::vector<double> &state_;
-  std::vector<bool> is_free_, is_prescribed_, touches_;
 };
 
-// Differences of the prescribed motion over the first steps, of order 2: one-sided, as it begins.
-double first_difference(const body::Prescribed &p, double k) {
-  const auto u = [&](int n) { return p.value.value(p.point, n * k); };
-  return (-3 * u(0) + 4 * u(1) - u(2)) / (2 * k);
+// Both of order 2.
+double first_difference(const body::Prescribed &p, const Stencil &at) {
+  const auto u = [&](int n) { return at.value(p, n); };
+  const int s = at.side;
+  if (s == 0)
+    return (u(1) - u(-1)) / (2 * at.h);
+  return s * (-3 * u(0) + 4 * u(s) - u(2 * s)) / (2 * at.h);
 }
 
-double second_difference(const body::Prescribed &p, double k) {
-  const auto u = [&](int n) { return p.value.value(p.point, n * k); };
-  return (2 * u(0) - 5 * u(1) + 4 * u(2) - u(3)) / (k * k);
+double second_difference(const body::Prescribed &p, const Stencil &at) {
+  const auto u = [&](int n) { return at.value(p, n); };
+  const int s = at.side;
+  if (s == 0)
+    return (u(1) - 2 * u(0) + u(-1)) / (at.h * at.h);
+  return (2 * u(0) - 5 * u(s) + 4 * u(2 * s) - u(3 * s)) / (at.h * at.h);
+}
+
+template <int dim>
+Stencil stencil(const Model<dim> &model, double time) {
+  return {time, model.step, model.time(model.steps.count())};
 }
 
 // The components that M decides: those of nodes with mass that nothing prescribes.
@@ -181,14 +105,21 @@ void solve_mass(const Model<dim> &model, const std::vector<bool> &free,
 }  // namespace
 
 template <int dim>
-void settle(const Model<dim> &model, std::vector<double> &state) {
-  for (const body::Prescribed &p : model.prescribed)
-    if (field_of<dim>(p.unknown) == 0 ||
-        (p.unknown % Fields<dim>::count == Fields<dim>::potential &&
-         (p.electrode < 0 ||
-          model.asked.electrodes[static_cast<std::size_t>(p.electrode)].is_driven())))
-      state[p.unknown] = p.value.value(p.point, 0);
-  Settling<dim>(model, state).run();
+std::vector<double> left_at_start(const Model<dim> &model, std::span<const double> state) {
+  std::vector<double> loads(state.size(), 0.), product(state.size());
+  model.add_loads(0, loads);
+  model.op.multiply(0, state, product);
+  for (std::size_t i = 0; i < loads.size(); ++i)
+    loads[i] -= product[i];
+  return loads;
+}
+
+template <int dim>
+PrescribedRates prescribed_rates(const Model<dim> &model, const body::Prescribed &p, double time) {
+  if (!p.value.depends_on_time())
+    return {};
+  const Stencil at = stencil(model, time);
+  return {first_difference(p, at), second_difference(p, at)};
 }
 
 template <int dim>
@@ -200,7 +131,7 @@ std::vector<double> initial_velocity(const Model<dim> &model) {
       velocity[unknown<dim>(node, c)] = asked[c].value(model.body.points()[node], 0);
   for (const body::Prescribed &p : model.prescribed)
     if (field_of<dim>(p.unknown) == 0)
-      velocity[p.unknown] = first_difference(p, model.step);
+      velocity[p.unknown] = prescribed_rates(model, p, 0).velocity;
   return velocity;
 }
 
@@ -213,7 +144,7 @@ std::vector<double> initial_acceleration(const Model<dim> &model, std::span<cons
   for (const body::Prescribed &p : model.prescribed)
     if (field_of<dim>(p.unknown) == 0 &&
         !rates.is_massless(static_cast<Node>(p.unknown / Fields<dim>::count)))
-      acceleration[p.unknown] = second_difference(p, model.step);
+      acceleration[p.unknown] = prescribed_rates(model, p, 0).acceleration;
   std::vector<double> force = left_at_start(model, state);
   const auto subtract = [&](const std::vector<double> &product) {
     for (std::size_t i = 0; i < force.size(); ++i)
@@ -226,8 +157,10 @@ std::vector<double> initial_acceleration(const Model<dim> &model, std::span<cons
   return acceleration;
 }
 
-template void settle<2>(const Model<2> &, std::vector<double> &);
-template void settle<3>(const Model<3> &, std::vector<double> &);
+template std::vector<double> left_at_start<2>(const Model<2> &, std::span<const double>);
+template std::vector<double> left_at_start<3>(const Model<3> &, std::span<const double>);
+template PrescribedRates prescribed_rates<2>(const Model<2> &, const body::Prescribed &, double);
+template PrescribedRates prescribed_rates<3>(const Model<3> &, const body::Prescribed &, double);
 template std::vector<double> initial_velocity<2>(const Model<2> &);
 template std::vector<double> initial_velocity<3>(const Model<3> &);
 template std::vector<double> initial_acceleration<2>(const Model<2> &, std::span<const double>,

@@ -7,13 +7,19 @@
 
 namespace tourmaline::solve {
 
-/// Where the initial state of a dynamic run is not in equilibrium with the loads at t = 0 although
-/// no mass keeps it, it would jump in the first step, and with it the accelerations around. So
-/// potentials, and displacements of nodes without mass, go to their equilibrium with all others
-/// held; nodes that touch their foundation stay unless they would have to be drawn to it. Supports
-/// and given potentials get their values at t = 0. All ranks call it.
+/// What a state leaves of the equations at t = 0, by unknown: loads - K x, without rates, without
+/// history and without what crosses the contact by its state. All ranks call it.
 template <int dim>
-void settle(const Model<dim> &model, std::vector<double> &state);
+std::vector<double> left_at_start(const Model<dim> &model, std::span<const double> state);
+
+struct PrescribedRates {
+  double velocity = 0, acceleration = 0;  ///< [m/s, m/s^2]
+};
+
+/// Of a prescribed displacement at time t [s], by differences of its formula over the step at hand,
+/// of order 2: central ones, one-sided at the ends of the run, never outside of it.
+template <int dim>
+PrescribedRates prescribed_rates(const Model<dim> &model, const body::Prescribed &p, double time);
 
 /// The case's, by unknown; where displacements are prescribed, that of the prescribed motion.
 template <int dim>

@@ -77,7 +77,7 @@ TEST(StepLadder, ThatABendCutsShortGoesOnAsBefore) {
   ladder.accept(0.9);
   EXPECT_LT(ladder.pair().size, size);
   while (ladder.pair().end <= 0.21)
-    ladder.accept(0.9 * std::pow(ladder.pair().size / size, 2));
+    ladder.accept(0.7 * std::pow(ladder.pair().size / size, 2));
   EXPECT_EQ(ladder.pair().size, size);
 }
 

@@ -51,7 +51,7 @@ TEST(Circuit, ItsRightSideIsWhatItHasBroughtBeforeAndWhatSourcesBring) {
   const double between = 3 * (0.5 - 0.25);
   const VectorXd expected{
       {1 + between, 2 - between + 2 * (0.25 - 15) + 2 * 20, 3 + 7 * (1 - 5) + 7 * 6, 6}};
-  EXPECT_EQ(circuit.right_side(2, charges, before, now), expected);
+  EXPECT_EQ(circuit.right_side(1.5, 2, charges, before, now), expected);
 }
 
 }  // namespace

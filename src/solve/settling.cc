@@ -1,0 +1,247 @@
+#include "solve/settling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "condensation/condensed_body.h"
+#include "larger.h"
+#include "parallel/ranks.h"
+#include "solve/exchange_nodes.h"
+#include "solve/free_electrodes.h"
+#include "solve/start_of_motion.h"
+
+namespace tourmaline::solve {
+
+using body::field_of;
+using body::Fields;
+using body::unknown;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+// By interface node: whether its contact keeps it where it is.
+template <int dim>
+std::vector<bool> touching(const Model<dim> &model, std::span<const double> state) {
+  std::vector<bool> touches;
+  for (const contact::InterfaceNode<dim> &at : model.interface) {
+    const Eigen::Map<const typename Model<dim>::Vector> u(&state[unknown<dim>(at.node, 0)]);
+    const double reach = model.reach(at, 0);
+    touches.push_back(!model.laws.of(at).can_open() || u.dot(at.normal) >= reach);
+  }
+  return touches;
+}
+
+// Where charge crosses by the contact's state, at potentials that are free.
+template <int dim>
+std::vector<ExchangeSite> charge_sites(const Model<dim> &model) {
+  std::vector<ExchangeSite> sites = exchange_sites(model);
+  std::erase_if(sites, [](const auto &site) { return site.what != contact::Crossing::charge; });
+  return sites;
+}
+
+// Supports and given potentials get their values at t = 0.
+template <int dim>
+void prescribe_at_start(const Model<dim> &model, std::vector<double> &state) {
+  const auto is_driven = [&](int electrode) {
+    return electrode < 0 || model.asked.electrodes[static_cast<std::size_t>(electrode)].is_driven();
+  };
+  for (const body::Prescribed &p : model.prescribed)
+    if (field_of<dim>(p.unknown) == 0 ||
+        (p.unknown % Fields<dim>::count == Fields<dim>::potential && is_driven(p.electrode)))
+      state[p.unknown] = p.value.value(p.point, 0);
+}
+
+template <int dim>
+class Settling {
+ public:
+  Settling(const Model<dim> &model, FoundationCircuits<dim> &foundations,
+           std::vector<double> &state)
+      : model_(model),
+        state_(state),
+        electrodes_(model, state),
+        foundations_(foundations),
+        sites_(charge_sites(model)),
+        is_free_(state.size(), false) {
+    prescribe_at_start(model, state);
+    touches_ = touching(model, state);
+    is_prescribed_ = body::mask_of(model.prescribed, state.size());
+    for (std::size_t i = Fields<dim>::potential; i < state.size(); i += Fields<dim>::count)
+      is_free_[i] = !is_prescribed_[i];
+    for (std::size_t n = 0; n < model.interface.size(); ++n)
+      if (!touches_[n])
+        release(n);
+  }
+
+  void run() {
+    constexpr int passes = 20;
+    for (int i = 0; i < passes; ++i) {
+      solve();
+      const bool released = release_drawn();
+      if (!released && !crosses_otherwise())
+        return;
+    }
+  }
+
+ private:
+  void release(std::size_t n) {
+    for (int c = 0; c < dim; ++c) {
+      const std::size_t i = unknown<dim>(model_.interface[n].node, c);
+      is_free_[i] =
+          !is_prescribed_[i] && model_.op.rate_forces()->is_massless(model_.interface[n].node);
+    }
+  }
+
+  // With what crosses the contact by its state.
+  std::vector<double> left() const {
+    std::vector<double> left = left_at_start(model_, state_);
+    for (const ExchangeSite &site : sites_)
+      left[site.unknown] += crossing(site).flow;
+    return left;
+  }
+
+  contact::Exchange::Value crossing(const ExchangeSite &site) const {
+    const contact::InterfaceNode<dim> &at = model_.interface[site.node];
+    contact::Exchange::Value value = charge_exchange_at_start(model_, at, state_);
+    value.flow *= at.weight;
+    value.by_value *= at.weight;
+    return value;
+  }
+
+  void solve() {
+    factorise();
+    VectorXd potentials(electrodes_.size() + foundations_.potentials().size());
+    if (potentials.size() == 0)
+      return follow();
+    potentials << electrodes_.voltages(state_), foundations_.potentials();
+    const VectorXd lacks = lacks_with(potentials);
+    const MatrixXd slope = slope_at(potentials, lacks);
+    // Again, as a difference over one volt has the round-off of all that is there.
+    constexpr int rounds = 3;
+    VectorXd left_over = lacks;
+    for (int i = 0; i < rounds; ++i) {
+      potentials -= slope.completeOrthogonalDecomposition().solve(left_over);
+      left_over = lacks_with(potentials);
+    }
+  }
+
+  // A foundation that nothing touches has a row of zeros, and stays where it is.
+  MatrixXd slope_at(const VectorXd &potentials, const VectorXd &lacks) {
+    MatrixXd slope(lacks.size(), lacks.size());
+    for (Index f = 0; f < lacks.size(); ++f)
+      slope.col(f) = lacks_with(potentials + VectorXd::Unit(lacks.size(), f)) - lacks;
+    return slope;
+  }
+
+  // Of electrodes and foundations, once the body has followed their potentials [C].
+  VectorXd lacks_with(const VectorXd &potentials) {
+    electrodes_.put(potentials.head(electrodes_.size()), state_);
+    foundations_.put_at_start(potentials.tail(potentials.size() - electrodes_.size()));
+    follow();
+    VectorXd lacks(potentials.size());
+    lacks << electrodes_.lacks(state_, left_at_start(model_, state_)),
+        foundations_.lacks_at_start(state_);
+    return lacks;
+  }
+
+  // The condensed body of what is free alone. Rows of massless nodes have what resists rates of u
+  // only of damping, by which they go as far as in one step.
+  void factorise() {
+    std::vector<body::Prescribed> held;
+    for (std::size_t i = 0; i < state_.size(); ++i)
+      if (!is_free_[i])
+        held.push_back({i, model_.body.points()[i / Fields<dim>::count], 0., ""});
+    body_.reset();
+    if (held.size() == state_.size())
+      return;
+    std::vector<std::size_t> exchanged;
+    for (const ExchangeSite &site : sites_)
+      exchanged.push_back(site.unknown);
+    body_.emplace(model_.op, model_.step, held, exchanged, model_.asked.solver.threads);
+  }
+
+  // What is free goes to its equilibrium with all else at hand.
+  void follow() {
+    const std::vector<double> lacks = left();
+    bool is_settled = true;
+    for (std::size_t i = 0; i < lacks.size(); ++i)
+      is_settled = is_settled && (!is_free_[i] || lacks[i] == 0);
+    if (is_settled)
+      return;
+    std::vector<double> right_side(state_.size());
+    model_.op.multiply(model_.step, state_, right_side);
+    for (std::size_t i = 0; i < lacks.size(); ++i)
+      right_side[i] += lacks[i];
+    const VectorXd s = body_->reduce(right_side, state_);
+    body_->expand(exchanged_potentials(s), state_);
+  }
+
+  // S c = s + flow at c, of which the right side has that at hand; it is linear in c.
+  VectorXd exchanged_potentials(VectorXd s) const {
+    std::vector<double> potentials(sites_.size());
+    VectorXd slope(s.size());
+    for (std::size_t k = 0; k < sites_.size(); ++k) {
+      const auto row = static_cast<Index>(k);
+      slope[row] = crossing(sites_[k]).by_value;
+      s[row] -= slope[row] * state_[sites_[k].unknown];
+    }
+    parallel::on_first([&] {
+      if (s.size() > 0)
+        VectorXd::Map(potentials.data(), s.size()) =
+            (MatrixXd(slope.asDiagonal()) - body_->stiffness()).llt().solve(-s);
+    });
+    parallel::from_first(std::span<double>(potentials));
+    return VectorXd::Map(potentials.data(), s.size());
+  }
+
+  // What crosses by a state that has moved since, as nodes without mass went.
+  bool crosses_otherwise() const {
+    constexpr double tolerance = 1e-12;
+    const std::vector<double> left = this->left(), sizes = model_.op.sizes(0, state_);
+    return std::any_of(sites_.begin(), sites_.end(), [&](const ExchangeSite &site) {
+      return std::abs(left[site.unknown]) > tolerance * sizes[site.unknown];
+    });
+  }
+
+  // What the foundation exerts on the node has to press.
+  bool release_drawn() {
+    const std::vector<double> left = left_at_start(model_, state_);
+    bool released = false;
+    for (std::size_t n = 0; n < touches_.size(); ++n) {
+      const contact::InterfaceNode<dim> &at = model_.interface[n];
+      if (!touches_[n] || !model_.laws.of(at).can_open())
+        continue;
+      const Eigen::Map<const typename Model<dim>::Vector> force(&left[unknown<dim>(at.node, 0)]);
+      if (force.dot(at.normal) >= 0)
+        continue;
+      touches_[n] = false;
+      released = true;
+      release(n);
+    }
+    return released;
+  }
+
+  const Model<dim> &model_;
+  std::vector<double> &state_;
+  FreeElectrodesAtStart<dim> electrodes_;  // of the state before it is settled
+  FoundationCircuits<dim> &foundations_;
+  std::vector<ExchangeSite> sites_;
+  std::vector<bool> is_free_, is_prescribed_, touches_;
+  std::optional<condensation::CondensedBody<dim>> body_;  // empty: nothing is free
+};
+
+}  // namespace
+
+template <int dim>
+void settle(const Model<dim> &model, FoundationCircuits<dim> &foundations,
+            std::vector<double> &state) {
+  Settling<dim>(model, foundations, state).run();
+  foundations.begin_settled();
+}
+
+template void settle<2>(const Model<2> &, FoundationCircuits<2> &, std::vector<double> &);
+template void settle<3>(const Model<3> &, FoundationCircuits<3> &, std::vector<double> &);
+
+}  // namespace tourmaline::solve
