@@ -294,6 +294,18 @@ TEST_F(Program, ResultsGoToAFolderNamedAfterTheCase) {
   EXPECT_TRUE(std::filesystem::exists(here() / "results" / "square" / "summary.json"));
 }
 
+TEST_F(Program, AQuietRunSaysNothingInAnyRegime) {
+  std::ofstream(here() / "square.toml") << good_case;
+  for (const char *regime : {"static", "quasistatic", "dynamic"}) {
+    ASSERT_EQ(run(std::string("run square.toml --quiet --set material.density=5000 "
+                              "--set time.regime=") +
+                  regime),
+              0)
+        << complained_;
+    EXPECT_EQ(complained_, "") << regime;
+  }
+}
+
 TEST_F(Program, HelpAndVersionGoToStandardOutput) {
   for (const char *arguments : {"--help", "run --help", "check --help", "--version", "materials"}) {
     EXPECT_EQ(run(arguments), 0) << arguments;
