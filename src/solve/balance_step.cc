@@ -176,6 +176,19 @@ std::array<double, 3> coupled_sizes(const CoupledFields &coupled, const BalanceS
   return whole;
 }
 
+// What of charge crosses by the contact's state is as uncertain as the potentials by which it does,
+// at most with the contact closed: it is not in the operator.
+template <int dim>
+void add_crossing(const Model<dim> &model, double time, double uncertain, double row_of,
+                  double energy_of, BalanceRoundOff &sums) {
+  for (const contact::InterfaceNode<dim> &at : model.interface)
+    if (const auto law = model.laws.of(at).exchange(contact::Crossing::charge, at.point, time, 0)) {
+      const double row = row_of * at.weight * law->at(0, {}).by_value * uncertain;
+      sums.charge += row;
+      sums.energy[1] += energy_of * row * uncertain;
+    }
+}
+
 // All fields are solved for at once, by which a little of one gets into others that have nothing to
 // do with it. Where there is nothing else, balances are those of noise, and may lack anything.
 void excuse_leaks(const std::array<double, 3> &size, BalanceRoundOff &sums) {
@@ -365,6 +378,8 @@ BalanceRoundOff round_off_of(const Model<dim> &model, const CoupledFields &coupl
       sums.heat += watt * row;
     sums.energy[field] += several * row * uncertain;
   }
+  add_crossing(model, step.time, eps * size[1] * scale[Fields<dim>::potential], neighbours, several,
+               sums);
   const std::array<double, 3> work = work_of_round_off(model, step, sums),
                               now = by_field(step.now.stored),
                               before = by_field(step.before.stored);
