@@ -50,7 +50,7 @@ double TimeSteps::at(int n) const {
   if (n == 0)
     return 0;
   const Interval &interval = of(n);
-  if (interval.begin > 0 && n == interval.last)
+  if (n == interval.last)  // to the last bit: formulas need not be there beyond it
     return interval.end;
   return interval.begin + (interval.end - interval.begin) * (n - interval.first + 1) /
                               (interval.last - interval.first + 1);

@@ -44,7 +44,7 @@ void FoundationCircuits<dim>::begin(std::span<const double> initial) {
 // Q - what has come in, beyond what the potentials hold in capacitors: what is there at once.
 template <int dim>
 VectorXd FoundationCircuits<dim>::brought_at_once() const {
-  if (foundations_.empty())
+  if (foundations_.empty())  // which BLAS refuses
     return {};
   const Circuit at_once(as_electrodes(model_.asked.contacts), 0);
   return at_once.right_side(std::nullopt, 0, charges_, before_, potentials_) -

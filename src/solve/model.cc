@@ -4,6 +4,7 @@
 
 #include "body/conductors.h"
 #include "mesh/distribute.h"
+#include "solve/held_by_mass.h"
 #include "stopwatch.h"
 
 namespace tourmaline::solve {
@@ -119,6 +120,8 @@ void Model<dim>::add_rate_forces() {
     forces.drop_damping();
   op.set_rate_forces(std::move(forces));
   cells.add_rate_forces(op);
+  if (is_dynamic && asked.time.contact_mass == "redistributed" && !interface.empty())
+    require_mass_that_holds(*this);
 }
 
 template <int dim>

@@ -110,17 +110,21 @@ void Motion<dim>::end_step(std::span<const double> before, std::span<const doubl
   rates_ = std::move(next);
 }
 
+// Damping takes k v.C v of the mean velocity, which is d / k but at supports.
 template <int dim>
 void Motion<dim>::add_energies(const Rates &next, std::span<const double> d) {
   for (std::size_t i = 0; i < d.size(); ++i) {
     record_.dissipated += d[i] * next.backward_damping[i];
     if (!is_inertial())
       continue;
+    const double moved = model_.step * (next.velocity[i] + rates_.velocity[i]) / 2,
+                 damping = (rates_.damping[i] + next.damping[i]) / 2;
     record_.kinetic_energy += next.velocity[i] * next.momentum[i] / 2;
     record_.kinetic_gained +=
         (next.velocity[i] + rates_.velocity[i]) * (next.momentum[i] - rates_.momentum[i]) / 2;
-    record_.dissipated += d[i] * (rates_.damping[i] + next.damping[i]) / 2;
-    record_.lost += d[i] * (rates_.backward_damping[i] - next.backward_damping[i]) / 2;
+    record_.dissipated += moved * damping;
+    record_.lost += (d[i] - moved) * damping +
+                    d[i] * (rates_.backward_damping[i] - next.backward_damping[i]) / 2;
   }
   if (!given_.empty())
     record_.lost += lost_at_supports(next, d);

@@ -185,6 +185,43 @@ TEST(Capacitor, ToGroundItLeavesAnUnchargedElectrodeTheShareOfItsCapacity) {
   EXPECT_NEAR(h.numbers("electrode_top_voltage").back(), 8. / 4, 1e-11);
 }
 
+// A source that is there at t = 0 is switched on then, whatever it is written as.
+TEST(Capacitor, HasOneRuleForSourcesThatAreThereFromTheStart) {
+  std::vector<double> last;
+  for (const char *regime : {"quasistatic", "static", "dynamic"})
+    for (const char *source : {"voltage = 8", "voltage = '8*min(1, 1e9*t)'", "to = 'drive'"}) {
+      SCOPED_TRACE(fmt::format("{}, {}", regime, source));
+      const Table h =
+          RunCase(plain(fmt::format(R"({}, {{ name = "drive", on = "left", voltage = 8 }},
+                                       {{ name = "top", on = "top", {}, capacitor = 1e-8 }})",
+                                    ground, source),
+                        {fmt::format("time.regime={}", regime)}))
+              .history();
+      last.push_back(h.numbers("electrode_top_voltage").back());
+      expect_all(h.numbers("electrode_top_voltage"), last.back(), 1e-11);
+      expect_closed_balances(h);
+    }
+  expect_all(last, last[0], 1e-11);
+  EXPECT_GT(last[0], 1);
+}
+
+// A volume charge that is there at t = 0 leaves none on an open electrode: over a grounded plane it
+// has the voltage q H^2 / (2 eps) on any mesh.
+TEST(OpenElectrode, HasNoShareOfAVolumeChargeOnAnyMesh) {
+  for (const char *regime : {"quasistatic", "static", "dynamic"})
+    for (const int cells : {2, 5}) {
+      SCOPED_TRACE(fmt::format("{}, {}", regime, cells));
+      const Table h = RunCase(plain(ground + R"(, { name = "top", on = "top" })",
+                                    {"load.charge=1e-6", fmt::format("time.regime={}", regime),
+                                     fmt::format("mesh.box.cells=[{},{}]", cells, cells)}))
+                          .history();
+      expect_all(h.numbers("electrode_top_voltage"), 1e-6 * height * height / (2 * beta33),
+                 1e-13 / beta33 * height * height);
+      EXPECT_LT(largest(h, "electrode_top_charge"), 1e-12 * 1e-6 * height * width);
+      expect_closed_balances(h);
+    }
+}
+
 // Piezoelectric, bent and in contact, with every kind of electrode.
 const char *const device = R"toml(
 mesh.box = { min = [0, 0], max = [0.04, 0.02], cells = [8, 5] }

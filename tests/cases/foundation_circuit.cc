@@ -243,6 +243,20 @@ TEST(FoundationCircuit, ThatNoChargeComesToIsRefused) {
   }
 }
 
+// In a static case time is a parameter: what is written as constant is what a ramp ends at.
+TEST(FoundationCircuit, BehindACapacitorASourceIsSwitchedOnAtTheStart) {
+  for (const Overrides &route : routes) {
+    const auto last = [&](const char *voltage) {
+      return column(fmt::format("{{capacitor=1e-9,voltage={}}}", voltage), route)
+          .history()
+          .numbers("foundation_voltage")
+          .back();
+    };
+    const double constant = last("300"), ramp = last("'300*t'");
+    EXPECT_NEAR(constant, ramp, 1e-9 * std::abs(ramp));
+  }
+}
+
 TEST(FoundationCircuit, ThatContradictsItselfIsRefused) {
   const std::string law = "{law='exchange',coefficient=1e-7,";
   expect_refused(law + "circuit={},foundation_potential=1}",

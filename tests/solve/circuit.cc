@@ -54,5 +54,22 @@ TEST(Circuit, ItsRightSideIsWhatItHasBroughtBeforeAndWhatSourcesBring) {
   EXPECT_EQ(circuit.right_side(1.5, 2, charges, before, now), expected);
 }
 
+// A source of 10 V that is there from the start has brought nothing before it.
+TEST(Circuit, SourcesAreSwitchedOnAtTheStart) {
+  ElectrodeCase a = electrode("a");
+  a.voltage = Formula(10.);
+  a.capacitor = 2;
+  const Circuit circuit({a}, step);
+  const VectorXd charges{{1}}, before{{3}}, now{{99}};
+  EXPECT_EQ(circuit.right_side(std::nullopt, step, charges, before, now)[0], 1 + 2 * 3 + 2 * 10);
+  EXPECT_EQ(circuit.right_side(0., step, charges, before, now)[0], 1 + 2 * (3 - 10) + 2 * 10);
+}
+
+TEST(Circuit, AtOnceChargeComesThroughCapacitorsAlone) {
+  const Circuit circuit(electrodes(), 0);
+  const MatrixXd expected{{3, -3, 0, 0}, {-3, 5, 0, 0}, {0, 0, 7, 0}, {0, 0, 0, 0}};
+  EXPECT_EQ(circuit.admittance(), expected);
+}
+
 }  // namespace
 }  // namespace tourmaline::solve

@@ -1,0 +1,91 @@
+#include "solve/held_by_mass.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "case/holding.h"
+#include "tourmaline/error.h"
+
+namespace tourmaline::solve {
+
+using body::Fields;
+using body::Node;
+using casefile::Support;
+
+namespace {
+
+template <int dim>
+std::vector<Node> nodes_with_mass(const Model<dim> &model) {
+  std::vector<Node> nodes;
+  for (Node node = 0; node < model.body.n_nodes(); ++node)
+    if (model.op.rate_forces()->diagonal()[node] > 0)
+      nodes.push_back(node);
+  return nodes;
+}
+
+// Of all points three that are as far from a line as any: what they hold all of them hold.
+std::vector<Vector3> spanning(const std::vector<Vector3> &points) {
+  using Point = Eigen::Vector3d;
+  const auto at = [&](std::size_t i) { return Point(points[i].data()); };
+  const auto farthest = [&](const auto &distance) {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < points.size(); ++i)
+      if (distance(at(i)) > distance(at(best)))
+        best = i;
+    return best;
+  };
+  const Point first = at(0);
+  const std::size_t second = farthest([&](const Point &p) { return (p - first).norm(); });
+  const Point line = at(second) - first;
+  const std::size_t third =
+      farthest([&](const Point &p) { return (p - first).cross(line).norm(); });
+  return {points[0], points[second], points[third]};
+}
+
+template <int dim>
+std::vector<Support> supports_beside_mass(const Model<dim> &model) {
+  std::vector<Support> supports;
+  for (const body::Prescribed &p : model.prescribed)
+    if (const std::size_t c = p.unknown % Fields<dim>::count; c < dim) {
+      Support &support = supports.emplace_back(Support{p.point, {}});
+      support.direction[c] = 1;
+    }
+  for (const contact::InterfaceNode<dim> &at : model.interface)
+    if (!model.laws.of(at).can_open()) {
+      Support &support = supports.emplace_back(Support{at.point, {}});
+      Eigen::Map<typename Model<dim>::Vector>(support.direction.data()) = at.normal;
+    }
+  return supports;
+}
+
+}  // namespace
+
+template <int dim>
+void require_mass_that_holds(const Model<dim> &model) {
+  std::vector<Vector3> points;
+  for (const Node node : nodes_with_mass(model))
+    points.push_back(model.body.points()[node]);
+  if (points.empty())
+    return;
+  std::vector<Support> supports;
+  for (const Vector3 &point : spanning(points))
+    for (std::size_t c = 0; c < dim; ++c)
+      supports.emplace_back(Support{point, {}}).direction[c] = 1;
+  if (casefile::free_motions(dim, supports).empty())
+    return;
+  for (const Support &support : supports_beside_mass(model))
+    supports.push_back(support);
+  if (const std::string free = casefile::free_motions_in_words(dim, supports); !free.empty())
+    throw CaseError(fmt::format(
+        "[time] contact_mass: contact nodes give their mass to other nodes of their cells, and of "
+        "these there {}, which {} not resist {}; nothing else holds the body against it; take "
+        "finer cells, or contact_mass = \"consistent\"",
+        points.size() == 1 ? "is one" : fmt::format("are {}", points.size()),
+        points.size() == 1 ? "does" : "do", free));
+}
+
+template void require_mass_that_holds<2>(const Model<2> &);
+template void require_mass_that_holds<3>(const Model<3> &);
+
+}  // namespace tourmaline::solve
