@@ -94,11 +94,18 @@ class TableReader {
       separator_ = separator_of(line);
       const Fields fields = fields_of(line, separator_);
       const bool has_names = !number_in(fields.front());
+      columns_ = fields.size();
       choose(fields, has_names);
       if (has_names)
         return;
     }
-    add_point(fields_of(line, separator_));
+    const Fields fields = fields_of(line, separator_);
+    if (fields.size() != columns_)
+      fail(
+          fmt::format("has {} columns, and the first line of the table has {}; numbers are written "
+                      "with a point, columns stand apart by one of , ; and tabulators",
+                      fields.size(), columns_));
+    add_point(fields);
   }
 
   void choose(const Fields &names, bool has_names) {
@@ -122,8 +129,6 @@ class TableReader {
   }
 
   double number(const Fields &fields, std::size_t i) const {
-    if (i >= fields.size())
-      fail(fmt::format("has {} columns, and column {} is needed", fields.size(), i + 1));
     const auto found = number_in(fields[i]);
     if (!found)
       fail(fmt::format("column {} is {}, which is no number", i + 1,
@@ -148,7 +153,7 @@ class TableReader {
   LoadTable::Points points_;
   bool is_first_ = true;
   char separator_ = ',';
-  std::size_t line_ = 0, at_ = 1;
+  std::size_t line_ = 0, at_ = 1, columns_ = 0;
 };
 
 }  // namespace

@@ -109,7 +109,7 @@ TEST_F(FileTable, SaysWhatIsWrongInItsFile) {
   EXPECT_THAT(complaint_of("t,F\n0,0\n2,nan\n"),
               HasSubstr("load.csv:3: column 2 is nan, which is not a finite number"));
   EXPECT_THAT(complaint_of("t,F\n0,0\n2,zwei\n"), HasSubstr("\"zwei\", which is no number"));
-  EXPECT_THAT(complaint_of("t,F\n0,0\n2\n"), HasSubstr("has 1 columns, and column 2 is needed"));
+  EXPECT_THAT(complaint_of("t,F\n0,0\n2\n"), HasSubstr("has 1 columns, and the first line of the table has 2"));
   EXPECT_THAT(
       complaint_of("t,force,flux\n0,0,0\n2,1,1\n", R"({ table = "load.csv", column = "Force" })"),
       AllOf(HasSubstr("has no column \"Force\"; there are \"force\", \"flux\" over \"t\""),
@@ -162,6 +162,13 @@ TEST(PointsOverTime, AreRefusedWhereNothingMayDependOnTime) {
 TEST_F(FileTable, WithTwoColumnsOfOneNameIsRefused) {
   EXPECT_THAT(complaint_of("t,F,F\n0,1,2\n2,3,4\n", R"({ table = "load.csv", column = "F" })"),
               HasSubstr("several columns"));
+}
+
+// As of decimal commas: 0,5,1,5 has four.
+TEST_F(FileTable, WhoseLinesHaveDifferentNumbersOfColumnsIsRefused) {
+  for (const char *text : {"t,F\n0,0,0,0\n2,0,-50,0\n", "t,F,G\n0,0\n2,1\n", "0,1\n2,3,4\n"})
+    EXPECT_THAT(complaint_of(text), HasSubstr("columns, and the first line of the table has"))
+        << text;
 }
 
 TEST(LoadTable, BendsWhereItsSlopeChanges) {
