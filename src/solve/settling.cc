@@ -115,6 +115,7 @@ class Settling {
     VectorXd potentials(electrodes_.size() + foundations_.potentials().size());
     if (potentials.size() == 0)
       return follow();
+    before_ = state_;
     potentials << electrodes_.voltages(state_), foundations_.potentials();
     const VectorXd lacks = lacks_with(potentials);
     const MatrixXd slope = slope_at(potentials, lacks);
@@ -135,8 +136,10 @@ class Settling {
     return slope;
   }
 
-  // Of electrodes and foundations, once the body has followed their potentials [C].
+  // Of electrodes and foundations, once the body has followed their potentials [C]. What is damped
+  // does not follow all the way, and would go on from where other potentials have left it.
   VectorXd lacks_with(const VectorXd &potentials) {
+    state_ = before_;
     electrodes_.put(potentials.head(electrodes_.size()), state_);
     foundations_.put_at_start(potentials.tail(potentials.size() - electrodes_.size()));
     follow();
@@ -225,6 +228,7 @@ class Settling {
 
   const Model<dim> &model_;
   std::vector<double> &state_;
+  std::vector<double> before_;             // where it begins to follow
   FreeElectrodesAtStart<dim> electrodes_;  // of the state before it is settled
   FoundationCircuits<dim> &foundations_;
   std::vector<ExchangeSite> sites_;
