@@ -76,9 +76,8 @@ double StepLadder::time(Ticks place) const {
 }
 
 StepLadder::Pair StepLadder::pair() const {
-  const Ticks whole = length();
-  return {static_cast<double>(whole / 2) * stretch().tick, time(place_ + whole / 2),
-          time(place_ + whole)};
+  const Ticks half = length() / 2;
+  return {static_cast<double>(half) * stretch().tick, time(place_ + half), time(place_ + 2 * half)};
 }
 
 // A pair that its place or the end of its stretch has cut short says little about longer ones.
