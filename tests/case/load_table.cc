@@ -109,7 +109,8 @@ TEST_F(FileTable, SaysWhatIsWrongInItsFile) {
   EXPECT_THAT(complaint_of("t,F\n0,0\n2,nan\n"),
               HasSubstr("load.csv:3: column 2 is nan, which is not a finite number"));
   EXPECT_THAT(complaint_of("t,F\n0,0\n2,zwei\n"), HasSubstr("\"zwei\", which is no number"));
-  EXPECT_THAT(complaint_of("t,F\n0,0\n2\n"), HasSubstr("has 1 columns, and the first line of the table has 2"));
+  EXPECT_THAT(complaint_of("t,F\n0,0\n2\n"),
+              HasSubstr("has 1 columns, and the first line of the table has 2"));
   EXPECT_THAT(
       complaint_of("t,force,flux\n0,0,0\n2,1,1\n", R"({ table = "load.csv", column = "Force" })"),
       AllOf(HasSubstr("has no column \"Force\"; there are \"force\", \"flux\" over \"t\""),
