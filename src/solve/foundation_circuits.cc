@@ -24,13 +24,13 @@ using Eigen::VectorXd;
 template <int dim>
 FoundationCircuits<dim>::FoundationCircuits(const Model<dim> &model)
     : model_(model),
-      of_step_(model.step),
       circuit_(as_electrodes(model.asked.contacts), model.step) {
   for (std::size_t c = 0; c < model.found_potentials.size(); ++c)
     if (model.found_potentials[c])
-      foundations_.push_back(foundation(c));
+      foundations_.emplace_back().contact = c;
   charges_ = before_ = potentials_ = VectorXd::Zero(static_cast<Index>(foundations_.size()));
   search_ = ProbedNewton(potentials_.size());
+  make();
   put_potentials();
 }
 
@@ -88,15 +88,27 @@ std::vector<casefile::ElectrodeCase> FoundationCircuits<dim>::as_electrodes(
 }
 
 template <int dim>
-void FoundationCircuits<dim>::follow_step() {
-  if (model_.step != of_step_) {
-    of_step_ = model_.step;
-    circuit_ = Circuit(as_electrodes(model_.asked.contacts), of_step_);
-    for (Foundation &one : foundations_)
-      one = foundation(one.contact);
+void FoundationCircuits<dim>::make() {
+  of_step_ = model_.step;
+  circuit_ = Circuit(as_electrodes(model_.asked.contacts), of_step_);
+  capacities_ = circuit_.admittance().diagonal();
+  for (std::size_t f = 0; f < foundations_.size(); ++f) {
+    foundations_[f] = foundation(foundations_[f].contact);
+    capacities_[static_cast<Index>(f)] += foundations_[f].capacitance;
   }
-  if (slope_of_step_ != of_step_)
-    search_.forget();
+  search_.set_sizes(capacities_);
+}
+
+// The slope changes by what the circuits have of it; where what the contact has depends on the
+// step as well, the search finds out.
+template <int dim>
+void FoundationCircuits<dim>::follow_step() {
+  if (of_step_ != model_.step)
+    make();
+  if (search_.knows_slope() && slope_of_step_ != of_step_)
+    search_.add_to_slope(
+        circuit_.admittance() -
+        Circuit(as_electrodes(model_.asked.contacts), slope_of_step_).admittance());
   slope_of_step_ = of_step_;
 }
 
@@ -123,13 +135,11 @@ typename FoundationCircuits<dim>::Foundation FoundationCircuits<dim>::foundation
   for (const auto &[node, weight] : made.weights)
     made.capacitance += weight;
   if (made.capacitance == 0)
-    throw CaseError(
-        fmt::format("{} [contact]: electric.coefficient is 0 all over contact \"{}\", so that no "
-                    "charge comes to "
-                    "its foundation, whose circuit then finds no potential; give it a coefficient "
-                    "> 0, or leave "
-                    "electric out",
-                    model_.asked.source, model_.asked.contacts[contact].called()));
+    throw CaseError(fmt::format(
+        "{} [contact]: electric.coefficient is 0 all over contact \"{}\", so that no charge comes "
+        "to its foundation, whose circuit then finds no potential; give it a coefficient > 0, or "
+        "leave electric out",
+        model_.asked.source, model_.asked.contacts[contact].called()));
   return made;
 }
 
@@ -174,7 +184,7 @@ template <int dim>
 double FoundationCircuits<dim>::size(std::size_t f, std::span<const double> state) const {
   const Foundation &of = foundations_[f];
   const auto row = static_cast<Index>(f);
-  double size = (of.capacitance + circuit_.admittance()(row, row)) * std::abs(potentials_[row]);
+  double size = capacities_[row] * std::abs(potentials_[row]);
   for (const auto &[node, weight] : of.weights)
     size += weight * std::abs(state[unknown<dim>(node, Fields<dim>::potential)]);
   return size;
@@ -206,13 +216,13 @@ bool FoundationCircuits<dim>::settle(double time, std::span<const double> state,
   follow_step();
   const Lack lack = this->lack(time, state, outcome);
   newton_iterations_ += outcome.newton_iterations;
-  search_.see(potentials_, lack.of, probe(lack));
-  require_contact(time, lack, outcome);
   if (is_found(lack)) {
-    require_digits(time, lack);
+    require_digits(time, lack, outcome);
     end_step(lack.charges, outcome);
     return true;
   }
+  search_.see(potentials_, lack.of, probe(lack));
+  require_contact(time, lack, outcome);
   if (++rounds_ == most || !lack.of.allFinite())
     throw SolveError(fmt::format(
         "the potential of the foundation at t = {:g} s was not found in {} solutions of the step: "
@@ -228,25 +238,21 @@ bool FoundationCircuits<dim>::settle(double time, std::span<const double> state,
 // fall.
 template <int dim>
 bool FoundationCircuits<dim>::is_found(const Lack &lack) {
-  constexpr double round_off = std::numeric_limits<double>::epsilon(), nothing = 1e-13;
-  const double left = relative_to(lack.of.cwiseAbs().maxCoeff(), lack.sizes.maxCoeff());
-  if (left <= round_off)
+  constexpr double round_off = 2 * std::numeric_limits<double>::epsilon(), nothing = 1e-13;
+  const Eigen::Array<bool, Eigen::Dynamic, 1> is_round_off =
+      lack.of.array().abs() <= round_off * lack.sizes.array();
+  if (is_round_off.all())
     return true;
-  if (search_.knows_slope() && search_.distance(lack.of).maxCoeff() <= nothing * probe(lack))
+  const VectorXd left = is_round_off.select(0., lack.of);
+  if (search_.knows_slope() && search_.distance(left).maxCoeff() <= nothing * probe(lack))
     return true;
-  return stall_.see(left);
+  return stall_.see(is_round_off.select(0., left.cwiseAbs().cwiseQuotient(lack.sizes)).maxCoeff());
 }
 
 // Of the size of the potentials at hand.
 template <int dim>
 double FoundationCircuits<dim>::probe(const Lack &lack) const {
-  double size = 0;
-  for (std::size_t f = 0; f < foundations_.size(); ++f) {
-    const auto row = static_cast<Index>(f);
-    size = std::max(
-        size, lack.sizes[row] / (foundations_[f].capacitance + circuit_.admittance()(row, row)));
-  }
-  return size;
+  return lack.sizes.cwiseQuotient(capacities_).maxCoeff();
 }
 
 // Where nothing touches a foundation, and nothing but the contact is connected to it, its charge is
@@ -259,8 +265,7 @@ void FoundationCircuits<dim>::require_contact(double time, const Lack &lack,
     return;
   for (std::size_t f = 0; f < foundations_.size(); ++f) {
     const auto row = static_cast<Index>(f);
-    const double most = foundations_[f].capacitance + circuit_.admittance()(row, row);
-    if (touches(f, outcome) || search_.slope().row(row).cwiseAbs().maxCoeff() > nothing * most ||
+    if (touches(f, outcome) || search_.slope().row(row).cwiseAbs().maxCoeff() > nothing * capacities_[row] ||
         std::abs(lack.of[row]) <= nothing * lack.sizes[row])
       continue;
     throw SolveError(fmt::format(
@@ -286,7 +291,8 @@ bool FoundationCircuits<dim>::touches(std::size_t f, const StepOutcome &outcome)
 // The charge is a difference of what the contact lets pass one way and the other, of which little
 // is left where it conducts far better than the body behind it.
 template <int dim>
-void FoundationCircuits<dim>::require_digits(double time, const Lack &lack) const {
+void FoundationCircuits<dim>::require_digits(double time, const Lack &lack,
+                                             const StepOutcome &outcome) const {
   constexpr double round_off = std::numeric_limits<double>::epsilon(), most = 1e-6;
   if (!search_.knows_slope())
     return;
@@ -294,11 +300,10 @@ void FoundationCircuits<dim>::require_digits(double time, const Lack &lack) cons
   const VectorXd off = search_.distance(uncertain);
   for (std::size_t f = 0; f < foundations_.size(); ++f)
     if (const auto row = static_cast<Index>(f);
-        !(off[row] <= most * probe(lack)) && uncertain[row] > 0)
+        !(off[row] <= most * probe(lack)) && uncertain[row] > 0 && touches(f, outcome))
       throw SolveError(fmt::format(
           "the potential of the foundation of contact \"{}\" at t = {:g} s is known to {:.2g} V of "
-          "{:.6g} V "
-          "only: electric.coefficient is so large beside the permittivity of the body that the "
+          "{:.6g} V only: electric.coefficient is so large beside the permittivity of the body that the "
           "charge has no digits left. A smaller one, a thousand times what the body conducts, "
           "gives the same fields and is as good a conductor; or take `solver.body = \"direct\"` "
           "where it is \"iterative\"",

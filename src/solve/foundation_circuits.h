@@ -57,6 +57,7 @@ class FoundationCircuits {
   };
   static std::vector<casefile::ElectrodeCase> as_electrodes(
       const std::vector<casefile::ContactCase> &contacts);
+  void make();
   void follow_step();
   Foundation foundation(std::size_t contact) const;
   double charge_at_start(std::size_t f, std::span<const double> state) const;
@@ -73,14 +74,15 @@ class FoundationCircuits {
   double probe(const Lack &lack) const;
   void require_contact(double time, const Lack &lack, const StepOutcome &outcome) const;
   bool touches(std::size_t f, const StepOutcome &outcome) const;
-  void require_digits(double time, const Lack &lack) const;
+  void require_digits(double time, const Lack &lack, const StepOutcome &outcome) const;
   void put_potentials() const;
   void end_step(const Eigen::VectorXd &charges, StepOutcome &outcome);
 
   const Model<dim> &model_;
-  double of_step_;  // k that the following is made for [s]
+  double of_step_ = 0;  // k that the following is made for [s]
   std::vector<Foundation> foundations_;
   Circuit circuit_;
+  Eigen::VectorXd capacities_;  // what a volt brings on each at the most [F]
   Eigen::VectorXd charges_, before_;  // at the end of the last step: Q [C], V [V]
   ProbedNewton search_{0};
   double slope_of_step_ = 0;  // k with which it knows the slope of R [s]

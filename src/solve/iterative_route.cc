@@ -129,6 +129,7 @@ template <int dim>
 void IterativeRoute<dim>::restore_memory(const output::SavedNumbers &numbers) {
   two_before_.resize(numbers.size("state before"));
   numbers.fill("state before", two_before_);
+  is_predicted_ = false;
   restore_contact(numbers);
   if (!two_before_.empty())  // of a step, whose contact the preconditioner has
     body_.system().restore(numbers, model_.interface.size());

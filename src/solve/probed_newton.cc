@@ -8,10 +8,17 @@ namespace tourmaline::solve {
 using Eigen::Index;
 using Eigen::VectorXd;
 
+VectorXd ProbedNewton::step_for(const VectorXd &residual) const {
+  const Eigen::MatrixXd scaled = sizes_.cwiseInverse().asDiagonal() * slope_;
+  return scaled.completeOrthogonalDecomposition().solve(residual.cwiseQuotient(sizes_));
+}
+
 VectorXd ProbedNewton::distance(const VectorXd &residual) const {
-  return slope_.fullPivLu().isInvertible()
-             ? VectorXd(slope_.fullPivLu().solve(residual).cwiseAbs())
-             : VectorXd::Constant(residual.size(), std::numeric_limits<double>::infinity());
+  constexpr double some = 1e-3;
+  const VectorXd step = step_for(residual), left = residual - slope_ * step;
+  return (left.array().abs() > some * residual.array().abs())
+      .select(VectorXd::Constant(step.size(), std::numeric_limits<double>::infinity()),
+              step.cwiseAbs());
 }
 
 void ProbedNewton::see_probe(const VectorXd &x, const VectorXd &residual) {
@@ -24,21 +31,23 @@ void ProbedNewton::see_probe(const VectorXd &x, const VectorXd &residual) {
   if (++probed_ < x.size())
     return;
   probed_ = -1;
-  knows_slope_ = true;
+  knows_slope_ = has_probed_ = true;
 }
 
 void ProbedNewton::see(const VectorXd &x, const VectorXd &residual, double probe) {
   constexpr double far = 1e-4;  // below it the difference of two residuals has too few digits
+  const bool goes_on = x_.size() > 0;
+  if (knows_slope_ && !has_probed_ && !leads_on(residual))
+    forget();
   if (!knows_slope_) {
     see_probe(x, residual);
     probe_ = probe;
     return;
   }
-  const bool goes_on = x_.size() > 0;
   if (goes_on && (x - x_).norm() > far * std::abs(probe))
     update(x, residual);
   halfway_.resize(0);
-  if (goes_on && residual.norm() > 2 * residual_.norm()) {
+  if (goes_on && norm(residual) > 2 * norm(residual_)) {
     halfway_ = (x_ + x) / 2;
     return;
   }
@@ -46,9 +55,16 @@ void ProbedNewton::see(const VectorXd &x, const VectorXd &residual, double probe
   residual_ = residual;
 }
 
+// A slope of an earlier search, of which parts may have been 0 then.
+bool ProbedNewton::leads_on(const VectorXd &residual) const {
+  constexpr double half = 0.5;
+  return distance(residual).allFinite() &&
+         (x_.size() == 0 || norm(residual) < half * norm(residual_));
+}
+
 VectorXd ProbedNewton::next() const {
   if (knows_slope_)
-    return halfway_.size() > 0 ? halfway_ : VectorXd(x_ - slope_.partialPivLu().solve(residual_));
+    return halfway_.size() > 0 ? halfway_ : VectorXd(x_ - step_for(residual_));
   VectorXd x = x_;
   x[probed_] += probe_;
   return x;
@@ -60,6 +76,7 @@ void ProbedNewton::update(const VectorXd &x, const VectorXd &residual) {
 }
 
 void ProbedNewton::end() {
+  has_probed_ = false;
   probed_ = -1;
   x_.resize(0);
   residual_.resize(0);

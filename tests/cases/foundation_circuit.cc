@@ -184,6 +184,42 @@ foundation_displacement = ["1e-6*t", 0, 0]
   expect_closed_balances(found.history());
 }
 
+// Two foundations, of which one lets go after a third of the time, or is reached in the second half
+// of it, while a current comes from the other; a hundred thousand times as much conducts there.
+const char *const one_apart = R"toml(
+time = { end = 1, steps = 12 }
+mesh.box = { min = [0, 0], max = [0.1, 0.02], cells = [4, 3] }
+material = { symmetry = "isotropic", young = 1e9, poisson = 0.2, eps11 = 1000, k11 = 1, density = 1000, specific_heat = 1, reference_temperature = 293 }
+boundary = [ { on = "top", displacement = [0, "-1e-6+3e-6*t"], potential = "5*t" } ]
+[[contact]]
+on = "left"
+electric = { law = "exchange", coefficient = 1e-1, circuit = { resistor = 1e8, voltage = 3 } }
+[[contact]]
+on = "bottom"
+normal = "unilateral"
+electric = { law = "exchange", coefficient = 1e-6, ramp = 1e-7, circuit = {} }
+)toml";
+
+TEST(FoundationCircuit, ThatNothingTouchesLeavesTheOtherAlone) {
+  for (const Overrides &moved :
+       {Overrides{}, Overrides{"boundary[0].displacement=[0,'2e-6-3e-6*t']"},
+        Overrides{"contact[1].electric.circuit={capacitor=1e-12}"}})
+    for (const char *route :
+         {"solver.method=condensed", "solver.method=monolithic", "solver.body=iterative"}) {
+      Overrides all = moved;
+      all.insert(all.end(), {route, "solver.linear_tolerance=1e-13"});
+      const RunCase run = run_text(one_apart, all);
+      const Table history = run.history();
+      expect_closed_balances(history);
+      const std::vector<double> charge = history.numbers("foundation_charge_left"),
+                                current = history.numbers("foundation_current_left"),
+                                voltage = history.numbers("foundation_voltage_left");
+      for (std::size_t n = 0; n < charge.size(); ++n)
+        EXPECT_NEAR(current[n], (3 - voltage[n]) / 1e8, 1e-9 * 3e-8) << route << n;
+      EXPECT_GT(std::abs(charge.back()), 1e-9) << route;
+    }
+}
+
 void expect_refused(const std::string &electric, const std::string &words) {
   try {
     RunCase("cases/verification/charge-exchange.toml", {"contact.electric=" + electric});

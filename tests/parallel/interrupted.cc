@@ -3,7 +3,6 @@
 #include <chrono>
 #include <csignal>
 #include <future>
-#include <thread>
 
 #include "../cases/slipping_block.h"
 #include "../cases/thrown_block.h"
@@ -16,13 +15,13 @@ using output::content_of;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-// The first rank's number stands in the lock of the folder.
-bool send_behind_a_checkpoint(int signal, const fs::path &folder) {
-  for (int tries = 0; tries < 20000; ++tries) {
+// However long the run takes to come there. The first rank's number stands in the lock of the
+// folder.
+bool send_behind_a_checkpoint(int signal, const fs::path &folder,
+                              const std::future<Outcome> &run) {
+  while (run.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready)
     if (fs::exists(folder / "checkpoint.bin"))
       return kill(std::stoi(content_of(folder / "run.lock")), signal) == 0;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
   return false;
 }
 
@@ -32,7 +31,7 @@ class Interrupted : public Ranks {
   void interrupt(const std::string &arguments, int signal) {
     auto interrupted = std::async(std::launch::async,
                                   [&] { return run_on(GetParam(), arguments, folder_ / "other"); });
-    ASSERT_TRUE(send_behind_a_checkpoint(signal, folder_ / "other"));
+    ASSERT_TRUE(send_behind_a_checkpoint(signal, folder_ / "other", interrupted));
     before_ = interrupted.get();
     ASSERT_NE(before_.status, 0) << "too fast to be interrupted";
     const Outcome resumed = run_on(GetParam(), arguments + " --resume", folder_ / "other");
@@ -87,7 +86,7 @@ TEST_P(Interrupted, AnotherNumberOfRanksIsRefused) {
       paper_ + "--set time.steps=1000 --set output.fields=false --set output.checkpoint=2steps";
   auto stopped = std::async(std::launch::async,
                             [&] { return run_on(GetParam(), arguments, folder_ / "other"); });
-  ASSERT_TRUE(send_behind_a_checkpoint(SIGTERM, folder_ / "other"));
+  ASSERT_TRUE(send_behind_a_checkpoint(SIGTERM, folder_ / "other", stopped));
   ASSERT_EQ(stopped.get().status, 128 + SIGTERM);
   const Outcome alone = run_on(1, arguments + " --resume", folder_ / "other");
   EXPECT_EQ(alone.status, 2);
