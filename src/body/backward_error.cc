@@ -26,27 +26,27 @@ double backward_error(const Operator<dim> &op, double step, const std::vector<do
 }
 
 template <int dim>
-double relative_size(std::span<const double> change, std::span<const double> state,
-                     const std::array<double, Fields<dim>::count> &scale) {
-  constexpr double nothing = 1e-6;  // of the largest field
-  std::array<double, 3> sizes{}, changes{};
+FieldSizes field_sizes(std::span<const double> state,
+                       const std::array<double, Fields<dim>::count> &scale) {
+  FieldSizes sizes{};
   for (std::size_t i = 0; i < state.size(); ++i) {
-    const std::size_t component = i % Fields<dim>::count;
-    const int field = field_of<dim>(i);
-    sizes[field] = larger(sizes[field], std::abs(state[i]) / scale[component]);
-    changes[field] = larger(changes[field], std::abs(change[i]) / scale[component]);
+    double &size = sizes[field_of<dim>(i)];
+    size = larger(size, std::abs(state[i]) / scale[i % Fields<dim>::count]);
   }
-  const double whole = larger(larger(sizes[0], sizes[1]), sizes[2]);
+  return sizes;
+}
+
+double relative_size(const FieldSizes &change, const FieldSizes &whole) {
+  constexpr double nothing = 1e-6;  // of the largest field
+  const double largest = larger(larger(whole[0], whole[1]), whole[2]);
   double worst = 0;
   for (int f = 0; f < 3; ++f)
-    worst = larger(worst, relative_to(changes[f], larger(sizes[f], nothing * whole)));
+    worst = larger(worst, relative_to(change[f], larger(whole[f], nothing * largest)));
   return std::isnan(worst) ? std::numeric_limits<double>::infinity() : worst;
 }
 
-template double relative_size<2>(std::span<const double>, std::span<const double>,
-                                 const std::array<double, 4> &);
-template double relative_size<3>(std::span<const double>, std::span<const double>,
-                                 const std::array<double, 5> &);
+template FieldSizes field_sizes<2>(std::span<const double>, const std::array<double, 4> &);
+template FieldSizes field_sizes<3>(std::span<const double>, const std::array<double, 5> &);
 template double backward_error(const Operator<2> &, double, const std::vector<double> &,
                                std::span<const double>, std::span<const double>,
                                std::span<const double>);

@@ -16,12 +16,22 @@ double backward_error(const Operator<dim> &op, double step, const std::vector<do
                       std::span<const double> residual, std::span<const double> right_side,
                       std::span<const double> state);
 
-/// Size of a change of the state over that of the state: by field the largest scaled entries, the
-/// worst field's. `scale` holds a factor for each component of a node. A field of which there is
-/// next to nothing (a millionth of the largest, so 1e-12 of its energy) is measured by that
-/// millionth. Infinite where a number is not one.
+/// The largest scaled entries by field: u, phi, theta.
+using FieldSizes = std::array<double, 3>;
+
+/// `scale` holds a factor for each component of a node.
+template <int dim>
+FieldSizes field_sizes(std::span<const double> state,
+                       const std::array<double, Fields<dim>::count> &scale);
+
+/// Size of a change over that of what changed, the worst field's. A field of which there is next
+/// to nothing (a millionth of the largest, so 1e-12 of its energy) is measured by that millionth.
+/// Infinite where a number is not one.
+double relative_size(const FieldSizes &change, const FieldSizes &whole);
 template <int dim>
 double relative_size(std::span<const double> change, std::span<const double> state,
-                     const std::array<double, Fields<dim>::count> &scale);
+                     const std::array<double, Fields<dim>::count> &scale) {
+  return relative_size(field_sizes<dim>(change, scale), field_sizes<dim>(state, scale));
+}
 
 }  // namespace tourmaline::body

@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <utility>
 
+#include "case/each_formula.h"
 #include "case/load_table.h"
-#include "case/schema.h"
 #include "case/toml_text.h"
 #include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
@@ -19,40 +18,11 @@ namespace {
 
 using Look = std::function<void(const Formula &formula, const LoadTable &table)>;
 
-/// Looks at every table that a case has.
-class EachTable : public Visitor {
- public:
-  explicit EachTable(Look look) : look_(std::move(look)) {}
-
-  void key(const Key &, Value value) override {
-    if (const auto *formula = std::get_if<Formula *>(&value))
-      see(**formula);
-    if (const auto *formulas = std::get_if<FormulaVector *>(&value))
-      for (const Formula &formula : **formulas)
-        see(formula);
-    if (const auto *components = std::get_if<Displacement *>(&value))
-      for (const std::optional<Formula> &formula : **components)
-        if (formula)
-          see(*formula);
-  }
-  bool given(const Key &, bool present) override { return present; }
-  void table(const Key &, const Body &body) override { body(*this); }
-  int count(const Key &, int present) override { return present; }
-  void entry(const Key &, int, const Body &body) override { body(*this); }
-
- private:
-  void see(const Formula &formula) const {
-    if (const LoadTable *table = formula.table())
-      look_(formula, *table);
-  }
-
-  Look look_;
-};
-
 void for_each_table(const Case &asked, const Look &look) {
-  Case copy = asked;
-  EachTable visitor(look);
-  declare(visitor, copy);
+  for_each_formula(asked, [&](const Formula &formula) {
+    if (const LoadTable *table = formula.table())
+      look(formula, *table);
+  });
 }
 
 // An end that differs by round-off, as of a sum of steps, is the same.

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
+#include "body/backward_error.h"
 #include "body/fields.h"
 #include "case/tables_in_time.h"
 #include "larger.h"
@@ -18,6 +20,12 @@ namespace {
 
 double longest(const casefile::TimeCase &time) {
   return time.end / time.steps;
+}
+
+std::vector<double> since(const std::vector<double> &state, const std::vector<double> &before) {
+  std::vector<double> change(state.size());
+  std::transform(state.begin(), state.end(), before.begin(), change.begin(), std::minus<>());
+  return change;
 }
 
 // Forces and places that agree to these digits are the same.
@@ -107,24 +115,15 @@ double StepDoubling<dim>::error(const TakenStep &whole, const TakenStep &halves,
   return of_fields;
 }
 
-// As `body::relative_size` has it, a field that next to nothing has come to is measured by a
-// millionth of the largest.
 template <int dim>
 double StepDoubling<dim>::field_error(const TakenStep &whole, const TakenStep &halves) {
-  constexpr double nothing = 1e-6;
-  std::array<double, 3> errors{};
-  for (std::size_t i = 0; i < initial_.size(); ++i) {
-    const double scale = scale_[i % body::Fields<dim>::count];
-    const int field = body::field_of<dim>(i);
-    for (const TakenStep *step : {&whole, &halves})
-      changes_[field] = larger(changes_[field], std::abs(step->state[i] - initial_[i]) / scale);
-    errors[field] = larger(errors[field], std::abs(whole.state[i] - halves.state[i]) / scale);
+  for (const TakenStep *step : {&whole, &halves}) {
+    const body::FieldSizes changes = body::field_sizes<dim>(since(step->state, initial_), scale_);
+    for (std::size_t field = 0; field < changes.size(); ++field)
+      changes_[field] = larger(changes_[field], changes[field]);
   }
-  const double largest = larger(larger(changes_[0], changes_[1]), changes_[2]);
-  double worst = 0;
-  for (int field = 0; field < 3; ++field)
-    worst = larger(worst, relative_to(errors[field], larger(changes_[field], nothing * largest)));
-  return worst;
+  return body::relative_size(body::field_sizes<dim>(since(whole.state, halves.state), scale_),
+                             changes_);
 }
 
 // Statuses between which nothing lies, as of a point that is closed without pressure, are one.

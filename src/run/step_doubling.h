@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "body/backward_error.h"
 #include "output/checkpoint.h"
 #include "run/evolution.h"
 #include "run/step_ladder.h"
@@ -55,7 +56,7 @@ class StepDoubling {
   Evolution<dim> &evolution_;
   StepLadder ladder_;
   std::vector<double> initial_;      // state
-  std::array<double, 3> changes_{};  // the largest since then of u, phi, theta, scaled
+  body::FieldSizes changes_{};       // the largest since then of u, phi, theta, scaled
   std::array<double, body::Fields<dim>::count> scale_;
   std::set<double> sizes_;  // [s]
   int rejected_ = 0, computed_ = 0;

@@ -339,9 +339,6 @@ EndForces initial_forces(const Model<dim> &model, const BalancedState<dim> &init
   return forces;
 }
 
-// Of the diagonal some neighbours' share of the row in its own field. Couplings to other fields do
-// not count: no larger in a sound case, they would excuse any imbalance of constants out of all
-// proportion.
 namespace {
 
 // Adds what contact nodes let through by their state, closed and without pressure, to the diagonal
@@ -361,6 +358,9 @@ void add_exchanges(const Model<dim> &model, double watt, std::vector<double> &di
 
 }  // namespace
 
+// Of the diagonal some neighbours' share of the row in its own field. Couplings to other fields do
+// not count: no larger in a sound case, they would excuse any imbalance of constants out of all
+// proportion.
 template <int dim>
 BalanceRoundOff round_off_of(const Model<dim> &model, const CoupledFields &coupled,
                              const BalanceStep<dim> &step) {
