@@ -23,8 +23,7 @@ using Eigen::VectorXd;
 
 template <int dim>
 FoundationCircuits<dim>::FoundationCircuits(const Model<dim> &model)
-    : model_(model),
-      circuit_(as_electrodes(model.asked.contacts), model.step) {
+    : model_(model), circuit_(as_electrodes(model.asked.contacts), model.step) {
   for (std::size_t c = 0; c < model.found_potentials.size(); ++c)
     if (model.found_potentials[c])
       foundations_.emplace_back().contact = c;
@@ -265,7 +264,8 @@ void FoundationCircuits<dim>::require_contact(double time, const Lack &lack,
     return;
   for (std::size_t f = 0; f < foundations_.size(); ++f) {
     const auto row = static_cast<Index>(f);
-    if (touches(f, outcome) || search_.slope().row(row).cwiseAbs().maxCoeff() > nothing * capacities_[row] ||
+    if (touches(f, outcome) ||
+        search_.slope().row(row).cwiseAbs().maxCoeff() > nothing * capacities_[row] ||
         std::abs(lack.of[row]) <= nothing * lack.sizes[row])
       continue;
     throw SolveError(fmt::format(
@@ -303,7 +303,8 @@ void FoundationCircuits<dim>::require_digits(double time, const Lack &lack,
         !(off[row] <= most * probe(lack)) && uncertain[row] > 0 && touches(f, outcome))
       throw SolveError(fmt::format(
           "the potential of the foundation of contact \"{}\" at t = {:g} s is known to {:.2g} V of "
-          "{:.6g} V only: electric.coefficient is so large beside the permittivity of the body that the "
+          "{:.6g} V only: electric.coefficient is so large beside the permittivity of the body "
+          "that the "
           "charge has no digits left. A smaller one, a thousand times what the body conducts, "
           "gives the same fields and is as good a conductor; or take `solver.body = \"direct\"` "
           "where it is \"iterative\"",

@@ -82,7 +82,7 @@ class FoundationCircuits {
   double of_step_ = 0;  // k that the following is made for [s]
   std::vector<Foundation> foundations_;
   Circuit circuit_;
-  Eigen::VectorXd capacities_;  // what a volt brings on each at the most [F]
+  Eigen::VectorXd capacities_;        // what a volt brings on each at the most [F]
   Eigen::VectorXd charges_, before_;  // at the end of the last step: Q [C], V [V]
   ProbedNewton search_{0};
   double slope_of_step_ = 0;  // k with which it knows the slope of R [s]

@@ -87,8 +87,7 @@ struct OverDiagonal {
   void vmult(dealii::Vector<double> &quotient, const dealii::Vector<double> &x) const {
     const std::vector<double> &diagonal = model.op.rate_forces()->diagonal();
     for (std::size_t i = 0; i < x.size(); ++i)
-      quotient.begin()[i] =
-          x.begin()[i] == 0 ? 0 : x.begin()[i] / diagonal[i / Fields<dim>::count];
+      quotient.begin()[i] = x.begin()[i] == 0 ? 0 : x.begin()[i] / diagonal[i / Fields<dim>::count];
   }
 };
 

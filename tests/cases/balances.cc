@@ -66,9 +66,7 @@ contact = { on = "bottom", friction = { law = "tresca", bound = 1e4 } }
 TEST(Dissipation, IsNeverNegativeWhereNormalsAreTiltedToWhatIsHeld) {
   for (const char *route :
        {"solver.method=condensed", "solver.method=monolithic", "solver.body=iterative"}) {
-    const Table history =
-        RunCase(casefile::read_text(rimmed_sleeve, "case.toml", {route}, mesh::read_mesh_file))
-            .history();
+    const Table history = run_text(rimmed_sleeve, {route}).history();
     EXPECT_GT(largest(history, "friction_dissipation"), 0) << route;
     for (const double dissipated : history.numbers("friction_dissipation"))
       EXPECT_GE(dissipated, 0) << route;

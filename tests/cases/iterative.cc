@@ -37,7 +37,7 @@ struct Asked {
   casefile::Case with(const std::string &body) const {
     Overrides all = overrides;
     all.push_back("solver.body=\"" + body + "\"");
-    all.push_back("output.fields=false");
+    all.insert(all.end(), {"output.fields=false", "output.report=false"});
     return text.empty()
                ? casefile::read_file(std::filesystem::path(TOURMALINE_SOURCE_DIR) / name, all)
                : casefile::read_text(text, "case.toml", all);

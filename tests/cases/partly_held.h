@@ -18,7 +18,6 @@ boundary = [
   { on = "top", potential = "100*t", temperature = 0, traction = [0, 0, "-1e5*t^2"] },
   { on = "right", traction = ["3e4*sin(3*t)", "2e4*t", 0] } ]
 contact = { on = "bottom", friction = { law = "tresca", bound = 1e4 } }
-output = { fields = false, report = false }
 )toml";
 
 /// A block on rollers that move, without contact.
@@ -30,7 +29,6 @@ boundary = [
   { on = "right", displacement = [0, 0, 0], potential = 0, temperature = 0 },
   { on = "left", displacement = ["1e-9*t", "free", "free"] },
   { on = "top", traction = [0, 2000, -3000] } ]
-output = { fields = false, report = false }
 )toml";
 
 /// A sleeve whose lower rim is held across the shaft, so that the normals of its contact nodes are
@@ -44,7 +42,6 @@ boundary = [
   { on = "bottom", displacement = ["2e-11*t", "free", "free"] },
   { on = "top", displacement = ["free", "free", "1e-9*sin(4*t)"] } ]
 contact = { on = "inner", friction = { law = "tresca", bound = 1000 } }
-output = { fields = false, report = false }
 )toml";
 
 /// A plane block between a roller and its contact, whose ends the roller holds along or across.
@@ -57,7 +54,6 @@ boundary = [
   { on = "bottom", displacement = ["free", "2e-10*t"] },
   { on = "top", temperature = 0, traction = ["300*t", "-1000*t"] } ]
 contact = { on = "left", friction = { law = "tresca", bound = 15 }, heat = { law = "exchange", coefficient = 1, foundation_temperature = -27 } }
-output = { fields = false, report = false }
 )toml";
 
 }  // namespace tourmaline::testing

@@ -17,8 +17,7 @@ namespace fs = std::filesystem;
 
 // However long the run takes to come there. The first rank's number stands in the lock of the
 // folder.
-bool send_behind_a_checkpoint(int signal, const fs::path &folder,
-                              const std::future<Outcome> &run) {
+bool send_behind_a_checkpoint(int signal, const fs::path &folder, const std::future<Outcome> &run) {
   while (run.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready)
     if (fs::exists(folder / "checkpoint.bin"))
       return kill(std::stoi(content_of(folder / "run.lock")), signal) == 0;
