@@ -126,6 +126,12 @@ bool Composition<dim>::is_damped() const {
 }
 
 template <int dim>
+bool Composition<dim>::resists_motion() const {
+  return std::any_of(parts_.begin(), parts_.end(),
+                     [](const Part &part) { return part.crystal.mass_damping > 0; });
+}
+
+template <int dim>
 bool Composition<dim>::is_polar() const {
   return std::any_of(parts_.begin(), parts_.end(),
                      [](const Part &part) { return material::is_polar(part.crystal); });

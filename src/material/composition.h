@@ -41,6 +41,8 @@ class Composition {
   bool has_conductors() const;
   /// Whether any material resists its rate of strain or its velocity.
   bool is_damped() const;
+  /// Whether any resists its velocity, by which a body without supports does not drift at will.
+  bool resists_motion() const;
   double reference_temperature() const { return parts_.front().crystal.reference_temperature; }
   /// Whether materials or poling differ from place to place.
   bool varies() const;

@@ -10,7 +10,10 @@ namespace tourmaline::run {
 
 template <int dim>
 Adrift<dim>::Adrift(const solve::Model<dim> &model)
-    : model_(model), left_to_contact_(casefile::left_to_contact(model.asked)) {}
+    : model_(model),
+      left_to_contact_(model.composition.resists_motion() && !model.asked.time.is_static()
+                           ? ""
+                           : casefile::left_to_contact(model.asked)) {}
 
 // Friction that slips holds, too: whether it lets go is for the balance of forces to say.
 template <int dim>

@@ -55,8 +55,8 @@ class StepDoubling {
   solve::Model<dim> &model_;
   Evolution<dim> &evolution_;
   StepLadder ladder_;
-  std::vector<double> initial_;      // state
-  body::FieldSizes changes_{};       // the largest since then of u, phi, theta, scaled
+  std::vector<double> initial_;  // state
+  body::FieldSizes changes_{};   // the largest since then of u, phi, theta, scaled
   std::array<double, body::Fields<dim>::count> scale_;
   std::set<double> sizes_;  // [s]
   int rejected_ = 0, computed_ = 0;

@@ -190,6 +190,14 @@ TEST(Locking, LinearCellsThatAreTooStiffForABimorphAreToldOf) {
   EXPECT_THAT(warnings(read(bimorph(2, plane_mesh("triangle", 128, 8, "")))), HasSubstr("bends"));
 }
 
+// One row of triangles, of which every other one belongs to the upper half.
+TEST(Locking, ASlenderBodyInOneRowOfTrianglesIsToldOfAtTheEndOfARun) {
+  for (const int n : {30, 60, 100})
+    EXPECT_THAT(warnings(read(bimorph(2, plane_mesh("triangle", n, 1, "")))),
+                HasSubstr("Give mesh.degree = 2"))
+        << n;
+}
+
 // So stiff that the voltage bends it by next to nothing, and only stretches it.
 TEST(Locking, ABimorphThatItsCellsBlockAltogetherIsToldOf) {
   for (const char *cell : {"triangle", "quadrilateral"})

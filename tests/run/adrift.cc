@@ -21,7 +21,8 @@ class OnItsFoundation : public testing::Test {
     return outcome;
   }
 
-  const casefile::Case asked = casefile::read_text(R"toml(
+  static casefile::Case on_foundation(const std::vector<std::string> &overrides = {}) {
+    return casefile::read_text(R"toml(
 mesh.box = { min = [0, 0], max = [0.01, 0.01], cells = [1, 1], cell = "quadrilateral" }
 material.library = "silicon"
 time = { end = 1, steps = 9 }
@@ -33,7 +34,10 @@ potential = 0
 on = "bottom"
 normal = "unilateral"
 )toml",
-                                                   "case.toml");
+                               "case.toml", overrides);
+  }
+
+  const casefile::Case asked = on_foundation();
   const solve::Model<2> model{asked};
   Adrift<2> adrift{model};
 };
@@ -48,6 +52,14 @@ TEST_F(OnItsFoundation, ItIsAdriftWhereAllNodesAreOpen) {
   adrift.step(2, with(ContactStatus::open, ContactStatus::open));
   EXPECT_THAT(adrift.warning(), AllOf(HasSubstr("nothing held the body in step 2:"),
                                       HasSubstr("keeps it from, a translation along y.")));
+}
+
+TEST_F(OnItsFoundation, ItIsNotAdriftWhereItsMassDampingHoldsIt) {
+  const casefile::Case damped = on_foundation({"material.mass_damping=1"});
+  const solve::Model<2> model_of(damped);
+  Adrift<2> never(model_of);
+  never.step(1, with(ContactStatus::open, ContactStatus::open));
+  EXPECT_EQ(never.warning(), "");
 }
 
 TEST_F(OnItsFoundation, ARunThatGoesOnKnowsOfTheStepsBefore) {
