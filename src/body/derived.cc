@@ -16,6 +16,16 @@ material::Voigt strain_of(const Gradients &at) {
   return strain;
 }
 
+void add_strains_across(material::Plane plane, const material::Constants &c, Gradients &at) {
+  if (plane == material::Plane::strain)
+    return;
+  const Eigen::Vector3d across =
+      material::strains_across(c, strain_of(at), -at.potential, at.theta);
+  at.displacement(2, 2) = across[0];
+  at.displacement(1, 2) = across[1];
+  at.displacement(0, 2) = across[2];
+}
+
 material::Voigt stress_of(const Gradients &at, const material::Constants &c) {
   return c.stiffness * strain_of(at) + c.piezoelectric.transpose() * at.potential -
          c.thermal_stress * at.theta;
@@ -106,7 +116,10 @@ output::CellFields derived_fields(const Discretisation<dim> &body,
   const bool varies = composition.varies(), polar = composition.is_polar();
   body.for_each_cell([&](const Quadrature<dim> &cell) {
     const std::array<double, 3> centre = cell.centre();
-    add_fields(means(cell, state), composition.in_space(cell.region, centre), fields);
+    const material::Constants constants = composition.in_space(cell.region, centre);
+    Gradients mean = means(cell, state);
+    add_strains_across(composition.plane(), constants, mean);
+    add_fields(mean, constants, fields);
     if (varies)
       fields.region.push_back(static_cast<double>(cell.region));
     if (varies || polar)

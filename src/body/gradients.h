@@ -5,6 +5,7 @@
 
 #include "body/operator.h"
 #include "material/constants.h"
+#include "material/plane.h"
 
 namespace tourmaline::body {
 
@@ -33,6 +34,8 @@ void add_gradients(const Quadrature<dim> &cell, std::size_t q, std::span<const d
   }
 }
 
+/// In plane stress, the strains that nothing hinders across the plane.
+void add_strains_across(material::Plane plane, const material::Constants &c, Gradients &at);
 /// Engineering strains in Voigt's order.
 material::Voigt strain_of(const Gradients &at);
 /// (1) with E = -grad phi [Pa].

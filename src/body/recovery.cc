@@ -225,6 +225,7 @@ std::vector<output::SymmetricTensor> Recovery<dim>::sampled(
     for (std::size_t q = 0; q < cell.points.size(); ++q) {
       Gradients at;
       add_gradients(cell, q, state, 1, at);
+      add_strains_across(composition.plane(), constants, at);
       stress.push_back(in_file_order(stress_of(at, constants), 1));
     }
   });

@@ -191,6 +191,18 @@ void declare(Visitor &v, InitialCase &initial, const TimeCase &time, int dimensi
       &initial.temperature);
 }
 
+void declare(Visitor &v, ModelCase &model, int dimension) {
+  v.key({.name = "plane",
+         .description =
+             "what a two-dimensional body is. strain: it is long across the plane, or held there, "
+             "so that nothing strains across it; stress: it is thin across the plane and free "
+             "there, so that no stress acts across it. Either way per metre of depth, and the "
+             "potential does not vary across the plane",
+         .choices = {"strain", "stress"},
+         .used = {dimension == 2, "a mesh of two dimensions"}},
+        &model.plane);
+}
+
 void declare_augmented_lagrangian(Visitor &v, SolverCase &solver) {
   const Use monolithic = with("method", solver.method, {"monolithic"});
   const std::string from_stiffness = "from the stiffness of the body at the contact";
@@ -301,6 +313,8 @@ void declare(Visitor &v, Case &c) {
           [&](Visitor &inner) { declare(inner, c.load, c.dimension); });
   v.table({.name = "initial", .description = "The state at the time 0"},
           [&](Visitor &inner) { declare(inner, c.initial, c.time, c.dimension); });
+  v.table({.name = "model", .description = "Which equations are solved"},
+          [&](Visitor &inner) { declare(inner, c.model, c.dimension); });
   v.table({.name = "solver", .description = "How the equations are solved"},
           [&](Visitor &inner) { declare(inner, c.solver, c.contacts); });
   v.table({.name = "output", .description = "What a run leaves in its folder"},

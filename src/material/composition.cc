@@ -35,7 +35,8 @@ bool is_polar(const Constants &c) {
 }  // namespace
 
 template <int dim>
-Composition<dim>::Composition(const casefile::Case &asked) {
+Composition<dim>::Composition(const casefile::Case &asked)
+    : plane_(asked.model.plane == "stress" ? Plane::stress : Plane::strain) {
   require_complete(asked_materials(asked));
   for (const casefile::MaterialCase &material : asked_materials(asked))
     add(material);
@@ -45,7 +46,7 @@ Composition<dim>::Composition(const casefile::Case &asked) {
     if (!material::varies(part.asked.poling)) {
       const Tensor axes = crystal_axes(part.asked, dim);
       part.everywhere = rotated(part.crystal, axes);
-      part.restricted_everywhere = restricted<dim>(*part.everywhere);
+      part.restricted_everywhere = restricted(*part.everywhere);
       part.poling_everywhere = axes.col(2);
     }
 }
@@ -85,7 +86,7 @@ BodyConstants<dim> Composition<dim>::at(std::size_t region, const Place &centre)
   const Part &part = parts_.at(region);
   if (part.restricted_everywhere)
     return *part.restricted_everywhere;
-  return restricted<dim>(rotated(part.crystal, crystal_axes(part.asked, dim, centre)));
+  return restricted(rotated(part.crystal, crystal_axes(part.asked, dim, centre)));
 }
 
 template <int dim>

@@ -37,6 +37,7 @@ class Composition {
   /// Direction of the crystal's axis 3; zero where nothing is piezo- or pyroelectric.
   Vector poling(std::size_t region, const Place &centre) const;
 
+  Plane plane() const { return plane_; }
   bool conducts(std::size_t region) const { return parts_.at(region).crystal.conductor; }
   bool has_conductors() const;
   /// Whether any material resists its rate of strain or its velocity.
@@ -59,9 +60,13 @@ class Composition {
   };
 
   void add(const casefile::MaterialCase &asked);
+  BodyConstants<dim> restricted(const Constants &body_axes) const {
+    return material::restricted<dim>(body_axes, plane_);
+  }
   void fill_conductors();
   void check_reference_temperatures() const;
 
+  Plane plane_;
   std::vector<Part> parts_;
 };
 

@@ -12,6 +12,8 @@ namespace {
 // could drive them: yz, xz.
 const std::array<int, 3> in_plane{0, 1, 5};
 const std::array<int, 2> out_of_plane{3, 4};
+// The strains that plane stress leaves free: zz, yz, xz.
+const std::array<int, 3> across{2, 3, 4};
 
 void check_plane(const Constants &c) {
   const double stress = c.stiffness.cwiseAbs().maxCoeff();
@@ -28,33 +30,61 @@ void check_plane(const Constants &c) {
   if (couples)
     throw CaseError(
         "[material] in this orientation fields in the plane drive a displacement out of it, so "
-        "plane "
-        "strain is no solution; turn poling into the plane, or model the body in three dimensions");
+        "plane strain is no solution; turn poling into the plane, or model the body in three "
+        "dimensions");
+}
+
+// With the strains across the plane from (1) without stress there, F_oo eps_o = -F_oi eps_i +
+// e_o^T E + m_o theta, put into (1), (2) and the entropy.
+BodyConstants<2> without_stress_across(const Constants &c, BodyConstants<2> plane) {
+  const Eigen::Matrix3d stiffness = c.stiffness(across, across),
+                        coupling = c.stiffness(across, in_plane);
+  const Eigen::Matrix<double, 3, 2> piezo = c.piezoelectric(std::array{0, 1}, across).transpose();
+  const Eigen::Vector3d thermal = c.thermal_stress(across);
+  const Eigen::LLT<Eigen::Matrix3d> factor(stiffness);
+  plane.stiffness -= coupling.transpose() * factor.solve(coupling);
+  plane.piezoelectric -= piezo.transpose() * factor.solve(coupling);
+  plane.permittivity += piezo.transpose() * factor.solve(piezo);
+  plane.thermal_stress -= coupling.transpose() * factor.solve(thermal);
+  plane.pyroelectric += piezo.transpose() * factor.solve(thermal);
+  plane.heat_capacity += thermal.dot(factor.solve(thermal));
+  return plane;
 }
 
 }  // namespace
 
+Eigen::Vector3d strains_across(const Constants &c, const Voigt &strain,
+                               const Eigen::Vector3d &field, double theta) {
+  const Eigen::Matrix3d stiffness = c.stiffness(across, across),
+                        coupling = c.stiffness(across, in_plane),
+                        piezo = c.piezoelectric(Eigen::all, across);
+  const Eigen::Vector3d thermal = c.thermal_stress(across), in = strain(in_plane);
+  return stiffness.llt().solve(piezo.transpose() * field + thermal * theta - coupling * in);
+}
+
 template <>
-BodyConstants<3> restricted<3>(const Constants &c) {
+BodyConstants<3> restricted<3>(const Constants &c, Plane) {
   return {c.stiffness,    c.piezoelectric,     c.permittivity,    c.thermal_stress,
           c.pyroelectric, c.conductivity,      c.heat_capacity(), c.reference_temperature,
           c.density,      c.stiffness_damping, c.mass_damping};
 }
 
 template <>
-BodyConstants<2> restricted<2>(const Constants &c) {
-  check_plane(c);
-  return {c.stiffness(in_plane, in_plane),
-          c.piezoelectric(std::array{0, 1}, in_plane),
-          c.permittivity.topLeftCorner<2, 2>(),
-          c.thermal_stress(in_plane),
-          c.pyroelectric.head<2>(),
-          c.conductivity.topLeftCorner<2, 2>(),
-          c.heat_capacity(),
-          c.reference_temperature,
-          c.density,
-          c.stiffness_damping,
-          c.mass_damping};
+BodyConstants<2> restricted<2>(const Constants &c, Plane plane) {
+  if (plane == Plane::strain)
+    check_plane(c);
+  const BodyConstants<2> of_plane{c.stiffness(in_plane, in_plane),
+                                  c.piezoelectric(std::array{0, 1}, in_plane),
+                                  c.permittivity.topLeftCorner<2, 2>(),
+                                  c.thermal_stress(in_plane),
+                                  c.pyroelectric.head<2>(),
+                                  c.conductivity.topLeftCorner<2, 2>(),
+                                  c.heat_capacity(),
+                                  c.reference_temperature,
+                                  c.density,
+                                  c.stiffness_damping,
+                                  c.mass_damping};
+  return plane == Plane::strain ? of_plane : without_stress_across(c, of_plane);
 }
 
 }  // namespace tourmaline::material

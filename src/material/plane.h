@@ -8,8 +8,12 @@ namespace tourmaline::material {
 template <int dim>
 inline constexpr int n_strains = dim *(dim + 1) / 2;
 
-/// The constants that a body of `dim` dimensions sees, in its own axes. In 2D: plane strain,
-/// eps_zz = eps_yz = eps_xz = 0 and E_z = 0.
+/// What a two-dimensional body does across its plane, with E_z = 0 in both: eps_zz = eps_yz =
+/// eps_xz = 0, or sigma_zz = sigma_yz = sigma_xz = 0.
+enum class Plane { strain, stress };
+
+/// The constants that a body of `dim` dimensions sees, in its own axes. In plane stress the strains
+/// across the plane have been eliminated; damping of the stiffness acts on what is left of it.
 template <int dim>
 struct BodyConstants {
   static constexpr int strains = n_strains<dim>;
@@ -26,9 +30,14 @@ struct BodyConstants {
   double mass_damping = 0;           ///< [1/s]
 };
 
-/// Throws CaseError in 2D when the plane's fields would drive a displacement out of the plane or a
-/// field E_z: plane strain is then no solution of (1)-(6).
+/// Throws CaseError in plane strain when the plane's fields would drive a displacement out of the
+/// plane or a field E_z: it is then no solution of (1)-(6).
 template <int dim>
-BodyConstants<dim> restricted(const Constants &body_axes);
+BodyConstants<dim> restricted(const Constants &body_axes, Plane plane = Plane::strain);
+
+/// eps_zz, 2 eps_yz and 2 eps_xz of plane stress, from the strains of the plane (the others of
+/// `strain` are not looked at), E [V/m] and theta [K].
+Eigen::Vector3d strains_across(const Constants &body_axes, const Voigt &strain,
+                               const Eigen::Vector3d &field, double theta);
 
 }  // namespace tourmaline::material

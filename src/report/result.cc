@@ -50,6 +50,8 @@ void read_case(Result &result, const fs::path &folder) {
         casefile::read_file(folder / "resolved.toml", {},
                             [&](const casefile::MeshCase &) { return recorded_mesh(folder); });
     result.dimension = result.asked->dimension;
+    if (result.asked->model.plane == "stress")
+      result.remarks.emplace_back("Plane stress: the body is a sheet whose faces are free.");
   } catch (const CaseError &error) {
     // The numbers can be shown without: a case of another version, or a run that failed.
     result.remarks.push_back(std::string("The conditions are not shown: ") + error.what());

@@ -32,6 +32,10 @@ struct TimeCase {
   bool is_dynamic() const { return regime == "dynamic"; }
 };
 
+struct ModelCase {
+  std::string plane = "strain";  ///< strain | stress; of two dimensions
+};
+
 struct SolverCase {
   std::string method = "condensed";  ///< condensed | monolithic
   std::string body = "automatic";    ///< automatic | direct | iterative; of the condensed method
@@ -63,6 +67,7 @@ struct Case {
   std::vector<BoundaryCase> boundaries;
   std::vector<ElectrodeCase> electrodes;
   std::vector<ContactCase> contacts;  ///< no boundary in two of them
+  ModelCase model;
   SolverCase solver;
   OutputCase output;
   LoadCase load;
