@@ -126,6 +126,9 @@ void TimeLoop<dim>::book(TakenStep step) {
 
 template <int dim>
 output::HistoryRow TimeLoop<dim>::record(const TakenStep &step) {
+  // Of a pair of chosen steps both are taken before either is written.
+  for (const auto &foundation : step.outcome.foundations)
+    *model_.found_potentials[foundation.contact] = foundation.voltage;
   solve::Route &route = evolution_.route().route();
   return recorder_->step(step.n, step.outcome, step.loads, step.before, step.state, route,
                          [&] { return route.accuracy(step.right_side, step.state, step.outcome); });

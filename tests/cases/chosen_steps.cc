@@ -226,6 +226,31 @@ electrode = [ { name = "ground", on = "bottom", voltage = 0 },
   EXPECT_LT(2 * t[0], t[t.size() - 1] - t[t.size() - 2]);
 }
 
+// Both steps of a pair are taken before either is written, each with its own potential.
+TEST(ChosenSteps, OfAFoundationsCircuitBookWhatEachHasCrossed) {
+  for (const char *exchange :
+       {"law = 'exchange', coefficient = 1e-3, circuit = { resistor = 1e4, voltage = 100 }",
+        "law = 'exchange', coefficient = 1e-3, circuit = { capacitor = 1e-9, voltage = '1e5*t' }",
+        "law = 'leak', coefficient = 10, circuit = { resistor = 1e4, voltage = 100 }",
+        "law = 'exchange', coefficient = 1e-3, circuit = { charge = '1e-6*t' }"})
+    for (const char *route : {"solver.method=condensed", "solver.method=monolithic"}) {
+      SCOPED_TRACE(std::string(exchange) + route);
+      const RunCase run = run_text(material + R"toml(
+time = { end = 5e-4, steps = 20, tolerance = 1e-2 }
+mesh.box = { min = [0, 0], max = [0.01, 0.002], cells = [4, 2], cell = "quadrilateral" }
+boundary = [ { on = "top", displacement = [0, 0], potential = 0 } ]
+contact = { on = "bottom", electric = { )toml" +
+                                       exchange + " } }\n",
+                                   {route});
+      const Table history = run.history();
+      expect_closed_balances(history, 1e-9);
+      const std::vector<double> crossed = history.numbers("charge_bottom"),
+                                foundation = history.numbers("foundation_charge");
+      for (std::size_t n = 0; n < crossed.size(); ++n)
+        EXPECT_NEAR(crossed[n], -foundation[n], 1e-9 * std::abs(foundation.back())) << n;
+    }
+}
+
 TEST(ChosenSteps, AreRefusedWhereTheyAreNotAvailable) {
   const std::string rest = R"(
 mesh.box = { min = [0, 0], max = [0.01, 0.01], cells = [2, 2] }
