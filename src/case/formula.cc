@@ -270,6 +270,14 @@ std::string Formula::text() const {
   return expression_ ? expression_->text : fmt::format("{}", number_);
 }
 
+std::string Formula::in_words() const {
+  constexpr std::size_t few = 6;
+  if (!table_ || table_->points().size() <= few)
+    return text();
+  return fmt::format("(table of {} points, t = {} to {} s)", table_->points().size(),
+                     table_->begin(), table_->end());
+}
+
 const FormulaNames &formula_names() {
   static const FormulaNames names = [] {
     std::array<double, 4> variables{};

@@ -130,12 +130,22 @@ class TableReader {
 
   double number(const Fields &fields, std::size_t i) const {
     const auto found = number_in(fields[i]);
+    if (fields[i].empty())
+      fail(fmt::format("column {} is empty", i + 1));
     if (!found)
-      fail(fmt::format("column {} is {}, which is no number", i + 1,
-                       toml_text(shortened(fields[i]))));
+      fail(fmt::format("column {} is {}, which is no number{}", i + 1,
+                       toml_text(shortened(fields[i])), way_out(fields[i])));
     if (!std::isfinite(*found))
       fail(fmt::format("column {} is {}, which is not a finite number", i + 1, fields[i]));
     return *found;
+  }
+
+  // What a spreadsheet's table lacks most often.
+  std::string way_out(std::string text) const {
+    std::replace(text.begin(), text.end(), ',', '.');
+    if (number_in(text))
+      return "; decimals stand behind a point";
+    return points_.empty() ? "; lines that begin with # are left out" : "";
   }
 
   void add_point(const Fields &fields) {

@@ -17,18 +17,18 @@ void add_foundation(const casefile::ContactCase &asked, std::vector<std::string>
     words.push_back(fmt::format("gap g = {} m", text_of(asked.gap)));
   std::string list;
   for (const Formula &component : asked.foundation_displacement)
-    list += (list.empty() ? "" : ", ") + component.text();
+    list += (list.empty() ? "" : ", ") + component.in_words();
   if (!list.empty())
     words.push_back(fmt::format("foundation moves by ({}) m", list));
 }
 
 std::string heat_text(const casefile::HeatExchangeCase &heat) {
-  std::string text = heat.exchanges()
-                         ? fmt::format("heat exchange, k = {} W/(K m²), with {} K",
-                                       heat.coefficient.text(), heat.foundation_temperature.text())
-                         : "insulated, q·ν = 0";
+  std::string text = heat.exchanges() ? fmt::format("heat exchange, k = {} W/(K m²), with {} K",
+                                                    heat.coefficient.in_words(),
+                                                    heat.foundation_temperature.in_words())
+                                      : "insulated, q·ν = 0";
   if (heat.pressure)
-    text += fmt::format(", and {} (p/({} N/m²))^{}", heat.pressure->coefficient.text(),
+    text += fmt::format(", and {} (p/({} N/m²))^{}", heat.pressure->coefficient.in_words(),
                         number_text(heat.pressure->reference, 6), heat.pressure->exponent);
   if (heat.ramp)
     text += fmt::format(", k fading over {} m", number_text(*heat.ramp, 6));
@@ -40,7 +40,7 @@ std::string heat_text(const casefile::HeatExchangeCase &heat) {
 std::string circuit_text(const casefile::FoundationCircuitCase &circuit) {
   std::string text = "a foundation ";
   if (circuit.charge)
-    return text + "with the charge " + circuit.charge->text() + " C";
+    return text + "with the charge " + circuit.charge->in_words() + " C";
   if (!circuit.is_loaded())
     return text + "that is open";
   text += "behind ";
@@ -48,7 +48,7 @@ std::string circuit_text(const casefile::FoundationCircuitCase &circuit) {
     text += number_text(*circuit.resistor, 6) + " Ω";
   if (circuit.capacitor)
     text += (circuit.resistor ? " and " : "") + number_text(*circuit.capacitor, 6) + " F";
-  return text + " to " + circuit.voltage.text() + " V";
+  return text + " to " + circuit.voltage.in_words() + " V";
 }
 
 std::string charge_text(const casefile::ChargeExchangeCase &electric) {
@@ -56,7 +56,7 @@ std::string charge_text(const casefile::ChargeExchangeCase &electric) {
       "{}, c = {} {}, with {}", electric.law == "leak" ? "leaking charge" : "charge exchange",
       text_of(electric.coefficient), electric.law == "leak" ? "S/m²" : "F/m²",
       electric.circuit ? circuit_text(*electric.circuit)
-                       : electric.foundation_potential->text() + " V");
+                       : electric.foundation_potential->in_words() + " V");
   if (electric.ramp)
     text += fmt::format(", fading over {} m", number_text(*electric.ramp, 6));
   return text;

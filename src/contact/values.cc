@@ -39,7 +39,7 @@ double positive(const Formula &formula, const Vector3 &point, const char *what) 
 
 std::string text_of(const Formula &formula) {
   const bool is_constant = !formula.depends_on_time() && !formula.depends_on_place();
-  return is_constant ? number_text(formula.value({}, 0), 6) : formula.text();
+  return is_constant ? number_text(formula.value({}, 0), 6) : formula.in_words();
 }
 
 }  // namespace tourmaline::contact

@@ -235,7 +235,8 @@ Json as_json(const Entry &entry) {
   for (const auto &[key, is_given] : casefile::given_tensors(given))
     if (is_given)
       json["tensors"].push_back(key);
-  for (const Gap &gap : entry.is_read() ? gaps(given) : std::vector<Gap>{})
+  const bool is_known = entry.is_read() || entry.mistake.empty();
+  for (const Gap &gap : is_known ? gaps(given) : std::vector<Gap>{})
     for (const std::string &constant : gap.constants)
       json["missing"].push_back(
           {{"key", constant}, {"unit", unit_of(constant)}, {"reason", gap.reason}});

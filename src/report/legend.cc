@@ -19,14 +19,14 @@ bool names(const std::vector<std::string> &list, const std::string &boundary) {
 std::string displacement_text(const std::vector<std::optional<Formula>> &components) {
   std::string list;
   for (const auto &component : components)
-    list += (list.empty() ? "" : ", ") + (component ? component->text() : std::string("free"));
+    list += (list.empty() ? "" : ", ") + (component ? component->in_words() : std::string("free"));
   return fmt::format("u = ({}) m", list);
 }
 
 std::string traction_text(const casefile::FormulaVector &components) {
   std::string list;
   for (const Formula &component : components)
-    list += (list.empty() ? "" : ", ") + component.text();
+    list += (list.empty() ? "" : ", ") + component.in_words();
   return fmt::format("σν = ({}) N/m²", list);
 }
 
@@ -54,7 +54,7 @@ void add_others(Conditions &conditions, const casefile::BoundaryCase &entry) {
   const auto scalar = [&](const std::optional<Formula> &formula, const char *symbol,
                           const char *unit) {
     if (formula)
-      conditions.texts.push_back(fmt::format("{} = {} {}", symbol, formula->text(), unit));
+      conditions.texts.push_back(fmt::format("{} = {} {}", symbol, formula->in_words(), unit));
   };
   scalar(entry.potential, "φ", "V");
   scalar(entry.surface_charge, "D·ν", "C/m²");
@@ -68,9 +68,9 @@ std::string electrode_text(const casefile::ElectrodeCase &electrode, int dimensi
   std::string text = "electrode " + electrode.name;
   const auto add = [&](const std::string &piece) { text += ", " + piece; };
   if (electrode.voltage)
-    add(electrode.voltage->text() + " V");
+    add(electrode.voltage->in_words() + " V");
   if (electrode.charge)
-    add("Q = " + electrode.charge->text() + (plane ? " C/m" : " C"));
+    add("Q = " + electrode.charge->in_words() + (plane ? " C/m" : " C"));
   if (electrode.resistor)
     add(fmt::format("{} {}", *electrode.resistor, plane ? "Ω m" : "Ω"));
   if (electrode.capacitor)

@@ -35,9 +35,10 @@ bool add_once(std::vector<std::string> &names, const std::string &name) {
   return true;
 }
 
-// A balance that lacks less is not looked at any closer; less yet where the contact may take the
+// What a balance lacks beyond this may be round-off, which is told apart; what then lacks more than
+// the next is looked at cell by cell, and more than this at once where the contact may take the
 // body through states of little energy.
-constexpr double unquestioned = 1e-6, unquestioned_beside_it = 1e-10;
+constexpr double unquestioned = 1e-10, unquestioned_without_contact = 1e-6;
 
 // How many times an exchange of charge counts there.
 template <int dim>
@@ -173,12 +174,19 @@ typename Balance<dim>::Columns Balance<dim>::step(double time, std::span<const d
   };
   Step step = step_from(std::move(before_), is_refined);
   Columns columns = columns_of(step);
-  const bool balances = std::all_of(judged_.begin(), judged_.end(), [&](const auto &imbalance) {
-    return std::abs(imbalance.second) <=
-           (has_foundation_columns() ? unquestioned_beside_it : unquestioned);
-  });
+  const auto lacks_more_than = [&](double limit) {
+    return std::any_of(judged_.begin(), judged_.end(), [limit](const auto &imbalance) {
+      return !(std::abs(imbalance.second) <= limit);
+    });
+  };
+  if (lacks_more_than(unquestioned)) {
+    step.round_off = round_off_of(model_, coupled_, step);
+    columns = columns_of(step);
+  }
+  const bool lacks =
+      lacks_more_than(has_foundation_columns() ? unquestioned : unquestioned_without_contact);
   before_ = std::move(step.now);  // as a run that goes on from here has it
-  if (!balances) {
+  if (lacks) {
     step = step_from(std::move(step.before), true);
     step.round_off = round_off_of(model_, coupled_, step);
     columns = columns_of(step);

@@ -109,6 +109,11 @@ TEST_F(FileTable, SaysWhatIsWrongInItsFile) {
   EXPECT_THAT(complaint_of("t,F\n0,0\n2,nan\n"),
               HasSubstr("load.csv:3: column 2 is nan, which is not a finite number"));
   EXPECT_THAT(complaint_of("t,F\n0,0\n2,zwei\n"), HasSubstr("\"zwei\", which is no number"));
+  EXPECT_THAT(complaint_of("t;F\n0;0\n2;0,5\n"),
+              HasSubstr("\"0,5\", which is no number; decimals stand behind a point"));
+  EXPECT_THAT(complaint_of("t;F\ns;N\n2;5\n"),
+              HasSubstr("\"s\", which is no number; lines that begin with # are left out"));
+  EXPECT_THAT(complaint_of("t;F\n0;0\n2;;\n"), HasSubstr("column 2 is empty"));
   EXPECT_THAT(complaint_of("t,F\n0,0\n2\n"),
               HasSubstr("has 1 columns, and the first line of the table has 2"));
   EXPECT_THAT(

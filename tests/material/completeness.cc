@@ -212,6 +212,11 @@ TEST(MaterialsCommand, ShowsWhatThereIsOfAnUnfinishedEntry) {
   const auto entry = nlohmann::json::parse(entry_json(asked));
   EXPECT_FALSE(entry.at("complete").get<bool>());
   EXPECT_EQ(entry.at("constants").at("c12"), 2e11);
+  asked.file.reset();
+  asked.library = "PVDF";
+  const auto of_library = nlohmann::json::parse(entry_json(asked));
+  EXPECT_FALSE(of_library.at("complete").get<bool>());
+  EXPECT_EQ(of_library.at("missing").size(), 8u);
   std::filesystem::remove(file);
 }
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "case/load_table.h"
 #include "tourmaline/case/case.h"
 
 namespace tourmaline::report {
@@ -25,6 +26,18 @@ TEST(Legend, WhatIsSaidInSeveralEntriesIsGathered) {
   const Conditions conditions = conditions_on(asked, "top");
   EXPECT_EQ(conditions.kind, "displacement");
   EXPECT_THAT(conditions.texts, ElementsAre("u = (0, free) m", "θ = 3 K"));
+}
+
+TEST(Legend, ATableOfManyPointsIsTheirNumber) {
+  casefile::LoadTable::Points points;
+  for (int i = 0; i <= 3000; ++i)
+    points.emplace_back(i * 1e-3, i);
+  casefile::Case asked;
+  asked.boundaries = {entry("top")};
+  asked.boundaries[0].temperature =
+      Formula(std::make_shared<const casefile::LoadTable>(std::move(points)));
+  EXPECT_THAT(conditions_on(asked, "top").texts,
+              ElementsAre("θ = (table of 3001 points, t = 0 to 3 s) K"));
 }
 
 TEST(Legend, NothingSaidIsFree) {

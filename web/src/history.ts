@@ -56,7 +56,7 @@ function groups(history: Table, dimension: 2 | 3): Group[] {
       ? [['friction_dissipation', 'made'], ['friction_heat_body', 'into the body'],
         ['friction_heat_foundation', 'into the foundation']] : [] },
     { title: 'Power and losses', unit: 'W' + per, columns: [['stored_energy_rate', 'stored'], ['thermal_power', 'thermal'],
-      ['conduction_loss', 'conduction'], ['viscous_dissipation', 'damping'], ['kinetic_energy_rate', 'kinetic'],
+      ['electric_power', 'electric'], ['conduction_loss', 'conduction'], ['viscous_dissipation', 'damping'], ['kinetic_energy_rate', 'kinetic'],
       ['time_step_loss', 'time step']] },
     { title: 'Newton iterations', unit: '', columns: [['newton_iterations', 'iterations']], bars: true },
     { title: 'Contact nodes', unit: '', columns: [['stick', 'stick'], ['slip', 'slip'], ['open', 'open']] },

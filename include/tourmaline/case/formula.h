@@ -49,6 +49,8 @@ class Formula {
   /// The number with as many digits (at most 17) as reading the same number back takes, the
   /// expression, or the table's points as TOML.
   std::string text() const;
+  /// The same for people, to whom many points of a table are their number.
+  std::string in_words() const;
   const std::string &where() const { return where_; }
 
  private:
