@@ -9,8 +9,8 @@ namespace tourmaline::body {
 
 /// Means over each cell of strain, stress (1), E, D (2), q (3) and the von Mises stress of the mean
 /// stress, in the order of `Discretisation::grid`. In 2D sigma_zz follows from plane strain and
-/// enters von Mises, or eps_zz follows from plane stress. Where materials or poling vary, the region too; then, and where anything is
-/// piezo- or pyroelectric, the direction of poling.
+/// enters von Mises, or eps_zz follows from plane stress. Where materials or poling vary, the
+/// region too; then, and where anything is piezo- or pyroelectric, the direction of poling.
 template <int dim>
 output::CellFields derived_fields(const Discretisation<dim> &body,
                                   const material::Composition<dim> &composition,
