@@ -237,11 +237,13 @@ TEST(ChildProcess, ItEndsWithItsParent) {
     });
     _exit(0);
   }
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
   const std::string children =
       "/proc/" + std::to_string(between) + "/task/" + std::to_string(between) + "/children";
   pid_t child = 0;
-  std::ifstream(children) >> child;
+  for (int i = 0; i < 600 && child == 0; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    std::ifstream(children) >> child;
+  }
   ASSERT_GT(child, 0);
   kill(between, SIGKILL);
   waitpid(between, nullptr, 0);
@@ -250,7 +252,7 @@ TEST(ChildProcess, ItEndsWithItsParent) {
     std::string id, name, state;
     return bool(status >> id >> name >> state) && state != "Z" && state != "X";
   };
-  for (int i = 0; i < 50 && lives(); ++i)
+  for (int i = 0; i < 600 && lives(); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   EXPECT_FALSE(lives());
 }

@@ -15,28 +15,39 @@ using output::content_of;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-// However long the run takes to come there. The first rank's number stands in the lock of the
-// folder.
+// However long the run takes to come there; false where it was done before. The first rank's number
+// stands in the lock of the folder.
 bool send_behind_a_checkpoint(int signal, const fs::path &folder, const std::future<Outcome> &run) {
   while (run.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready)
-    if (fs::exists(folder / "checkpoint.bin"))
-      return kill(std::stoi(content_of(folder / "run.lock")), signal) == 0;
+    if (fs::exists(folder / "checkpoint.bin")) {
+      int rank = 0;
+      std::ifstream(folder / "run.lock") >> rank;
+      return rank > 0 && kill(rank, signal) == 0;
+    }
   return false;
 }
 
 class Interrupted : public Ranks {
  protected:
-  // Ends with the signal behind its first checkpoint, and goes on.
+  // Ends with the signal behind its first checkpoint, and goes on. On a busy machine the run may be
+  // done before anybody looks.
   void interrupt(const std::string &arguments, int signal) {
-    auto interrupted = std::async(std::launch::async,
-                                  [&] { return run_on(GetParam(), arguments, folder_ / "other"); });
-    ASSERT_TRUE(send_behind_a_checkpoint(signal, folder_ / "other", interrupted));
-    before_ = interrupted.get();
+    constexpr int attempts = 5;
+    for (int i = 0; i < attempts && before_.status == 0; ++i) {
+      fs::remove_all(folder_ / "other");
+      before_ = interrupted(arguments, signal);
+    }
     ASSERT_NE(before_.status, 0) << "too fast to be interrupted";
     const Outcome resumed = run_on(GetParam(), arguments + " --resume", folder_ / "other");
     ASSERT_EQ(resumed.status, 0) << resumed.said;
     const Outcome whole = run_on(GetParam(), arguments, folder_ / "one");
     ASSERT_EQ(whole.status, 0) << whole.said;
+  }
+  Outcome interrupted(const std::string &arguments, int signal) const {
+    auto run = std::async(std::launch::async,
+                          [&] { return run_on(GetParam(), arguments, folder_ / "other"); });
+    send_behind_a_checkpoint(signal, folder_ / "other", run);
+    return run.get();
   }
   // But for the page and the summary, which hold times.
   void expect_same_bytes() const {
@@ -83,10 +94,7 @@ TEST_P(Interrupted, StoppedItSaysSoOnceAndGoesOn) {
 TEST_P(Interrupted, AnotherNumberOfRanksIsRefused) {
   const std::string arguments =
       paper_ + "--set time.steps=1000 --set output.fields=false --set output.checkpoint=2steps";
-  auto stopped = std::async(std::launch::async,
-                            [&] { return run_on(GetParam(), arguments, folder_ / "other"); });
-  ASSERT_TRUE(send_behind_a_checkpoint(SIGTERM, folder_ / "other", stopped));
-  ASSERT_EQ(stopped.get().status, 128 + SIGTERM);
+  ASSERT_EQ(interrupted(arguments, SIGTERM).status, 128 + SIGTERM);
   const Outcome alone = run_on(1, arguments + " --resume", folder_ / "other");
   EXPECT_EQ(alone.status, 2);
   EXPECT_THAT(alone.said, HasSubstr("mpirun -np " + std::to_string(GetParam())));
