@@ -1,13 +1,7 @@
 #include "solve/start_of_motion.h"
 
-#include <deal.II/lac/solver_cg.h>
-#include <deal.II/lac/vector.h>
-
 #include <algorithm>
 #include <cmath>
-#include <span>
-
-#include "tourmaline/error.h"
 
 namespace tourmaline::solve {
 
@@ -66,55 +60,46 @@ std::vector<bool> with_mass(const Model<dim> &model) {
   return free;
 }
 
-// M of the free components, and what conjugate gradients need besides: their diagonal.
-template <int dim>
-struct FreeMass {
-  const Model<dim> &model;
-  const std::vector<bool> &free;
-
-  void vmult(dealii::Vector<double> &product, const dealii::Vector<double> &x) const {
-    const std::vector<double> all = model.op.rate_product(
-        body::RateForces<dim>::Kind::inertia, std::span<const double>(x.begin(), x.size()));
-    for (std::size_t i = 0; i < all.size(); ++i)
-      product.begin()[i] = free[i] ? all[i] : 0;
-  }
-};
-
-template <int dim>
-struct OverDiagonal {
-  const Model<dim> &model;
-
-  void vmult(dealii::Vector<double> &quotient, const dealii::Vector<double> &x) const {
-    const std::vector<double> &diagonal = model.op.rate_forces()->diagonal();
-    for (std::size_t i = 0; i < x.size(); ++i)
-      quotient.begin()[i] = x.begin()[i] == 0 ? 0 : x.begin()[i] / diagonal[i / Fields<dim>::count];
-  }
-};
-
-// M a = force in the free components. With the diagonal the condition number is that of one cell:
-// some tens of iterations for any mesh.
+// M a = force in the free components by conjugate gradients with the diagonal, whose condition
+// number is that of one cell: some tens of iterations for any mesh.
 template <int dim>
 void solve_mass(const Model<dim> &model, const std::vector<bool> &free,
                 const std::vector<double> &force, std::vector<double> &acceleration) {
-  std::vector<double> on_free(force.size());
-  for (std::size_t i = 0; i < force.size(); ++i)
-    on_free[i] = free[i] ? force[i] : 0;
-  const dealii::Vector<double> right_side(on_free.begin(), on_free.end());
-  dealii::Vector<double> a(right_side.size());
-  constexpr int most = 1000;
-  dealii::ReductionControl control(most, 0, 1e-15, false, false);
-  try {
-    if (right_side.l2_norm() > 0)
-      dealii::SolverCG<>(control).solve(FreeMass<dim>{model, free}, a, right_side,
-                                        OverDiagonal<dim>{model});
-  } catch (const dealii::SolverControl::NoConvergence &) {
-    throw SolveError(
-        "the accelerations at t = 0 were not found: look at the density and at the forces that act "
-        "at the start, some of which are too large or too small for double precision");
-  }
-  for (std::size_t i = 0; i < force.size(); ++i)
+  const std::vector<double> &diagonal = model.op.rate_forces()->diagonal();
+  const std::size_t n = force.size();
+  std::vector<double> r(n, 0.), p(n, 0.), z(n, 0.);
+  const auto precondition = [&] {
+    double rz = 0;
+    for (std::size_t i = 0; i < n; ++i)
+      if (free[i]) {
+        z[i] = r[i] / diagonal[i / Fields<dim>::count];
+        rz += r[i] * z[i];
+      }
+    return rz;
+  };
+  for (std::size_t i = 0; i < n; ++i)
     if (free[i])
-      acceleration[i] = a.begin()[i];
+      r[i] = force[i];
+  double rz = precondition();
+  const double enough = 1e-32 * rz;
+  p = z;
+  constexpr int most = 1000;
+  for (int iteration = 0; iteration < most && rz > enough; ++iteration) {
+    const std::vector<double> product =
+        model.op.rate_product(body::RateForces<dim>::Kind::inertia, p);
+    double curvature = 0;
+    for (std::size_t i = 0; i < n; ++i)
+      curvature += p[i] * product[i];
+    for (std::size_t i = 0; i < n; ++i)
+      if (free[i]) {
+        acceleration[i] += rz / curvature * p[i];
+        r[i] -= rz / curvature * product[i];
+      }
+    const double next = precondition();
+    for (std::size_t i = 0; i < n; ++i)
+      p[i] = z[i] + next / rz * p[i];
+    rz = next;
+  }
 }
 
 }  // namespace
