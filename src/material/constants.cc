@@ -23,10 +23,6 @@ namespace {
 
 using casefile::MaterialCase;
 
-std::string where_of(const MaterialCase &given) {
-  return given.where.empty() ? "[material]" : given.where;
-}
-
 std::string symmetry_of(const MaterialCase &given) {
   return given.symmetry.value_or("6mm");
 }
@@ -65,7 +61,7 @@ Vector pyroelectric_of(const std::vector<double> &p) {
 class Conversion {
  public:
   explicit Conversion(const MaterialCase &given)
-      : given_(given), crystal_{symmetry_of(given), where_of(given), given.constants} {}
+      : given_(given), crystal_{symmetry_of(given), given.place(), given.constants} {}
 
   Stiffness stiffness() const {
     if (given_.stiffness)
@@ -138,7 +134,7 @@ class Conversion {
   }
 
   Stiffness inverse(const Stiffness &compliance) const {
-    need_positive(compliance, "compliance", where_of(given_));
+    need_positive(compliance, "compliance", given_.place());
     const Stiffness c = compliance.inverse();
     return (c + c.transpose()) / 2;
   }
@@ -162,7 +158,7 @@ class Conversion {
 void check_class(const MaterialCase &given) {
   for (const auto &[constant, value] : given.constants)
     if (const std::string reason = casefile::absence(symmetry_of(given), constant); !reason.empty())
-      throw CaseError(fmt::format("{} {}: {}", where_of(given), constant, reason));
+      throw CaseError(fmt::format("{} {}: {}", given.place(), constant, reason));
 }
 
 void check_conductor(const MaterialCase &given) {
@@ -173,11 +169,11 @@ void check_conductor(const MaterialCase &given) {
   for (const auto &[key, value] : given.constants)
     if (is_electric(key))
       throw CaseError(fmt::format("{} {} is given for a conductor, in which there is no field",
-                                  where_of(given), key));
+                                  given.place(), key));
   for (const auto &[key, is_given] : casefile::given_tensors(given))
     if (is_given && is_electric(key))
       throw CaseError(fmt::format("{} {} is given for a conductor, in which there is no field",
-                                  where_of(given), key));
+                                  given.place(), key));
 }
 
 }  // namespace
@@ -214,14 +210,14 @@ Constants electromechanical(const MaterialCase &given) {
   const Conversion conversion(given);
   Constants c;
   c.stiffness = conversion.stiffness();
-  need_positive(c.stiffness, "stiffness", where_of(given));
+  need_positive(c.stiffness, "stiffness", given.place());
   if (given.conductor.value_or(false)) {
     check_conductor(given);
     return c;
   }
   c.piezoelectric = conversion.piezoelectric(c.stiffness);
   c.permittivity = conversion.permittivity(c.stiffness, c.piezoelectric);
-  check_coupling(conversion, c, where_of(given));
+  check_coupling(conversion, c, given.place());
   return c;
 }
 
@@ -264,9 +260,9 @@ void require_complete(const std::vector<MaterialCase> &materials) {
     const auto same = std::find_if(lacks.begin(), lacks.end(),
                                    [&](const auto &other) { return other.first == lack; });
     if (same == lacks.end())
-      lacks.emplace_back(lack, where_of(given));
+      lacks.emplace_back(lack, given.place());
     else
-      same->second += ", " + where_of(given);
+      same->second += ", " + given.place();
   }
   std::string text;
   for (const auto &[lack, places] : lacks)
@@ -291,7 +287,7 @@ Constants constants_of(const MaterialCase &asked) {
   for (const auto &[key, damping] : {std::pair{"stiffness_damping", &c.stiffness_damping},
                                      std::pair{"mass_damping", &c.mass_damping}})
     *damping = conversion.crystal().gives(key) ? conversion.crystal().need(key) : 0;
-  check_stored_energy(c, where_of(given));
+  check_stored_energy(c, given.place());
   return c;
 }
 

@@ -22,16 +22,12 @@ std::vector<Entry> materials_in(const std::string &file) {
 
 namespace {
 
-std::string where_of(const casefile::MaterialCase &asked) {
-  return asked.where.empty() ? "[material]" : asked.where;
-}
-
 // Where the file is none, its case says who asks for it.
 std::vector<Entry> own_entries(const casefile::MaterialCase &asked) {
   try {
     return materials_in(*asked.file);
   } catch (const CaseError &error) {
-    throw CaseError(where_of(asked) + " file: " + error.what());
+    throw CaseError(asked.place() + " file: " + error.what());
   }
 }
 
@@ -54,7 +50,7 @@ Entry find(const casefile::MaterialCase &asked) {
       return entry;
     names.push_back(entry.name);
   }
-  throw CaseError(fmt::format("{} library = \"{}\": no such material{}{}", where_of(asked),
+  throw CaseError(fmt::format("{} library = \"{}\": no such material{}{}", asked.place(),
                               *asked.library, casefile::did_you_mean(*asked.library, names),
                               asked.file
                                   ? fmt::format("; {} has {}", *asked.file, fmt::join(names, ", "))

@@ -38,6 +38,9 @@ struct MaterialCase {
   /// direction of the crystal's axis 1, made orthogonal to `poling`; empty: x, or any when x is the
   /// poling axis. Matters only for crystals that are not isotropic about axis 3.
   std::vector<double> axis1;
+
+  /// For error texts; a case that was not read from a file says the table's name.
+  std::string place() const { return where.empty() ? "[material]" : where; }
 };
 
 /// One [[region]] entry: a part of the body, by the names in a mesh file or by a condition on the
