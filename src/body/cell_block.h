@@ -12,14 +12,15 @@ using NodeBlock = Eigen::Matrix<double, Fields<dim>::count, Fields<dim>::count, 
 template <int dim>
 using Strains = Eigen::Matrix<double, material::n_strains<dim>, dim>;
 
-// Strain (engineering shear) of a displacement with shape gradient g, by component: eps(u) = B u.
-inline Strains<2> strain_of(const std::array<double, 2> &g) {
+// Strain (engineering shear) of a displacement with shape gradient g, by component: eps(u) = B u;
+// `around` is `Quadrature::around`.
+inline Strains<2> strain_of(const std::array<double, 2> &g, double around) {
   Strains<2> b;
-  b << g[0], 0, 0, g[1], g[1], g[0];
+  b << g[0], 0, 0, g[1], around, 0, g[1], g[0];
   return b;
 }
 
-inline Strains<3> strain_of(const std::array<double, 3> &g) {
+inline Strains<3> strain_of(const std::array<double, 3> &g, double) {
   Strains<3> b;
   b << g[0], 0, 0, 0, g[1], 0, 0, 0, g[2], 0, g[2], g[1], g[2], 0, g[0], g[1], g[0], 0;
   return b;
@@ -39,10 +40,11 @@ struct Trial {
 
 template <int dim>
 Trial<dim> trial(const material::BodyConstants<dim> &c,
-                 const std::array<double, static_cast<std::size_t>(dim)> &gradient) {
+                 const std::array<double, static_cast<std::size_t>(dim)> &gradient,
+                 double around) {
   Trial<dim> t;
   t.gradient = Eigen::Map<const Eigen::Matrix<double, dim, 1>>(gradient.data());
-  t.strain = strain_of(gradient);
+  t.strain = strain_of(gradient, around);
   t.stress = c.stiffness * t.strain;
   t.charge = c.piezoelectric * t.strain;
   t.electric = c.permittivity * t.gradient;

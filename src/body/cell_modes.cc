@@ -36,7 +36,7 @@ CellModes<dim>::Blocks::Blocks(const Quadrature<dim> &cell,
   for (std::size_t q = 0; q < cell.jxw.size(); ++q) {
     const double jxw = cell.jxw[q];
     for (int m = 0; m < dim; ++m)
-      modes[m] = trial<dim>(material, cell.mode_gradients[q * dim + m]);
+      modes[m] = trial<dim>(material, cell.mode_gradients[q * dim + m], cell.mode_around(q, m));
     for (int m = 0; m < dim; ++m) {
       for (int k = 0; k < dim; ++k) {
         NodeBlock<dim> block = NodeBlock<dim>::Zero();
@@ -45,7 +45,7 @@ CellModes<dim>::Blocks::Blocks(const Quadrature<dim> &cell,
       }
       for (int b = 0; b < n_nodes; ++b) {
         NodeBlock<dim> block = NodeBlock<dim>::Zero();
-        add_block<dim>(modes[m], trial<dim>(material, cell.gradient(q, b)), 0,
+        add_block<dim>(modes[m], trial<dim>(material, cell.gradient(q, b), cell.around(q, b)), 0,
                        {jxw, 0, jxw * cell.value(q, b), 0}, block);
         add_rows<dim>(block, m, coupling, n * b, n);
       }

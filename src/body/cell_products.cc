@@ -13,12 +13,13 @@ using Tensor = Eigen::Matrix<double, dim, dim>;
 template <int dim>
 using Strain = Eigen::Matrix<double, material::n_strains<dim>, 1>;
 
-// Engineering strain of a displacement gradient H_ij = du_i/dx_j.
-Strain<2> voigt_of(const Tensor<2> &h) {
-  return {h(0, 0), h(1, 1), h(0, 1) + h(1, 0)};
+// Engineering strain of a displacement gradient H_ij = du_i/dx_j; `around` is u_x / x of a revolved
+// body.
+Strain<2> voigt_of(const Tensor<2> &h, double around) {
+  return {h(0, 0), h(1, 1), around, h(0, 1) + h(1, 0)};
 }
 
-Strain<3> voigt_of(const Tensor<3> &h) {
+Strain<3> voigt_of(const Tensor<3> &h, double) {
   Strain<3> e;
   e << h(0, 0), h(1, 1), h(2, 2), h(1, 2) + h(2, 1), h(0, 2) + h(2, 0), h(0, 1) + h(1, 0);
   return e;
@@ -26,8 +27,16 @@ Strain<3> voigt_of(const Tensor<3> &h) {
 
 Tensor<2> stress_tensor(const Strain<2> &s) {
   Tensor<2> t;
-  t << s[0], s[2], s[2], s[1];
+  t << s[0], s[3], s[3], s[1];
   return t;
+}
+
+// The stress that works with `around`.
+double stress_around(const Strain<2> &s) {
+  return s[2];
+}
+double stress_around(const Strain<3> &) {
+  return 0;
 }
 
 Tensor<3> stress_tensor(const Strain<3> &s) {
@@ -57,17 +66,19 @@ template <int dim>
 Point<dim> fields_at(const Quadrature<dim> &cell, std::size_t q, std::span<const double> x) {
   Point<dim> p;
   Tensor<dim> h = Tensor<dim>::Zero();
+  double around = 0;
   const double *first = &x[unknown<dim>(cell.nodes[0], 0)];
   for (std::size_t a = 0; a < cell.nodes.size(); ++a) {
     const double *at = &x[unknown<dim>(cell.nodes[a], 0)];
     const Vector<dim> g = gradient(cell, q, a);
     for (int i = 0; i < dim; ++i)
       h.row(i) += (at[i] - first[i]) * g.transpose();
+    around += cell.around(q, a) * at[0];
     p.potential_gradient += (at[dim] - first[dim]) * g;
     p.temperature_gradient += (at[dim + 1] - first[dim + 1]) * g;
     p.temperature += cell.value(q, a) * at[dim + 1];
   }
-  p.strain = voigt_of(h);
+  p.strain = voigt_of(h, around);
   return p;
 }
 
@@ -84,22 +95,29 @@ Point<dim> part_of(const Point<dim> &p, int field, const Quadrature<dim> &cell, 
   if (cell.mode_gradients.empty())
     return part;
   Tensor<dim> h = Tensor<dim>::Zero();
+  double around = 0;
   for (int m = 0; m < dim; ++m) {
     const Vector<dim> g = Eigen::Map<const Vector<dim>>(cell.mode_gradients[q * dim + m].data());
     h += modes.template segment<dim>(dim * m) * g.transpose();
+    around += cell.mode_around(q, m) * modes[dim * m];
     part.potential_gradient += modes[CellModes<dim>::n_displacement + m] * g;
   }
-  part.strain += voigt_of(h);
+  part.strain += voigt_of(h, around);
   return part;
 }
 
-// The amplitudes that each field of x causes; of u and phi only differences to the first node do.
+// The amplitudes that each field of x causes; of u and phi only differences to the first node do, as
+// long as no strain around an axis comes from u itself.
 template <int dim>
-std::array<Amplitudes<dim>, 3> amplitudes(const CellModes<dim> &cell, std::span<const double> x) {
+std::array<Amplitudes<dim>, 3> amplitudes(const CellModes<dim> &cell, bool is_revolved,
+                                          std::span<const double> x) {
   constexpr int n = Fields<dim>::count;
   std::array<Amplitudes<dim>, 3> by_field;
   by_field.fill(Amplitudes<dim>::Zero());
-  const double *first = &x[unknown<dim>(cell.nodes[0], 0)];
+  std::array<double, dim + 1> first{};
+  std::copy_n(&x[unknown<dim>(cell.nodes[0], 0)], dim + 1, first.begin());
+  if (is_revolved)
+    first[0] = 0;
   for (int b = 0; b < CellModes<dim>::n_nodes; ++b) {
     const double *at = &x[unknown<dim>(cell.nodes[b], 0)];
     for (int c = 0; c < dim + 1; ++c)
@@ -124,15 +142,17 @@ struct CellProducts<dim>::Rows {
   }
 
   // stress and charge are tested by gradients: the first node's share is what the others' lack.
-  void add(int field, const Quadrature<dim> &cell, std::size_t q, const Tensor<dim> &stress,
+  void add(int field, const Quadrature<dim> &cell, std::size_t q, const Strain<dim> &stress,
            const Vector<dim> &charge, double heat) {
+    const Tensor<dim> tensor = stress_tensor(stress);
     for (std::size_t a = 0; a < cell.nodes.size(); ++a) {
       of[field][a][n - 1] += cell.jxw[q] * cell.value(q, a) * heat;
+      of[field][a][0] += cell.jxw[q] * cell.around(q, a) * stress_around(stress);
       if (a == 0)
         continue;
       const Vector<dim> g = cell.jxw[q] * gradient(cell, q, a);
       Row tested = Row::Zero();
-      tested.template head<dim>() = stress * g;
+      tested.template head<dim>() = tensor * g;
       tested[dim] = charge.dot(g);
       of[field][a] += tested;
       of[field][0] -= tested;
@@ -169,7 +189,7 @@ void CellProducts<dim>::storage(std::span<const double> x, FieldProducts &produc
     const material::BodyConstants<dim> c = composition_.at(cell.region, cell.centre());
     std::array<Amplitudes<dim>, 3> modes;
     if (!modes_.empty())
-      modes = amplitudes(modes_[number++], x);
+      modes = amplitudes(modes_[number++], !cell.inverse_radius.empty(), x);
     Rows rows(cell.nodes.size());
     for (std::size_t q = 0; q < cell.jxw.size(); ++q) {
       const Point<dim> all = fields_at(cell, q, x);
@@ -178,7 +198,7 @@ void CellProducts<dim>::storage(std::span<const double> x, FieldProducts &produc
         const Strain<dim> stress = c.stiffness * p.strain +
                                    c.piezoelectric.transpose() * p.potential_gradient -
                                    c.thermal_stress * p.temperature;
-        rows.add(field, cell, q, stress_tensor(stress),
+        rows.add(field, cell, q, stress,
                  c.piezoelectric * p.strain - c.permittivity * p.potential_gradient +
                      c.pyroelectric * p.temperature,
                  c.pyroelectric.dot(p.potential_gradient) - c.thermal_stress.dot(p.strain) -

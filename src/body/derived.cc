@@ -17,7 +17,7 @@ material::Voigt strain_of(const Gradients &at) {
 }
 
 void add_strains_across(material::Plane plane, const material::Constants &c, Gradients &at) {
-  if (plane == material::Plane::strain)
+  if (plane != material::Plane::stress)
     return;
   const Eigen::Vector3d across =
       material::strains_across(c, strain_of(at), -at.potential, at.theta);

@@ -7,7 +7,11 @@
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_fe.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -15,9 +19,14 @@
 #include "mesh/mesh.h"
 #include "output/place.h"
 #include "parallel/ranks.h"
+#include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::body {
+
+Geometry geometry_of(const casefile::Case &asked) {
+  return asked.model.is_axisymmetric() ? Geometry::revolved : Geometry::cartesian;
+}
 
 template <int dim>
 std::array<double, 3> Quadrature<dim>::centre() const {
@@ -37,16 +46,19 @@ template <int dim>
 struct Discretisation<dim>::Parts {
   using Dofs = std::vector<dealii::types::global_dof_index>;
 
-  Parts(mesh::Mesh<dim> given, int degree);
+  Parts(mesh::Mesh<dim> given, int degree, Geometry geometry);
 
   std::vector<double> own_places() const;
   void number_nodes();
   void list_nodes_of_cells();
+  void find_axis();
   std::span<const Node> nodes_of(std::size_t cell) const;
   template <class Values>
   void copy(const Values &from, std::span<const Node> cell_nodes, Quadrature<dim> &to) const;
 
   mesh::Mesh<dim> mesh;
+  Geometry geometry;
+  double axis_ends = 0;  // nodes up to this x [m] stand on the axis
   std::unique_ptr<dealii::FiniteElement<dim>> linear, element;
   std::unique_ptr<dealii::Mapping<dim>> mapping;
   dealii::Quadrature<dim> cell_rule, sampling_rule;
@@ -96,8 +108,9 @@ std::array<double, dim> plain(const dealii::Tensor<1, dim> &t) {
 }  // namespace
 
 template <int dim>
-Discretisation<dim>::Parts::Parts(mesh::Mesh<dim> given, int degree)
+Discretisation<dim>::Parts::Parts(mesh::Mesh<dim> given, int degree, Geometry asked)
     : mesh(std::move(given)),
+      geometry(asked),
       linear(lagrange<dim>(mesh.simplices, 1)),
       element(lagrange<dim>(mesh.simplices, degree)),
       mapping(std::make_unique<dealii::MappingFE<dim>>(*linear)),
@@ -111,6 +124,20 @@ Discretisation<dim>::Parts::Parts(mesh::Mesh<dim> given, int degree)
       cells.push_back(cell);
   number_nodes();
   list_nodes_of_cells();
+  if (geometry == Geometry::revolved)
+    find_axis();
+}
+
+// Meshes of other programs miss the axis by round-off. Nodes stand in the order of x.
+template <int dim>
+void Discretisation<dim>::Parts::find_axis() {
+  const Vector3 &first = points.front();
+  axis_ends = 1e-9 * std::abs(points.back()[0]);
+  if (first[0] < -axis_ends)
+    throw CaseError(fmt::format(
+        "[model] plane = \"axisymmetric\": x is the radius, and the mesh has a node at x = {:g} m, "
+        "y = {:g} m; give the half of the section with x >= 0",
+        first[0], first[1]));
 }
 
 // Places of this rank's own nodes, in deal.II's order.
@@ -182,11 +209,14 @@ void Discretisation<dim>::Parts::copy(const Values &from, std::span<const Node> 
     for (unsigned int a = 0; a < n_shapes; ++a)
       to.values[q * n_shapes + a] = from.shape_value(a, q);
   }
+  if (geometry == Geometry::revolved)
+    for (unsigned int q = 0; q < n_points; ++q)
+      to.jxw[q] *= 2 * std::numbers::pi * to.points[q][0];
 }
 
 template <int dim>
-Discretisation<dim>::Discretisation(mesh::Mesh<dim> mesh, int degree)
-    : parts_(std::make_unique<Parts>(std::move(mesh), degree)) {}
+Discretisation<dim>::Discretisation(mesh::Mesh<dim> mesh, int degree, Geometry geometry)
+    : parts_(std::make_unique<Parts>(std::move(mesh), degree, geometry)) {}
 template <int dim>
 Discretisation<dim>::~Discretisation() = default;
 template <int dim>
@@ -210,6 +240,16 @@ bool Discretisation<dim>::has_simplices() const {
 template <int dim>
 int Discretisation<dim>::degree() const {
   return static_cast<int>(parts_->element->degree);
+}
+
+template <int dim>
+Geometry Discretisation<dim>::geometry() const {
+  return parts_->geometry;
+}
+
+template <int dim>
+bool Discretisation<dim>::is_on_axis(Node node) const {
+  return geometry() == Geometry::revolved && parts_->points[node][0] <= parts_->axis_ends;
 }
 
 template <int dim>
@@ -267,6 +307,31 @@ void fill_mode_gradients(const dealii::FEValues<dim> &centre, const dealii::FEVa
   }
 }
 
+// In a revolved body the weights change over the cell and a radial mode strains it around the axis.
+// Without their means over the cell these do no work on a uniform stress again (Ibrahimbegovic and
+// Wilson 1991).
+template <int dim>
+void revolve_modes(const dealii::Quadrature<dim> &rule, Quadrature<dim> &cell) {
+  cell.modes_by_radius.resize(cell.mode_gradients.size());
+  const double volume = std::accumulate(cell.jxw.begin(), cell.jxw.end(), 0.);
+  for (std::size_t m = 0; m < dim; ++m) {
+    std::array<double, dim> mean{};
+    double mean_around = 0;
+    for (std::size_t q = 0; q < cell.jxw.size(); ++q) {
+      const double xi = 2 * rule.point(static_cast<unsigned int>(q))[static_cast<unsigned int>(m)] - 1;
+      cell.modes_by_radius[q * dim + m] = (1 - xi * xi) * cell.inverse_radius[q];
+      mean_around += cell.jxw[q] / volume * cell.modes_by_radius[q * dim + m];
+      for (std::size_t i = 0; i < dim; ++i)
+        mean[i] += cell.jxw[q] / volume * cell.mode_gradients[q * dim + m][i];
+    }
+    for (std::size_t q = 0; q < cell.jxw.size(); ++q) {
+      cell.modes_by_radius[q * dim + m] -= mean_around;
+      for (std::size_t i = 0; i < dim; ++i)
+        cell.mode_gradients[q * dim + m][i] -= mean[i];
+    }
+  }
+}
+
 }  // namespace
 
 template <int dim>
@@ -314,9 +379,16 @@ void Discretisation<dim>::visit_cells(
     for (unsigned int q = 0; q < shape.n_quadrature_points; ++q)
       for (unsigned int a = 0; a < n_shapes; ++a)
         plain_values.gradients[q * n_shapes + a] = plain<dim>(shape.shape_grad(a, q));
+    if (parts_->geometry == Geometry::revolved) {
+      plain_values.inverse_radius.clear();
+      for (const Vector3 &point : plain_values.points)
+        plain_values.inverse_radius.push_back(1 / point[0]);
+    }
     if (centre) {
       centre->reinit(parts_->cells[i]);
       fill_mode_gradients(*centre, shape, plain_values);
+      if (parts_->geometry == Geometry::revolved)
+        revolve_modes(rule, plain_values);
     }
     visit(plain_values);
   }

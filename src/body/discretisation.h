@@ -14,6 +14,9 @@ namespace tourmaline::mesh {
 template <int dim>
 struct Mesh;  // holds deal.II's cells: whoever makes one includes mesh/mesh.h
 }
+namespace tourmaline::casefile {
+struct Case;
+}
 
 namespace tourmaline::body {
 
@@ -22,9 +25,14 @@ using Node = unsigned int;
 /// What a linear quadrilateral or hexahedron has beside its nodes' shape functions.
 enum class Modes { none, incompatible };
 
+/// What a mesh of two dimensions stands for: itself, a metre deep, or the body that it becomes by a
+/// turn about the axis x = 0. There integrals go all around, with weights of 2 pi x.
+enum class Geometry { cartesian, revolved };
+Geometry geometry_of(const casefile::Case &asked);
+
 /// Shape functions on one cell or one boundary facet: `nodes[a]` is the node of shape function a,
 /// `value(q, a)` and `gradient(q, a)` [1/m] belong to quadrature point q with weight `jxw[q]`
-/// [m^dim, facets m^(dim-1)].
+/// [m^dim, facets m^(dim-1), each by a metre more where the body is revolved].
 template <int dim>
 struct Quadrature {
   std::vector<Node> nodes;
@@ -36,10 +44,19 @@ struct Quadrature {
   std::size_t region = 0;                          ///< of the cell, an index of the case's regions
   /// of the dim incompatible modes [1/m], point by point; empty unless asked for
   std::vector<std::array<double, dim>> mode_gradients;
+  std::vector<double> inverse_radius;    ///< at each point [1/m]; empty unless revolved, on facets
+  std::vector<double> modes_by_radius;   ///< as `mode_gradients`, of what `around` is for shapes
 
   double value(std::size_t q, std::size_t a) const { return values[q * nodes.size() + a]; }
   const std::array<double, dim> &gradient(std::size_t q, std::size_t a) const {
     return gradients[q * nodes.size() + a];
+  }
+  /// The strain around the axis that a radial displacement of this shape makes, value / x [1/m].
+  double around(std::size_t q, std::size_t a) const {
+    return inverse_radius.empty() ? 0 : value(q, a) * inverse_radius[q];
+  }
+  double mode_around(std::size_t q, std::size_t m) const {
+    return modes_by_radius.empty() ? 0 : modes_by_radius[q * dim + m];
   }
   std::array<double, 3> centre() const;
 };
@@ -62,7 +79,8 @@ struct NodeGraph {
 template <int dim>
 class Discretisation {
  public:
-  Discretisation(mesh::Mesh<dim> mesh, int degree);
+  /// Throws CaseError where the mesh of a revolved body crosses its axis.
+  Discretisation(mesh::Mesh<dim> mesh, int degree, Geometry geometry = Geometry::cartesian);
   ~Discretisation();
   Discretisation(Discretisation &&) noexcept;
 
@@ -70,6 +88,9 @@ class Discretisation {
   std::size_t n_cells() const;
   bool has_simplices() const;
   int degree() const;
+  Geometry geometry() const;
+  /// Whether the body is revolved and the node stands on its axis.
+  bool is_on_axis(Node node) const;
   /// Places of the nodes [m]; z = 0 in 2D.
   const std::vector<Vector3> &points() const;
   NodeGraph graph() const;

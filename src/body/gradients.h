@@ -30,6 +30,7 @@ void add_gradients(const Quadrature<dim> &cell, std::size_t q, std::span<const d
       sum.displacement.row(c) += x[c] * g.transpose();
     sum.potential += x[Fields<dim>::potential] * g;
     sum.temperature += x[Fields<dim>::temperature] * g;
+    sum.displacement(2, 2) += factor * cell.around(q, a) * x[0];
     sum.theta += factor * cell.value(q, a) * x[Fields<dim>::temperature];
   }
 }

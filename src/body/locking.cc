@@ -40,7 +40,7 @@ struct Loaded {
     for (std::size_t a = 0; a < cell.nodes.size(); ++a) {
       const double *x = &state[unknown<dim>(cell.nodes[a], 0)];
       const auto &g = cell.gradient(q, a);
-      strain += strain_of(g) * Eigen::Map<const Eigen::Matrix<double, dim, 1>>(x);
+      strain += strain_of(g, cell.around(q, a)) * Eigen::Map<const Eigen::Matrix<double, dim, 1>>(x);
       slope +=
           x[Fields<dim>::potential] * Eigen::Map<const Eigen::Matrix<double, dim, 1>>(g.data());
       theta += x[Fields<dim>::temperature] * cell.value(q, a);
@@ -94,7 +94,7 @@ LockedShare by_modes(const Discretisation<dim> &body, const material::Compositio
   return all.shares();
 }
 
-// One linear simplex, where the strain is constant.
+// One linear simplex, where the strain is constant, but around an axis.
 template <int dim>
 struct Simplex {
   std::array<Node, dim + 1> nodes;
@@ -104,6 +104,15 @@ struct Simplex {
   Strain<dim> strain;
   Eigen::Matrix<double, material::n_strains<dim>, material::n_strains<dim>> stiffness;
 };
+
+template <int dim>
+Strain<dim> mean_strain(const Quadrature<dim> &cell, const material::BodyConstants<dim> &material,
+                        std::span<const double> state, double volume) {
+  Strain<dim> sum = Strain<dim>::Zero();
+  for (std::size_t q = 0; q < cell.jxw.size(); ++q)
+    sum += cell.jxw[q] / volume * Loaded<dim>(cell, q, material, state).strain;
+  return sum;
+}
 
 template <int dim>
 std::vector<Simplex<dim>> simplices(const Discretisation<dim> &body,
@@ -117,7 +126,7 @@ std::vector<Simplex<dim>> simplices(const Discretisation<dim> &body,
     s.volume = std::accumulate(cell.jxw.begin(), cell.jxw.end(), 0.);
     const material::BodyConstants<dim> material = composition.at(cell.region, cell.centre());
     s.held = held(cell, material, state);
-    s.strain = Loaded<dim>(cell, 0, material, state).strain;
+    s.strain = mean_strain(cell, material, state, s.volume);
     s.stiffness = material.stiffness;
   });
   return cells;

@@ -14,11 +14,12 @@ namespace {
 template <int dim>
 using Vector = Eigen::Matrix<double, dim, 1>;
 
-// As on linear simplices: then one product of the constants serves the whole cell.
+// As on linear simplices that are not revolved: then one product of the constants serves the whole cell.
 template <int dim>
 bool has_constant_gradients(const Quadrature<dim> &cell) {
   const std::size_t n = cell.nodes.size();
-  return std::equal(cell.gradients.begin() + n, cell.gradients.end(), cell.gradients.begin());
+  return cell.inverse_radius.empty() &&
+         std::equal(cell.gradients.begin() + n, cell.gradients.end(), cell.gradients.begin());
 }
 
 template <int dim>
@@ -73,7 +74,7 @@ void Operator<dim>::add_cell(const Quadrature<dim> &cell,
   std::array<Trial<dim>, 27> trials;  // as many as a quadratic hexahedron has
   for (std::size_t q = 0; q < (constant ? 1 : cell.jxw.size()); ++q) {
     for (std::size_t a = 0; a < n_shapes; ++a)
-      trials[a] = trial<dim>(material, cell.gradient(q, a));
+      trials[a] = trial<dim>(material, cell.gradient(q, a), cell.around(q, a));
     for (std::size_t a = 0; a < n_shapes; ++a)
       for (std::size_t b = 0; b < n_shapes; ++b) {
         const std::size_t entry = entry_of(cell.nodes[a], cell.nodes[b]);

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <map>
 
+#include "case/time_steps.h"
+#include "case/toml_text.h"
+#include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::body {
@@ -37,18 +40,71 @@ std::vector<Prescribed> prescribed_unknowns(
                         electrodes[e].is_driven() ? *electrodes[e].voltage : casefile::Formula(0.),
                         electrodes[e].name, static_cast<int>(e)});
     }
+  for (Node node = 0; node < body.n_nodes() && body.is_on_axis(node); ++node) {
+    const std::size_t i = unknown<dim>(node, 0);
+    by_unknown.try_emplace(i, Prescribed{i, body.points()[node], casefile::Formula(0.), "axis"});
+  }
   std::vector<Prescribed> all;
   for (auto &[i, prescribed] : by_unknown)
     all.push_back(std::move(prescribed));
   return all;
 }
 
+namespace {
+
 template <int dim>
-std::vector<Prescribed> with_all_temperatures(const Discretisation<dim> &body,
-                                              std::vector<Prescribed> prescribed) {
+bool lies_on_axis(const Discretisation<dim> &body, const std::string &boundary) {
+  if (body.geometry() != Geometry::revolved)
+    return false;
+  const std::vector<Node> nodes = body.nodes_on({boundary});
+  return std::all_of(nodes.begin(), nodes.end(), [&](Node node) { return body.is_on_axis(node); });
+}
+
+bool says_more_than_displacement_along_x(const casefile::BoundaryCase &boundary) {
+  return boundary.potential || boundary.temperature || boundary.traction ||
+         boundary.surface_charge || boundary.heat_flux ||
+         (boundary.displacement && (*boundary.displacement)[1]);
+}
+
+[[noreturn]] void refuse_on_axis(const std::string &where, const std::string &name) {
+  throw CaseError(fmt::format(
+      "{}: the boundary {} lies on the axis of the body, x = 0, where it has no area, so that no "
+      "more than a displacement of 0 along x can be said of it; leave out the rest",
+      where, casefile::toml_text(name)));
+}
+
+}  // namespace
+
+template <int dim>
+void check_axis(const Discretisation<dim> &body, const casefile::Case &asked,
+                const std::vector<Prescribed> &prescribed) {
+  for (const casefile::BoundaryCase &boundary : asked.boundaries)
+    for (const std::string &name : boundary.on)
+      if (says_more_than_displacement_along_x(boundary) && lies_on_axis(body, name))
+        refuse_on_axis(boundary.where, name);
+  for (const casefile::ElectrodeCase &electrode : asked.electrodes)
+    for (const std::string &name : electrode.on)
+      if (lies_on_axis(body, name))
+        refuse_on_axis(electrode.where, name);
+  const casefile::TimeSteps steps(asked.time);
+  for (const Prescribed &p : prescribed)
+    for (int n = 0; n <= steps.count() && p.unknown % Fields<dim>::count == 0 &&
+                    body.is_on_axis(static_cast<Node>(p.unknown / Fields<dim>::count));
+         ++n)
+      if (const double value = p.value.value(p.point, steps.at(n)); value != 0)
+        throw CaseError(fmt::format(
+            "{}: the displacement along x is {:g} m on the axis of the body, at y = {:g} m and t = "
+            "{:g} s, where it can only be 0, as x is the radius; give 0, \"free\", or a formula "
+            "that fades with x",
+            p.value.where(), value, p.point[1], steps.at(n)));
+}
+
+template <int dim>
+std::vector<Prescribed> with_all(int component, const Discretisation<dim> &body,
+                                 std::vector<Prescribed> prescribed) {
   std::vector<bool> mask = mask_of(prescribed, body.n_nodes() * Fields<dim>::count);
   for (Node node = 0; node < body.n_nodes(); ++node)
-    if (const std::size_t i = unknown<dim>(node, Fields<dim>::temperature); !mask[i])
+    if (const std::size_t i = unknown<dim>(node, component); !mask[i])
       prescribed.push_back({i, body.points()[node], casefile::Formula(0.), ""});
   std::sort(prescribed.begin(), prescribed.end(),
             [](const Prescribed &a, const Prescribed &b) { return a.unknown < b.unknown; });
@@ -98,10 +154,14 @@ template std::vector<Prescribed> prescribed_unknowns<2>(
 template std::vector<Prescribed> prescribed_unknowns<3>(
     const Discretisation<3> &, const std::vector<casefile::BoundaryCase> &,
     const std::vector<casefile::ElectrodeCase> &);
-template std::vector<Prescribed> with_all_temperatures<2>(const Discretisation<2> &,
-                                                          std::vector<Prescribed>);
-template std::vector<Prescribed> with_all_temperatures<3>(const Discretisation<3> &,
-                                                          std::vector<Prescribed>);
+template std::vector<Prescribed> with_all<2>(int, const Discretisation<2> &,
+                                             std::vector<Prescribed>);
+template std::vector<Prescribed> with_all<3>(int, const Discretisation<3> &,
+                                             std::vector<Prescribed>);
+template void check_axis<2>(const Discretisation<2> &, const casefile::Case &,
+                            const std::vector<Prescribed> &);
+template void check_axis<3>(const Discretisation<3> &, const casefile::Case &,
+                            const std::vector<Prescribed> &);
 template std::vector<std::vector<Node>> electrode_nodes<2>(
     const std::vector<Prescribed> &, const std::vector<casefile::ElectrodeCase> &);
 template std::vector<std::vector<Node>> electrode_nodes<3>(

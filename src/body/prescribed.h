@@ -18,24 +18,31 @@ struct Prescribed {
   std::string boundary;
   int electrode = -1;  ///< of the case's electrodes; -1: a boundary's condition
 
-  /// Whether the case gives it; if not, it is a temperature that something else finds.
+  /// Whether the case gives it; if not, something else finds it or the case does without it.
   bool is_given() const { return !boundary.empty(); }
 };
 
 /// Prescribed unknowns of all [[boundary]] entries and the potentials of all [[electrode]] entries,
 /// ascending. An electrode whose voltage is not given has the value 0 here: the circuit adds its
-/// voltage. Where two boundaries meet and both prescribe an unknown, the entry that stands first in
+/// voltage. On the axis of a revolved body u_x is prescribed as 0. Where two boundaries meet and both prescribe an unknown, the entry that stands first in
 /// the case file holds, [[boundary]] before [[electrode]].
 template <int dim>
 std::vector<Prescribed> prescribed_unknowns(
     const Discretisation<dim> &body, const std::vector<casefile::BoundaryCase> &boundaries,
     const std::vector<casefile::ElectrodeCase> &electrodes = {});
 
-/// With all temperatures among them, those that are not given as well (`Prescribed::is_given`):
-/// where heat flows steadily, they are known before a step begins.
+/// Throws CaseError where something else than 0 is prescribed as u_x on the axis of a revolved body,
+/// at the end of any step.
 template <int dim>
-std::vector<Prescribed> with_all_temperatures(const Discretisation<dim> &body,
-                                              std::vector<Prescribed> prescribed);
+void check_axis(const Discretisation<dim> &body, const casefile::Case &asked,
+                const std::vector<Prescribed> &prescribed);
+
+/// With all unknowns of a component among them, those that are not given as well
+/// (`Prescribed::is_given`), with the value 0: temperatures that are known before a step begins
+/// where heat flows steadily, and fields that the case does without.
+template <int dim>
+std::vector<Prescribed> with_all(int component, const Discretisation<dim> &body,
+                                 std::vector<Prescribed> prescribed);
 
 /// By unknown of the body, whether it is prescribed.
 std::vector<bool> mask_of(const std::vector<Prescribed> &prescribed, std::size_t n_unknowns);

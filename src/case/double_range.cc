@@ -34,7 +34,7 @@ Number number_in(const std::string &text) {
   return {std::string(plain.c_str(), static_cast<const char *>(end)), value};
 }
 
-bool is_part_of_name(char c) {
+bool continues_word(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.';
 }
 
@@ -65,7 +65,7 @@ std::string vanishing_at(const std::string &text, std::size_t begin) {
 std::string too_small(const std::string &formula) {
   for (std::size_t i = 0; i < formula.size(); ++i)
     if (std::isdigit(static_cast<unsigned char>(formula[i])) &&
-        (i == 0 || !is_part_of_name(formula[i - 1])))
+        (i == 0 || !continues_word(formula[i - 1])))
       if (std::string reason = vanishing_at(formula, i); !reason.empty())
         return reason;
   return "";
@@ -80,7 +80,7 @@ std::optional<TooSmall> too_small_in_toml(const std::string &text) {
     if (i < text.size() && (text[i] == '"' || text[i] == '\''))
       end = end_of_string(text, i);
     else if (i < text.size() && std::isdigit(static_cast<unsigned char>(text[i])) &&
-             (i == 0 || !is_part_of_name(text[i - 1])))
+             (i == 0 || !continues_word(text[i - 1])))
       found.reason = vanishing_at(text, i);
     if (!found.reason.empty())
       return found;

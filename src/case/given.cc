@@ -86,4 +86,17 @@ MaterialCase merged(const MaterialCase &entry, const MaterialCase &over) {
   return all;
 }
 
+MaterialCase without_left_out(MaterialCase material) {
+  const auto is_left_out = [&](const std::string &key) {
+    return material.left_out.contains(form_of(key).kind);
+  };
+  std::erase_if(material.constants,
+                [&](const auto &constant) { return is_left_out(constant.first); });
+  for_each_tensor(material, material, [&](const char *key, auto &tensor, const auto &) {
+    if (is_left_out(key))
+      tensor.reset();
+  });
+  return material;
+}
+
 }  // namespace tourmaline::casefile

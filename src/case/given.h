@@ -14,4 +14,7 @@ std::map<std::string, bool> given_tensors(const MaterialCase &material);
 /// another form (or a whole tensor) replaces all that the entry says of that kind.
 MaterialCase merged(const MaterialCase &entry, const MaterialCase &over);
 
+/// The material without all that it says of its left-out kinds.
+MaterialCase without_left_out(MaterialCase material);
+
 }  // namespace tourmaline::casefile

@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 
 #include "case/sides.h"
 #include "tourmaline/case/case.h"
@@ -160,8 +161,17 @@ std::vector<std::string> free_motions(int dimension, const std::vector<Support> 
   return free;
 }
 
-std::string free_motions_in_words(int dimension, const std::vector<Support> &supports) {
-  return listed(free_motions(dimension, supports));
+std::vector<std::string> free_motions(const Case &asked, const std::vector<Support> &supports) {
+  if (!asked.model.is_axisymmetric())
+    return free_motions(asked.dimension, supports);
+  const bool is_held = std::any_of(supports.begin(), supports.end(), [](const Support &support) {
+    return std::abs(support.direction[1]) > tolerance;
+  });
+  return is_held ? std::vector<std::string>{} : std::vector<std::string>{"a translation along y"};
+}
+
+std::string free_motions_in_words(const Case &asked, const std::vector<Support> &supports) {
+  return listed(free_motions(asked, supports));
 }
 
 void check_holding(const Case &asked) {
@@ -176,7 +186,7 @@ void check_holding(const Case &asked) {
         return contact.electric.exchanges() && !contact.electric.ramp &&
                (!contact.electric.circuit || contact.electric.circuit->is_loaded());
       });
-  if (!grounded)
+  if (!grounded && asked.model.electric)
     throw CaseError(asked.source +
                     (asked.electrodes.empty()
                          ? " [[boundary]]: the electric potential floats, as no boundary "
@@ -187,7 +197,7 @@ void check_holding(const Case &asked) {
   if (asked.time.is_dynamic())  // inertia holds it
     return;
   const std::vector<std::string> free =
-      free_motions(asked.dimension, supports_of(asked, Held::all_it_can));
+      free_motions(asked, supports_of(asked, Held::all_it_can));
   if (!free.empty())
     throw CaseError(fmt::format(
         "{} [[boundary]]: nothing holds the body against {}; prescribe further components of "
@@ -197,7 +207,7 @@ void check_holding(const Case &asked) {
 
 std::string left_to_contact(const Case &asked) {
   return !asked.contacts.empty() && !asked.time.is_dynamic()
-             ? free_motions_in_words(asked.dimension, supports_of(asked, Held::never_lost))
+             ? free_motions_in_words(asked, supports_of(asked, Held::never_lost))
              : "";
 }
 

@@ -19,8 +19,11 @@ struct Support {
 /// the third coordinates are not looked at.
 std::vector<std::string> free_motions(int dimension, const std::vector<Support> &supports);
 
+/// Those of the case's body: one of revolution moves rigidly along its axis, y, and not otherwise.
+std::vector<std::string> free_motions(const Case &asked, const std::vector<Support> &supports);
+
 /// The same as a phrase, "a translation along x and a rotation in the plane".
-std::string free_motions_in_words(int dimension, const std::vector<Support> &supports);
+std::string free_motions_in_words(const Case &asked, const std::vector<Support> &supports);
 
 /// Throws CaseError when the case's conditions, with all that its contact can hold, leave the body
 /// a rigid motion, or the electric potential a constant: such a problem has no unique solution.

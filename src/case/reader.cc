@@ -14,6 +14,7 @@
 #include "case/electrodes.h"
 #include "case/given_table.h"
 #include "case/holding.h"
+#include "case/left_out.h"
 #include "case/plane_formulas.h"
 #include "case/regime.h"
 #include "case/schema.h"
@@ -311,6 +312,7 @@ Case read_text(const std::string &text, const std::string &name,
     asked.output.every = steps_between_files(asked.time.steps);
   check_plane(asked);
   check_tables(asked);
+  check_left_out(asked);
   check_conflicts(asked);
   check_contacts(asked);
   check_electrodes(asked);

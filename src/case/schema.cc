@@ -196,11 +196,21 @@ void declare(Visitor &v, ModelCase &model, int dimension) {
          .description =
              "what a two-dimensional body is. strain: it is long across the plane, or held there, "
              "so that nothing strains across it; stress: it is thin across the plane and free "
-             "there, so that no stress acts across it. Either way per metre of depth, and the "
+             "there, so that no stress acts across it; either way forces, charges and heats are "
+             "those of a metre of depth. axisymmetric: it is the half section of a body of "
+             "revolution, x its radius and y its axis, and all is that of the whole body. The "
              "potential does not vary across the plane",
-         .choices = {"strain", "stress"},
+         .choices = {"strain", "stress", "axisymmetric"},
          .used = {dimension == 2, "a mesh of two dimensions"}},
         &model.plane);
+  v.key({.name = "thermal",
+         .description = "false: the temperature stays that of reference everywhere, and no thermal "
+                        "constants are needed"},
+        &model.thermal);
+  v.key({.name = "electric",
+         .description = "false: the potential is zero everywhere, and no electric constants are "
+                        "needed"},
+        &model.electric);
 }
 
 void declare_augmented_lagrangian(Visitor &v, SolverCase &solver) {

@@ -46,7 +46,7 @@ Fields fields_of(const std::string &line, char separator) {
   return fields;
 }
 
-std::optional<double> number_in(const std::string &text) {
+std::optional<double> number_of_field(const std::string &text) {
   const std::string digits = text.starts_with('+') ? text.substr(1) : text;
   double number = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
@@ -93,7 +93,7 @@ class TableReader {
       is_first_ = false;
       separator_ = separator_of(line);
       const Fields fields = fields_of(line, separator_);
-      const bool has_names = !number_in(fields.front());
+      const bool has_names = !number_of_field(fields.front());
       columns_ = fields.size();
       choose(fields, has_names);
       if (has_names)
@@ -129,7 +129,7 @@ class TableReader {
   }
 
   double number(const Fields &fields, std::size_t i) const {
-    const auto found = number_in(fields[i]);
+    const auto found = number_of_field(fields[i]);
     if (fields[i].empty())
       fail(fmt::format("column {} is empty", i + 1));
     if (!found)
@@ -143,7 +143,7 @@ class TableReader {
   // What a spreadsheet's table lacks most often.
   std::string way_out(std::string text) const {
     std::replace(text.begin(), text.end(), ',', '.');
-    if (number_in(text))
+    if (number_of_field(text))
       return "; decimals stand behind a point";
     return points_.empty() ? "; lines that begin with # are left out" : "";
   }

@@ -82,7 +82,7 @@ void check_range(const Item &item, double number) {
     fail(item, "is closer to 0 than double precision holds; write 0");
 }
 
-std::string listed(const std::vector<std::string> &texts) {
+std::string quoted_list(const std::vector<std::string> &texts) {
   std::string all;
   for (const std::string &text : texts)
     all += (all.empty() ? "\"" : ", \"") + text + "\"";
@@ -98,9 +98,9 @@ void check_choice(const Item &item, const std::string &text) {
     fail(item, "is not allowed; " + key.no_choices);
   for (const auto &[other, choice] : key.choices_also)
     if (edit_distance(other, text) == 0)
-      fail(item, "is not allowed; allowed: " + listed(key.choices) + "; did you mean \"" + choice +
+      fail(item, "is not allowed; allowed: " + quoted_list(key.choices) + "; did you mean \"" + choice +
                      "\"?");
-  fail(item, "is not allowed; allowed: " + listed(key.choices) + did_you_mean(text, key.choices));
+  fail(item, "is not allowed; allowed: " + quoted_list(key.choices) + did_you_mean(text, key.choices));
 }
 
 const toml::array &entries_of(const Item &item, std::string_view wanted) {
@@ -164,7 +164,7 @@ void read_into(const Item &item, std::string &value) {
   const auto given = item.node.value_exact<std::string>();
   if (!given)
     fail_type(item,
-              item.key.choices.empty() ? "a text" : "a text, one of " + listed(item.key.choices));
+              item.key.choices.empty() ? "a text" : "a text, one of " + quoted_list(item.key.choices));
   if (given->find('\0') != std::string::npos)
     fail(item, "has the character \\u0000, which no text can hold");
   check_choice(item, *given);
@@ -318,7 +318,7 @@ void read_into(const Item &item, std::vector<std::string> &names) {
   read_entries(item, "a text or a list of texts", names);
   if (names.empty())
     fail(item, "names nothing; " + (item.key.no_choices.empty() || !item.key.choices.empty()
-                                        ? "allowed: " + listed(item.key.choices)
+                                        ? "allowed: " + quoted_list(item.key.choices)
                                         : item.key.no_choices));
   for (std::size_t i = 0; i < names.size(); ++i)
     if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=

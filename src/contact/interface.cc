@@ -231,6 +231,15 @@ class Joined {
 
 }  // namespace
 
+// Where the contact of a revolved body meets its axis, the normals of all around add up to one along
+// it.
+template <int dim>
+Normal<dim> normal_of(Normal<dim> integral, bool is_on_axis) {
+  if (is_on_axis)
+    integral[0] = 0;
+  return integral.normalized();
+}
+
 template <int dim>
 Interface<dim> interface_of(const body::Discretisation<dim> &body,
                             const std::vector<std::vector<std::string>> &contacts) {
@@ -241,14 +250,20 @@ Interface<dim> interface_of(const body::Discretisation<dim> &body,
   std::vector<InterfaceNode<dim>> &nodes = interface.nodes;
   for (const auto &[node, integrals] : joined.by_node()) {
     const Vector3 &point = body.points()[node];
+    if (!(integrals.weight > 1e-9 * integrals.size) && body.is_on_axis(node))
+      throw CaseError(fmt::format(
+          "[contact] the node on the axis, at (0, {:g}) m, has no weight in the nodal quadrature; "
+          "contact that reaches the axis needs mesh.degree = 1, and no contact lies along it",
+          point[1]));
     if (!(integrals.weight > 1e-9 * integrals.size))
       throw CaseError(
           fmt::format("[contact] the node at ({:g}, {:g}, {:g}) has no positive weight in the "
                       "nodal quadrature; "
                       "contact on tetrahedra needs mesh.degree = 1",
                       point[0], point[1], point[2]));
-    nodes.push_back(
-        {node, point, integrals.weight, integrals.normal.normalized(), joined.first_at(node)});
+    nodes.push_back({node, point, integrals.weight,
+                     normal_of<dim>(integrals.normal, body.is_on_axis(node)),
+                     joined.first_at(node)});
   }
   parallel::together([&] {
     for (std::size_t contact = 0; contact < contacts.size(); ++contact)

@@ -129,10 +129,12 @@ bool is_electric(const std::string &kind) {
 std::vector<Gap> gaps(const MaterialCase &given) {
   std::vector<Gap> all;
   for (const Kind &kind : kinds)
-    if (!given.conductor.value_or(false) || !is_electric(kind.name))
+    if (!given.left_out.contains(kind.name) &&
+        (!given.conductor.value_or(false) || !is_electric(kind.name)))
       all.push_back(gap_of(kind, given));
   for (const char *scalar : {"density", "specific_heat", "reference_temperature"})
-    all.push_back(gap_of_scalar(scalar, "", given));
+    if (!given.left_out.contains(scalar))
+      all.push_back(gap_of_scalar(scalar, "", given));
   std::erase_if(all, [](const Gap &gap) { return gap.constants.empty(); });
   return all;
 }

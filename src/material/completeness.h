@@ -17,7 +17,8 @@ struct Gap {
   std::string reason;                  ///< why they cannot be left out, or what else would do
 };
 
-/// What a material with its entry laid under it lacks, in the order of the case file. Elastic
+/// What a material with its entry laid under it lacks of what its model needs, in the order of the
+/// case file. Elastic
 /// constants, permittivity (but of a conductor), conductivity, density, specific heat and reference
 /// temperature every material has; of piezoelectric constants, thermal expansion (or stress) and
 /// pyroelectric constant it has all that its class has or none; and those that its entry lists as

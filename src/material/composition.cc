@@ -19,13 +19,24 @@ bool varies(const casefile::FormulaVector &direction) {
                      [](const casefile::Formula &entry) { return entry.depends_on_place(); });
 }
 
-std::vector<casefile::MaterialCase> asked_materials(const casefile::Case &asked) {
-  if (asked.regions.empty())
-    return {asked.material};
-  std::vector<casefile::MaterialCase> all;
-  for (const casefile::RegionCase &region : asked.regions)
-    all.push_back(region.material);
-  return all;
+// Mass matters where it is accelerated or its drag counts, and in the heat it stores.
+std::set<std::string> left_out(const casefile::Case &asked, const casefile::MaterialCase &material) {
+  std::set<std::string> kinds;
+  if (!asked.model.electric)
+    kinds.insert({"piezoelectric", "permittivity", "pyroelectric"});
+  if (asked.model.thermal)
+    return kinds;
+  kinds.insert({"thermal", "pyroelectric", "conductivity", "specific_heat", "reference_temperature"});
+  if (!asked.time.is_dynamic() && asked.load.base_acceleration.empty() &&
+      !with_entry(material).constants.contains("mass_damping"))
+    kinds.insert("density");
+  return kinds;
+}
+
+Plane plane_of(const casefile::ModelCase &model) {
+  if (model.is_axisymmetric())
+    return Plane::axisymmetric;
+  return model.plane == "stress" ? Plane::stress : Plane::strain;
 }
 
 bool is_polar(const Constants &c) {
@@ -34,11 +45,22 @@ bool is_polar(const Constants &c) {
 
 }  // namespace
 
+std::vector<casefile::MaterialCase> materials_of(const casefile::Case &asked) {
+  std::vector<casefile::MaterialCase> all;
+  for (const casefile::RegionCase &region : asked.regions)
+    all.push_back(region.material);
+  if (all.empty())
+    all.push_back(asked.material);
+  for (casefile::MaterialCase &material : all)
+    material.left_out = left_out(asked, material);
+  return all;
+}
+
 template <int dim>
 Composition<dim>::Composition(const casefile::Case &asked)
-    : plane_(asked.model.plane == "stress" ? Plane::stress : Plane::strain) {
-  require_complete(asked_materials(asked));
-  for (const casefile::MaterialCase &material : asked_materials(asked))
+    : plane_(plane_of(asked.model)) {
+  require_complete(materials_of(asked));
+  for (const casefile::MaterialCase &material : materials_of(asked))
     add(material);
   fill_conductors();
   check_reference_temperatures();

@@ -14,6 +14,9 @@ namespace tourmaline::material {
 
 using Place = std::array<double, 3>;
 
+/// Of the case's regions, or the one of the whole body; what its model does without is left out.
+std::vector<casefile::MaterialCase> materials_of(const casefile::Case &asked);
+
 /// What a body of several materials consists of, cell by cell: the constants of each region, turned
 /// to the poling at the place of the cell.
 ///

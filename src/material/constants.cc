@@ -60,6 +60,8 @@ Vector pyroelectric_of(const std::vector<double> &p) {
 // s sigma + d^T E + a theta.
 class Conversion {
  public:
+  static constexpr double vacuum = 8.8541878128e-12;  // CODATA 2018 [C/(V m)]
+
   explicit Conversion(const MaterialCase &given)
       : given_(given), crystal_{symmetry_of(given), given.place(), given.constants} {}
 
@@ -149,8 +151,6 @@ class Conversion {
     return voigt;
   }
 
-  static constexpr double vacuum = 8.8541878128e-12;  // CODATA 2018 [C/(V m)]
-
   const MaterialCase &given_;
   CrystalClass crystal_;
 };
@@ -202,7 +202,9 @@ void check_coupling(const Conversion &conversion, const Constants &c, const std:
 }  // namespace
 
 MaterialCase with_entry(const MaterialCase &asked) {
-  return asked.library ? casefile::merged(find(asked).given, asked) : asked;
+  MaterialCase given = asked.library ? casefile::merged(find(asked).given, asked) : asked;
+  given.left_out = asked.left_out;
+  return casefile::without_left_out(std::move(given));
 }
 
 Constants electromechanical(const MaterialCase &given) {
@@ -271,9 +273,28 @@ void require_complete(const std::vector<MaterialCase> &materials) {
     throw CaseError(text + remedy(files, entries, none));
 }
 
+namespace {
+
+// The equations of fields that nothing moves and nothing couples keep their places.
+void fill_left_out(MaterialCase &given) {
+  const auto unit = [](double size) {
+    return std::vector<std::vector<double>>{{size, 0, 0}, {0, size, 0}, {0, 0, size}};
+  };
+  if (given.left_out.contains("permittivity") && !given.conductor.value_or(false))
+    given.permittivity = unit(Conversion::vacuum);
+  if (given.left_out.contains("conductivity"))
+    given.conductivity = unit(1);
+  for (const char *scalar : {"density", "specific_heat", "reference_temperature"})
+    if (given.left_out.contains(scalar))
+      given.constants.try_emplace(scalar, 1);
+}
+
+}  // namespace
+
 Constants constants_of(const MaterialCase &asked) {
   require_complete({asked});
-  const MaterialCase given = with_entry(asked);
+  MaterialCase given = with_entry(asked);
+  fill_left_out(given);
   Constants c = electromechanical(given);
   const Conversion conversion(given);
   c.conductor = given.conductor.value_or(false);

@@ -1,5 +1,7 @@
 #include "material/plane.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "tourmaline/error.h"
@@ -8,30 +10,33 @@ namespace tourmaline::material {
 
 namespace {
 
-// Voigt places of xx, yy, xy and of the strains that plane strain sets to zero although the plane
-// could drive them: yz, xz.
+// Voigt places of xx, yy, zz, xy, and without zz; and of the strains that are zero although the
+// others could drive them: yz, xz.
+constexpr int zz = 2;
+const std::array<int, 4> kept{0, 1, 2, 5};
 const std::array<int, 3> in_plane{0, 1, 5};
 const std::array<int, 2> out_of_plane{3, 4};
 // The strains that plane stress leaves free: zz, yz, xz.
 const std::array<int, 3> across{2, 3, 4};
 
-void check_plane(const Constants &c) {
+void check_plane(const Constants &c, Plane plane) {
   const double stress = c.stiffness.cwiseAbs().maxCoeff();
   const double charge = c.piezoelectric.cwiseAbs().maxCoeff();
   const double heat = c.thermal_stress.cwiseAbs().maxCoeff();
   bool couples = false;
   for (const int out : out_of_plane) {
-    for (const int in : in_plane)
-      couples |= std::abs(c.stiffness(out, in)) > 1e-10 * stress;
+    for (const int in : kept)
+      couples |= std::abs(c.stiffness(out, in)) > 1e-10 * stress &&
+                 (in != zz || plane == Plane::axisymmetric);
     for (const int k : {0, 1})
       couples |= std::abs(c.piezoelectric(k, out)) > 1e-10 * charge;
     couples |= std::abs(c.thermal_stress(out)) > 1e-10 * heat;
   }
   if (couples)
-    throw CaseError(
+    throw CaseError(fmt::format(
         "[material] in this orientation fields in the plane drive a displacement out of it, so "
-        "plane strain is no solution; turn poling into the plane, or model the body in three "
-        "dimensions");
+        "{} is no solution; turn poling into the plane, or model the body in three dimensions",
+        plane == Plane::axisymmetric ? "axial symmetry" : "plane strain"));
 }
 
 // With the strains across the plane from (1) without stress there, F_oo eps_o = -F_oi eps_i +
@@ -42,10 +47,18 @@ BodyConstants<2> without_stress_across(const Constants &c, BodyConstants<2> plan
   const Eigen::Matrix<double, 3, 2> piezo = c.piezoelectric(std::array{0, 1}, across).transpose();
   const Eigen::Vector3d thermal = c.thermal_stress(across);
   const Eigen::LLT<Eigen::Matrix3d> factor(stiffness);
-  plane.stiffness -= coupling.transpose() * factor.solve(coupling);
-  plane.piezoelectric -= piezo.transpose() * factor.solve(coupling);
+  const std::array<int, 3> xx_yy_xy{0, 1, 3};
+  const Eigen::Matrix3d stiffness_in_plane = c.stiffness(in_plane, in_plane);
+  const double of_zz = plane.stiffness(zz, zz);
+  plane.stiffness.setZero();
+  plane.stiffness(zz, zz) = of_zz;
+  plane.stiffness(xx_yy_xy, xx_yy_xy) =
+      stiffness_in_plane - coupling.transpose() * factor.solve(coupling);
+  plane.piezoelectric(Eigen::all, xx_yy_xy) -= piezo.transpose() * factor.solve(coupling);
+  plane.piezoelectric.col(zz).setZero();
   plane.permittivity += piezo.transpose() * factor.solve(piezo);
-  plane.thermal_stress -= coupling.transpose() * factor.solve(thermal);
+  plane.thermal_stress(xx_yy_xy) -= coupling.transpose() * factor.solve(thermal);
+  plane.thermal_stress[zz] = 0;
   plane.pyroelectric += piezo.transpose() * factor.solve(thermal);
   plane.heat_capacity += thermal.dot(factor.solve(thermal));
   return plane;
@@ -71,12 +84,12 @@ BodyConstants<3> restricted<3>(const Constants &c, Plane) {
 
 template <>
 BodyConstants<2> restricted<2>(const Constants &c, Plane plane) {
-  if (plane == Plane::strain)
-    check_plane(c);
-  const BodyConstants<2> of_plane{c.stiffness(in_plane, in_plane),
-                                  c.piezoelectric(std::array{0, 1}, in_plane),
+  if (plane != Plane::stress)
+    check_plane(c, plane);
+  const BodyConstants<2> of_plane{c.stiffness(kept, kept),
+                                  c.piezoelectric(std::array{0, 1}, kept),
                                   c.permittivity.topLeftCorner<2, 2>(),
-                                  c.thermal_stress(in_plane),
+                                  c.thermal_stress(kept),
                                   c.pyroelectric.head<2>(),
                                   c.conductivity.topLeftCorner<2, 2>(),
                                   c.heat_capacity(),
@@ -84,7 +97,7 @@ BodyConstants<2> restricted<2>(const Constants &c, Plane plane) {
                                   c.density,
                                   c.stiffness_damping,
                                   c.mass_damping};
-  return plane == Plane::strain ? of_plane : without_stress_across(c, of_plane);
+  return plane == Plane::stress ? without_stress_across(c, of_plane) : of_plane;
 }
 
 }  // namespace tourmaline::material

@@ -4,16 +4,19 @@
 
 namespace tourmaline::material {
 
-/// Components of a symmetric tensor in `dim` dimensions: xx, yy, xy or all six of Voigt.
+/// Components of a symmetric tensor that a body of `dim` dimensions may have: xx, yy, zz, xy or all
+/// six of Voigt.
 template <int dim>
-inline constexpr int n_strains = dim *(dim + 1) / 2;
+inline constexpr int n_strains = dim == 2 ? 4 : 6;
 
-/// What a two-dimensional body does across its plane, with E_z = 0 in both: eps_zz = eps_yz =
-/// eps_xz = 0, or sigma_zz = sigma_yz = sigma_xz = 0.
-enum class Plane { strain, stress };
+/// What a two-dimensional body does across its plane, with E_z = 0 in all: eps_zz = eps_yz =
+/// eps_xz = 0; sigma_zz = sigma_yz = sigma_xz = 0; or, where it is a body of revolution and z goes
+/// around, eps_zz = u_x / x and eps_yz = eps_xz = 0.
+enum class Plane { strain, stress, axisymmetric };
 
 /// The constants that a body of `dim` dimensions sees, in its own axes. In plane stress the strains
-/// across the plane have been eliminated; damping of the stiffness acts on what is left of it.
+/// across the plane have been eliminated, eps_zz = 0 stands for them, and what belongs to it couples
+/// with nothing; damping of the stiffness acts on what is left of it.
 template <int dim>
 struct BodyConstants {
   static constexpr int strains = n_strains<dim>;
@@ -30,8 +33,8 @@ struct BodyConstants {
   double mass_damping = 0;           ///< [1/s]
 };
 
-/// Throws CaseError in plane strain when the plane's fields would drive a displacement out of the
-/// plane or a field E_z: it is then no solution of (1)-(6).
+/// Throws CaseError, but in plane stress, when the plane's fields would drive a displacement out of
+/// the plane: it is then no solution of (1)-(6).
 template <int dim>
 BodyConstants<dim> restricted(const Constants &body_axes, Plane plane = Plane::strain);
 

@@ -63,8 +63,7 @@ void add_others(Conditions &conditions, const casefile::BoundaryCase &entry) {
 }
 
 /// Of a plane body everything holds for a metre of its depth.
-std::string electrode_text(const casefile::ElectrodeCase &electrode, int dimension) {
-  const bool plane = dimension == 2;
+std::string electrode_text(const casefile::ElectrodeCase &electrode, bool plane) {
   std::string text = "electrode " + electrode.name;
   const auto add = [&](const std::string &piece) { text += ", " + piece; };
   if (electrode.voltage)
@@ -100,7 +99,7 @@ Conditions conditions_on(const casefile::Case &asked, const std::string &boundar
   add_entries(add_others);
   for (const casefile::ElectrodeCase &electrode : asked.electrodes)
     if (names(electrode.on, boundary))
-      conditions.texts.push_back(electrode_text(electrode, asked.dimension));
+      conditions.texts.push_back(electrode_text(electrode, asked.is_per_depth()));
   return conditions;
 }
 

@@ -61,7 +61,7 @@ std::vector<int> regions_of(const Result &result, const std::vector<Triple> &pol
   return regions;
 }
 
-double dot(const Triple &a, const Triple &b) {
+double product(const Triple &a, const Triple &b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
@@ -152,7 +152,7 @@ class Picture {
 
   bool continues(const Pixel &from, const Pixel &to) const {
     return region_at(to) == region_at(from) && part_at(to) == nothing &&
-           dot(poling_at(from), poling_at(to)) > 0;
+           product(poling_at(from), poling_at(to)) > 0;
   }
 
   PoledPart grown_from(const Pixel &first, int number) {

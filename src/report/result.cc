@@ -52,6 +52,10 @@ void read_case(Result &result, const fs::path &folder) {
     result.dimension = result.asked->dimension;
     if (result.asked->model.plane == "stress")
       result.remarks.emplace_back("Plane stress: the body is a sheet whose faces are free.");
+    if (result.asked->model.is_axisymmetric())
+      result.remarks.emplace_back(
+          "Axisymmetric: x is the radius, y the axis, zz goes around; forces, charges and heats are "
+          "those of the whole body.");
   } catch (const CaseError &error) {
     // The numbers can be shown without: a case of another version, or a run that failed.
     result.remarks.push_back(std::string("The conditions are not shown: ") + error.what());

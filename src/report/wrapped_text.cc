@@ -32,9 +32,9 @@ std::string without_blanks_behind(std::string line) {
   return line;
 }
 
-class Lines {
+class FilledLines {
  public:
-  Lines(double room, const std::function<double(const std::string &)> &width)
+  FilledLines(double room, const std::function<double(const std::string &)> &width)
       : room_(room), width_(width) {}
 
   void add_word(const std::string &word) {
@@ -81,7 +81,7 @@ class Lines {
 
 std::vector<std::string> wrapped(const std::string &text, double room,
                                  const std::function<double(const std::string &)> &width) {
-  Lines lines(room, width);
+  FilledLines lines(room, width);
   for (const std::string &word : split_behind(text, " "))
     lines.add_word(word);
   return lines.all();

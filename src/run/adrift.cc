@@ -38,7 +38,7 @@ bool Adrift<dim>::is_held(const solve::StepOutcome &outcome) const {
     for (int c = 0; rubs && c < dim; ++c)
       add(at.point, Vector::Unit(c));
   }
-  return casefile::free_motions(dim, supports).empty();
+  return casefile::free_motions(model_.asked, supports).empty();
 }
 
 template <int dim>

@@ -25,7 +25,8 @@ namespace {
 
 template <int dim>
 std::string warning_in(const casefile::Case &asked) {
-  const body::Discretisation<dim> body(mesh::build<dim>(asked), asked.mesh.degree);
+  const body::Discretisation<dim> body(mesh::build<dim>(asked), asked.mesh.degree,
+                                       body::geometry_of(asked));
   std::vector<std::vector<std::string>> boundaries;
   for (const casefile::ContactCase &contact : asked.contacts)
     boundaries.push_back(contact.on);

@@ -19,7 +19,7 @@ Evolution<dim>::Evolution(solve::Model<dim> &model)
 
 template <int dim>
 void Evolution<dim>::make_ready(bool iterative, output::Progress &progress, int first) {
-  if (model_.asked.time.is_static())
+  if (model_.asked.time.is_static() && model_.asked.model.thermal)
     steady_heat_.emplace(model_, iterative);
   route_.emplace(model_, iterative, progress, first);
 }

@@ -71,7 +71,7 @@ class Evolution {
   solve::Motion<dim> motion_;        // of that step
   solve::FoundationCircuits<dim> foundations_;
   std::vector<double> state_;
-  std::optional<solve::SteadyHeat<dim>> steady_heat_;  // of a static case
+  std::optional<solve::SteadyHeat<dim>> steady_heat_;  // of a static case with temperatures
   std::optional<ChosenRoute<dim>> route_;
 };
 

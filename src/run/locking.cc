@@ -81,7 +81,7 @@ namespace {
 
 template <int dim>
 std::string slender_warning_in(const casefile::Case &asked) {
-  const body::Discretisation<dim> body(mesh::build<dim>(asked), 1);
+  const body::Discretisation<dim> body(mesh::build<dim>(asked), 1, body::geometry_of(asked));
   const body::Slenderness found = body::slenderness(body);
   if (found.ratio < least_slender || found.cells >= least_cells(body.has_simplices()))
     return "";

@@ -38,11 +38,11 @@ struct Part {
 
 std::vector<Part> parts_of(const casefile::Case &asked) {
   const std::vector<output::MaterialRecord> records = materials_of(asked);
+  const std::vector<casefile::MaterialCase> materials = material::materials_of(asked);
   std::vector<Part> parts;
   for (std::size_t i = 0; i < records.size(); ++i) {
     const bool whole = asked.regions.empty();
-    const casefile::MaterialCase given =
-        material::with_entry(whole ? asked.material : asked.regions[i].material);
+    const casefile::MaterialCase given = material::with_entry(materials[i]);
     parts.push_back({(whole ? "" : "region " + casefile::toml_text(records[i].region) + ", ") +
                          records[i].material,
                      material::constants_of(given), given.symmetry == "isotropic"});

@@ -119,7 +119,7 @@ std::string poling_words(const casefile::MaterialCase &material, const Region &r
 template <int dim>
 std::string survey_in(const casefile::Case &asked) {
   const material::Composition<dim> composition(asked);
-  const body::Discretisation<dim> body(mesh::build<dim>(asked), 1);
+  const body::Discretisation<dim> body(mesh::build<dim>(asked), 1, body::geometry_of(asked));
   body::check_conductors(body, composition, asked,
                          body::prescribed_unknowns(body, asked.boundaries, asked.electrodes));
   std::string text = "# Boundaries and regions of this case\n";
@@ -131,9 +131,10 @@ std::string survey_in(const casefile::Case &asked) {
   }
   const auto regions =
       regions_of(body, composition, std::max<std::size_t>(1, asked.regions.size()));
+  const std::vector<casefile::MaterialCase> materials = material::materials_of(asked);
   for (std::size_t i = 0; i < regions.size(); ++i) {
     const bool whole = asked.regions.empty();
-    const casefile::MaterialCase &material = whole ? asked.material : asked.regions[i].material;
+    const casefile::MaterialCase &material = materials[i];
     text += fmt::format("# region {}: {}, {}{}\n",
                         whole ? "(the whole body)" : casefile::toml_text(names(asked.regions[i])),
                         one_line(material.library.value_or("material of the case")),
@@ -142,7 +143,7 @@ std::string survey_in(const casefile::Case &asked) {
   return text;
 }
 
-output::MaterialRecord record(const std::string &region, const casefile::MaterialCase &material) {
+output::MaterialRecord record_of(const std::string &region, const casefile::MaterialCase &material) {
   return {region, material.library.value_or("material of the case"),
           material::couplings(material::constants_of(material))};
 }
@@ -150,14 +151,13 @@ output::MaterialRecord record(const std::string &region, const casefile::Materia
 std::string materials_in_words(const casefile::Case &asked) {
   std::string text = "\n# Materials of this case\n";
   const std::vector<output::MaterialRecord> parts = materials_of(asked);
+  const std::vector<casefile::MaterialCase> materials = material::materials_of(asked);
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const bool whole = asked.regions.empty();
-    const casefile::MaterialCase &material = whole ? asked.material : asked.regions[i].material;
     text +=
         fmt::format("# {}, {}, class {}: {}\n",
-                    whole ? "(the whole body)" : casefile::toml_text(parts[i].region),
+                    asked.regions.empty() ? "(the whole body)" : casefile::toml_text(parts[i].region),
                     one_line(parts[i].material),
-                    material::with_entry(material).symmetry.value_or("6mm"), parts[i].couplings);
+                    material::with_entry(materials[i]).symmetry.value_or("6mm"), parts[i].couplings);
   }
   return text;
 }
@@ -165,11 +165,11 @@ std::string materials_in_words(const casefile::Case &asked) {
 }  // namespace
 
 std::vector<output::MaterialRecord> materials_of(const casefile::Case &asked) {
-  if (asked.regions.empty())
-    return {record("", asked.material)};
+  const std::vector<casefile::MaterialCase> materials = material::materials_of(asked);
   std::vector<output::MaterialRecord> all;
-  for (const casefile::RegionCase &region : asked.regions)
-    all.push_back(record(names(region), region.material));
+  for (std::size_t i = 0; i < materials.size(); ++i)
+    all.push_back(
+        record_of(asked.regions.empty() ? "" : names(asked.regions[i]), materials[i]));
   return all;
 }
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "material/constants.h"
+#include "material/composition.h"
 
 namespace tourmaline::run {
 
@@ -14,9 +14,7 @@ using casefile::Formula;
 
 /// [K], one for the whole body
 double reference_of(const casefile::Case &asked) {
-  const casefile::MaterialCase &any =
-      asked.regions.empty() ? asked.material : asked.regions.front().material;
-  return material::constants_of(any).reference_temperature;
+  return material::constants_of(material::materials_of(asked).front()).reference_temperature;
 }
 
 // All temperatures that a case gives.

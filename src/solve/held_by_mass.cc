@@ -72,11 +72,11 @@ void require_mass_that_holds(const Model<dim> &model) {
   for (const Vector3 &point : spanning(points))
     for (std::size_t c = 0; c < dim; ++c)
       supports.emplace_back(Support{point, {}}).direction[c] = 1;
-  if (casefile::free_motions(dim, supports).empty())
+  if (casefile::free_motions(model.asked, supports).empty())
     return;
   for (const Support &support : supports_beside_mass(model))
     supports.push_back(support);
-  if (const std::string free = casefile::free_motions_in_words(dim, supports); !free.empty())
+  if (const std::string free = casefile::free_motions_in_words(model.asked, supports); !free.empty())
     throw CaseError(fmt::format(
         "[time] contact_mass: contact nodes give their mass to other nodes of their cells, and of "
         "these there {}, which {} not resist {}; nothing else holds the body against it; take "

@@ -18,7 +18,7 @@ namespace tourmaline::solve {
 namespace {
 
 // Forward errors above it are worth refinement.
-constexpr double worth_refining = 1e-7;
+constexpr double worth_refined_solutions = 1e-7;
 
 }  // namespace
 
@@ -78,7 +78,7 @@ void IterativeRoute<dim>::measure() {
     return body_.forward_error(freed(body_.residual_by_cells()));
   };
   double error = is_refined() ? body_.last_correction() : forward_error();
-  if (!is_refined() && error > worth_refining) {
+  if (!is_refined() && error > worth_refined_solutions) {
     body_.refine();
     iterations_ = 0;
     body_.update_residual();

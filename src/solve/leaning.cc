@@ -33,7 +33,7 @@ std::string unheld_motions(const Model<dim> &model, const ContactNodes<dim> &con
       add(at.point, Eigen::VectorXd(contact.directions().col(points[i].offset + k))
                         .segment(dim * static_cast<Index>(contact.node_of(i)), dim));
   }
-  return casefile::free_motions_in_words(dim, supports);
+  return casefile::free_motions_in_words(model.asked, supports);
 }
 
 void let_go(double time, const std::string &motions) {

@@ -39,7 +39,12 @@ std::vector<body::Prescribed> prescribed_in(const body::Discretisation<dim> &bod
                                             const casefile::Case &asked) {
   std::vector<body::Prescribed> all =
       body::prescribed_unknowns(body, asked.boundaries, asked.electrodes);
-  return asked.time.is_static() ? body::with_all_temperatures(body, std::move(all)) : all;
+  body::check_axis(body, asked, all);
+  if (asked.time.is_static() || !asked.model.thermal)
+    all = body::with_all<dim>(body::Fields<dim>::temperature, body, std::move(all));
+  if (!asked.model.electric)
+    all = body::with_all<dim>(body::Fields<dim>::potential, body, std::move(all));
+  return all;
 }
 
 }  // namespace
@@ -48,7 +53,7 @@ template <int dim>
 struct Model<dim>::Built {
   Built(const casefile::Case &asked, const std::function<mesh::Mesh<dim>()> &make_mesh)
       : composition(asked),
-        body(shared_out(make_mesh()), asked.mesh.degree),
+        body(shared_out(make_mesh()), asked.mesh.degree, body::geometry_of(asked)),
         mesh_seconds(watch.lap()) {}
 
   Stopwatch watch;

@@ -52,15 +52,21 @@ class List {
   }
 };
 
-/// The unit of what is summed over the body or its boundary: in two dimensions for each metre of
-/// thickness.
-std::string whole(const std::string &unit, int dimension) {
-  return dimension == 2 ? unit + "/m" : unit;
+/// The unit of what is summed over the body or its boundary.
+std::string whole(const std::string &unit, const casefile::Case &asked) {
+  return asked.is_per_depth() ? unit + "/m" : unit;
+}
+
+// Of all axes, about which contact has a moment: in the plane one, of revolution none.
+int first_moment(const casefile::Case &asked) {
+  if (asked.model.is_axisymmetric())
+    return 3;
+  return asked.dimension == 2 ? 2 : 0;
 }
 
 // Boundaries through which charge or heat may flow, as solve/balance.h has them.
 void add_flows(const casefile::Case &asked, List &list) {
-  const std::string charge = whole("C", asked.dimension), heat = whole("W", asked.dimension);
+  const std::string charge = whole("C", asked), heat = whole("W", asked);
   for (const casefile::BoundaryCase &boundary : asked.boundaries) {
     if (boundary.potential || boundary.surface_charge)
       list.add_each("charge_", boundary.on, charge);
@@ -80,7 +86,7 @@ void add_flows(const casefile::Case &asked, List &list) {
     const std::string name = asked.contacts.size() > 1 ? "_" + contact.called() : std::string();
     list.add("V", {"foundation_voltage" + name});
     list.add(charge, {"foundation_charge" + name});
-    list.add(whole("A", asked.dimension), {"foundation_current" + name});
+    list.add(whole("A", asked), {"foundation_current" + name});
   }
   if (laws.is_warmed_by_friction())
     list.add(heat, {"friction_heat_body", "friction_heat_foundation"});
@@ -88,7 +94,7 @@ void add_flows(const casefile::Case &asked, List &list) {
     const std::string name = "electrode_" + electrode.name;
     list.add("V", {name + "_voltage"});
     list.add(charge, {name + "_charge"});
-    list.add(whole("A", asked.dimension), {name + "_current"});
+    list.add(whole("A", asked), {name + "_current"});
   }
 }
 
@@ -96,13 +102,13 @@ void add_flows(const casefile::Case &asked, List &list) {
 void add_contact(const casefile::Case &asked, List &list) {
   const contact::Contacts laws(asked.contacts, asked.time.end / asked.time.steps);
   if (laws.has_moving_foundation() || laws.has_normal_unknowns()) {
-    list.add(whole("W", asked.dimension), {"foundation_power"});
-    for (int c = asked.dimension == 2 ? 2 : 0; c < 3; ++c)
-      list.add(whole("N m", asked.dimension), {std::string("contact_moment_") + axes[c]});
+    list.add(whole("W", asked), {"foundation_power"});
+    for (int c = first_moment(asked); c < 3; ++c)
+      list.add(whole("N m", asked), {std::string("contact_moment_") + axes[c]});
   }
   if (laws.can_open()) {
-    list.add(whole("J", asked.dimension), {"contact_energy"});
-    list.add(whole("W", asked.dimension), {"contact_dissipation"});
+    list.add(whole("J", asked), {"contact_energy"});
+    list.add(whole("W", asked), {"contact_dissipation"});
   }
   if (laws.friction_depends_on_pressure() || laws.crosses_by_state(contact::Crossing::heat) ||
       laws.crosses_by_state(contact::Crossing::charge))
@@ -129,12 +135,12 @@ void add_each_contact(const casefile::Case &asked, List &list) {
     const std::string name = "_" + asked.contacts[i].called();
     list.add("", {"stick" + name, "slip" + name, "open" + name});
     for (int c = 0; c < asked.dimension; ++c)
-      list.add(whole("N", asked.dimension), {std::string("contact_force_") + axes[c] + name});
+      list.add(whole("N", asked), {std::string("contact_force_") + axes[c] + name});
     if (laws.has_moving_foundation() || laws.has_normal_unknowns())
-      for (int c = asked.dimension == 2 ? 2 : 0; c < 3; ++c)
-        list.add(whole("N m", asked.dimension), {std::string("contact_moment_") + axes[c] + name});
+      for (int c = first_moment(asked); c < 3; ++c)
+        list.add(whole("N m", asked), {std::string("contact_moment_") + axes[c] + name});
     if (laws[i].lets_pass(contact::Crossing::heat))
-      list.add(whole("W", asked.dimension), {"contact_heat" + name});
+      list.add(whole("W", asked), {"contact_heat" + name});
   }
 }
 
@@ -153,16 +159,16 @@ bool is_damped(const casefile::Case &asked) {
 // What resists rates of u.
 void add_motion(const casefile::Case &asked, List &list) {
   if (asked.time.is_dynamic()) {
-    list.add(whole("J", asked.dimension), {"kinetic_energy"});
-    list.add(whole("W", asked.dimension), {"kinetic_energy_rate"});
+    list.add(whole("J", asked), {"kinetic_energy"});
+    list.add(whole("W", asked), {"kinetic_energy_rate"});
   }
   if (is_damped(asked))
-    list.add(whole("W", asked.dimension), {"viscous_dissipation"});
+    list.add(whole("W", asked), {"viscous_dissipation"});
   for (int c = 0; c < asked.dimension; ++c) {
     if (asked.time.is_dynamic())
-      list.add(whole("N", asked.dimension), {std::string("inertia_") + axes[c]});
+      list.add(whole("N", asked), {std::string("inertia_") + axes[c]});
     if (is_damped(asked))
-      list.add(whole("N", asked.dimension), {std::string("damping_force_") + axes[c]});
+      list.add(whole("N", asked), {std::string("damping_force_") + axes[c]});
   }
 }
 
@@ -182,14 +188,14 @@ std::vector<Output> outputs_of(const casefile::Case &asked) {
   list.add("", {"step"});
   list.add("s", {"time"});
   list.add("", {"newton_iterations", "residual", "stick", "slip", "open"});
-  list.add(whole("J", asked.dimension),
+  list.add(whole("J", asked),
            {"elastic_energy", "electric_energy", "thermal_energy", "coupling_energy"});
-  const std::string power = whole("W", asked.dimension);
+  const std::string power = whole("W", asked);
   list.add(power, {"stored_energy_rate", "load_power", "electric_power", "thermal_power",
                    "friction_dissipation", "conduction_loss", "time_step_loss"});
   for (int c = 0; c < asked.dimension; ++c)
     for (const char *force : {"load_", "reaction_", "contact_force_"})
-      list.add(whole("N", asked.dimension), {std::string(force) + axes[c]});
+      list.add(whole("N", asked), {std::string(force) + axes[c]});
   add_motion(asked, list);
   add_flows(asked, list);
   add_contact(asked, list);

@@ -33,7 +33,11 @@ struct TimeCase {
 };
 
 struct ModelCase {
-  std::string plane = "strain";  ///< strain | stress; of two dimensions
+  std::string plane = "strain";  ///< strain | stress | axisymmetric; of two dimensions
+  bool thermal = true;           ///< false: the temperature stays that of reference
+  bool electric = true;          ///< false: the potential stays zero everywhere
+
+  bool is_axisymmetric() const { return plane == "axisymmetric"; }
 };
 
 struct SolverCase {
@@ -74,6 +78,9 @@ struct Case {
   InitialCase initial;
 
   int dimension = 2;  ///< 2 or 3, from the mesh
+
+  /// Whether forces, charges, heats and energies are those of a metre across the plane.
+  bool is_per_depth() const { return dimension == 2 && !model.is_axisymmetric(); }
 };
 
 }  // namespace tourmaline::casefile
