@@ -318,7 +318,8 @@ void revolve_modes(const dealii::Quadrature<dim> &rule, Quadrature<dim> &cell) {
     std::array<double, dim> mean{};
     double mean_around = 0;
     for (std::size_t q = 0; q < cell.jxw.size(); ++q) {
-      const double xi = 2 * rule.point(static_cast<unsigned int>(q))[static_cast<unsigned int>(m)] - 1;
+      const double xi =
+          2 * rule.point(static_cast<unsigned int>(q))[static_cast<unsigned int>(m)] - 1;
       cell.modes_by_radius[q * dim + m] = (1 - xi * xi) * cell.inverse_radius[q];
       mean_around += cell.jxw[q] / volume * cell.modes_by_radius[q * dim + m];
       for (std::size_t i = 0; i < dim; ++i)

@@ -44,8 +44,8 @@ struct Quadrature {
   std::size_t region = 0;                          ///< of the cell, an index of the case's regions
   /// of the dim incompatible modes [1/m], point by point; empty unless asked for
   std::vector<std::array<double, dim>> mode_gradients;
-  std::vector<double> inverse_radius;    ///< at each point [1/m]; empty unless revolved, on facets
-  std::vector<double> modes_by_radius;   ///< as `mode_gradients`, of what `around` is for shapes
+  std::vector<double> inverse_radius;   ///< at each point [1/m]; empty unless revolved, on facets
+  std::vector<double> modes_by_radius;  ///< as `mode_gradients`, of what `around` is for shapes
 
   double value(std::size_t q, std::size_t a) const { return values[q * nodes.size() + a]; }
   const std::array<double, dim> &gradient(std::size_t q, std::size_t a) const {

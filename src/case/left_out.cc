@@ -13,9 +13,9 @@ namespace {
 
 // What stands there although the field does not exist.
 [[noreturn]] void refuse(const std::string &stated, const char *field, const char *key) {
-  throw CaseError(fmt::format(
-      "{}: this body has no {}, as [model] {} = false says; leave out one of the two", stated,
-      field, key));
+  throw CaseError(
+      fmt::format("{}: this body has no {}, as [model] {} = false says; leave out one of the two",
+                  stated, field, key));
 }
 
 class LeftOut {
@@ -70,10 +70,11 @@ void check_electric(const Case &asked) {
 void check_base(const FormulaVector &acceleration) {
   if (acceleration.empty() || acceleration.front().is_zero())
     return;
-  throw CaseError(fmt::format(
-      "{}: its first component is not 0, but x is the radius of a body of revolution ([model] plane "
-      "= \"axisymmetric\"), which is accelerated along its axis y alone",
-      acceleration.front().where()));
+  throw CaseError(
+      fmt::format("{}: its first component is not 0, but x is the radius of a body of revolution "
+                  "([model] plane "
+                  "= \"axisymmetric\"), which is accelerated along its axis y alone",
+                  acceleration.front().where()));
 }
 
 }  // namespace

@@ -20,13 +20,15 @@ bool varies(const casefile::FormulaVector &direction) {
 }
 
 // Mass matters where it is accelerated or its drag counts, and in the heat it stores.
-std::set<std::string> left_out(const casefile::Case &asked, const casefile::MaterialCase &material) {
+std::set<std::string> left_out(const casefile::Case &asked,
+                               const casefile::MaterialCase &material) {
   std::set<std::string> kinds;
   if (!asked.model.electric)
     kinds.insert({"piezoelectric", "permittivity", "pyroelectric"});
   if (asked.model.thermal)
     return kinds;
-  kinds.insert({"thermal", "pyroelectric", "conductivity", "specific_heat", "reference_temperature"});
+  kinds.insert(
+      {"thermal", "pyroelectric", "conductivity", "specific_heat", "reference_temperature"});
   if (!asked.time.is_dynamic() && asked.load.base_acceleration.empty() &&
       !with_entry(material).constants.contains("mass_damping"))
     kinds.insert("density");
@@ -57,8 +59,7 @@ std::vector<casefile::MaterialCase> materials_of(const casefile::Case &asked) {
 }
 
 template <int dim>
-Composition<dim>::Composition(const casefile::Case &asked)
-    : plane_(plane_of(asked.model)) {
+Composition<dim>::Composition(const casefile::Case &asked) : plane_(plane_of(asked.model)) {
   require_complete(materials_of(asked));
   for (const casefile::MaterialCase &material : materials_of(asked))
     add(material);

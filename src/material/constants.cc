@@ -275,7 +275,8 @@ void require_complete(const std::vector<MaterialCase> &materials) {
 
 namespace {
 
-// The equations of fields that nothing moves and nothing couples keep their places.
+// The equations of fields that nothing moves and nothing couples keep their places. Sizes are those
+// of water, so that nothing else takes them for a mistake.
 void fill_left_out(MaterialCase &given) {
   const auto unit = [](double size) {
     return std::vector<std::vector<double>>{{size, 0, 0}, {0, size, 0}, {0, 0, size}};
@@ -283,10 +284,11 @@ void fill_left_out(MaterialCase &given) {
   if (given.left_out.contains("permittivity") && !given.conductor.value_or(false))
     given.permittivity = unit(Conversion::vacuum);
   if (given.left_out.contains("conductivity"))
-    given.conductivity = unit(1);
-  for (const char *scalar : {"density", "specific_heat", "reference_temperature"})
+    given.conductivity = unit(0.6);
+  for (const auto &[scalar, size] :
+       {std::pair{"density", 1000.}, {"specific_heat", 4200.}, {"reference_temperature", 293.}})
     if (given.left_out.contains(scalar))
-      given.constants.try_emplace(scalar, 1);
+      given.constants.try_emplace(scalar, size);
 }
 
 }  // namespace

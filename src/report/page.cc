@@ -126,10 +126,20 @@ Json parts_json(const Result &result, const Json &summary) {
   return parts;
 }
 
+Json left_out(const Result &result) {
+  Json fields = Json::array();
+  for (const char *field : {"potential", "temperature"})
+    if (result.asked && !result.asked->model.has(field))
+      fields.push_back(field);
+  return fields;
+}
+
 Json result_json(Packing &packing, const Result &result) {
   Json json{{"name", result.name},
             {"title", result.asked ? result.asked->title : ""},
             {"dimension", result.dimension},
+            {"leftOut", left_out(result)},
+            {"perDepth", result.asked ? result.asked->is_per_depth() : result.dimension == 2},
             {"case", result.resolved},
             {"summary", Json::parse(result.summary, nullptr, false)},
             {"remarks", result.remarks},

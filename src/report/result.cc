@@ -54,7 +54,8 @@ void read_case(Result &result, const fs::path &folder) {
       result.remarks.emplace_back("Plane stress: the body is a sheet whose faces are free.");
     if (result.asked->model.is_axisymmetric())
       result.remarks.emplace_back(
-          "Axisymmetric: x is the radius, y the axis, zz goes around; forces, charges and heats are "
+          "Axisymmetric: x is the radius, y the axis, zz goes around; forces, charges and heats "
+          "are "
           "those of the whole body.");
   } catch (const CaseError &error) {
     // The numbers can be shown without: a case of another version, or a run that failed.
@@ -421,6 +422,21 @@ void judge_round_off(Result &result) {
                               greatest(*result.history, found->second) < 1e-28 * all;
 }
 
+// The files have room for the fields that a model does without.
+void drop_left_out(Result &result) {
+  if (!result.asked)
+    return;
+  const std::map<std::string, std::string> made_of{{"potential", "potential"},
+                                                   {"electric_field", "potential"},
+                                                   {"electric_displacement", "potential"},
+                                                   {"temperature", "temperature"},
+                                                   {"heat_flux", "temperature"}};
+  std::erase_if(result.fields, [&](const Field &field) {
+    const auto found = made_of.find(field.name);
+    return found != made_of.end() && !result.asked->model.has(found->second);
+  });
+}
+
 }  // namespace
 
 std::string Field::origin() const {
@@ -447,6 +463,7 @@ Result read_result(const fs::path &folder, const States &states) {
   read_boundaries(result, folder);
   remark_on_contact(result);
   judge_round_off(result);
+  drop_left_out(result);
   return result;
 }
 

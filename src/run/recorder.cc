@@ -288,6 +288,8 @@ std::vector<output::Extreme> Recorder<dim>::extremes(std::span<const double> sta
       {"temperature", component(body::Fields<dim>::temperature)}};
   std::vector<output::Extreme> all;
   for (const auto &[name, value] : fields) {
+    if (!model_.asked.model.has(name))
+      continue;
     output::Extreme e{name, value(0), value(0), model_.body.points()[0], model_.body.points()[0]};
     for (body::Node node = 1; node < model_.body.n_nodes(); ++node) {
       const double v = value(node);

@@ -172,11 +172,13 @@ void add_motion(const casefile::Case &asked, List &list) {
   }
 }
 
-void add_extremes(int dimension, List &list) {
-  for (const Output &field : fields())
+void add_extremes(const casefile::Case &asked, List &list) {
+  std::vector<Output> there = fields();
+  std::erase_if(there, [&](const Output &field) { return !asked.model.has(field.name); });
+  for (const Output &field : there)
     list.add(field.unit, {"min_" + field.name, "max_" + field.name});
-  for (const Output &field : fields())
-    for (int c = 0; c < dimension; ++c)
+  for (const Output &field : there)
+    for (int c = 0; c < asked.dimension; ++c)
       for (const char *which : {"min_", "max_"})
         list.add("m", {"at_" + (which + field.name) + "_" + axes[c]});
 }
@@ -201,7 +203,7 @@ std::vector<Output> outputs_of(const casefile::Case &asked) {
   add_contact(asked, list);
   list.add(power, {"stored_heat_rate", "heat_source"});
   list.add("", {"energy_imbalance", "force_imbalance", "charge_imbalance", "heat_imbalance"});
-  add_extremes(asked.dimension, list);
+  add_extremes(asked, list);
   add_contact_extremes(asked, list);
   add_each_contact(asked, list);
   return list.all;

@@ -15,9 +15,10 @@ namespace {
 using casefile::CellShape;
 
 template <int dim>
-casefile::Case asked(CellShape shape, std::vector<double> size) {
+casefile::Case asked(CellShape shape, std::vector<double> size, const char *plane) {
   casefile::Case asked;
   asked.dimension = dim;
+  asked.model.plane = plane;
   asked.material.library = "BaTiO3-Liu2014";
   asked.mesh.box =
       casefile::Box{std::vector<double>(dim, 0.), std::move(size), std::vector<int>(dim, 3), shape};
@@ -26,10 +27,11 @@ casefile::Case asked(CellShape shape, std::vector<double> size) {
 
 template <int dim>
 struct Body {
-  Body(CellShape shape, int degree, std::vector<double> size, Modes modes = Modes::none)
-      : of(asked<dim>(shape, std::move(size))),
+  Body(CellShape shape, int degree, std::vector<double> size, Modes modes = Modes::none,
+       const char *plane = "strain")
+      : of(asked<dim>(shape, std::move(size), plane)),
         composition(of),
-        body(mesh::build<dim>(of), degree),
+        body(mesh::build<dim>(of), degree, geometry_of(of)),
         op(body, composition, modes),
         cells(body, composition, op.modes()) {}
 
@@ -50,8 +52,9 @@ double largest(const std::vector<double> &v) {
 }
 
 template <int dim>
-void expect_products_of_the_operator(CellShape shape, int degree, Modes modes = Modes::none) {
-  Body<dim> of(shape, degree, std::vector<double>(dim, 0.1), modes);
+void expect_products_of_the_operator(CellShape shape, int degree, Modes modes = Modes::none,
+                                     const char *plane = "strain") {
+  Body<dim> of(shape, degree, std::vector<double>(dim, 0.1), modes, plane);
   const casefile::Formula coefficient(3.);
   of.op.add_exchange(of.body, {"left"}, coefficient);
   of.cells.add_exchange({"left"}, coefficient);
@@ -84,6 +87,15 @@ TEST(CellProducts, TheyAreThoseOfTheOperator) {
 TEST(CellProducts, IncompatibleModesAreInThem) {
   expect_products_of_the_operator<2>(CellShape::quadrilateral, 1, Modes::incompatible);
   expect_products_of_the_operator<3>(CellShape::hexahedron, 1, Modes::incompatible);
+}
+
+TEST(CellProducts, OfARevolvedBodyTheyHaveTheHoopStress) {
+  const char *plane = "axisymmetric";
+  for (const int degree : {1, 2}) {
+    expect_products_of_the_operator<2>(CellShape::triangle, degree, Modes::none, plane);
+    expect_products_of_the_operator<2>(CellShape::quadrilateral, degree, Modes::none, plane);
+  }
+  expect_products_of_the_operator<2>(CellShape::quadrilateral, 1, Modes::incompatible, plane);
 }
 
 TEST(CellProducts, ATranslationOfAThinBodyHasNoForcesAtAll) {

@@ -104,7 +104,7 @@ void expect_energies_by_hand(CellShape shape, int degree) {
   const std::vector<double> x = uniform_state(body, h, field, theta);
   Eigen::Matrix<double, material::n_strains<dim>, 1> strain;
   if constexpr (dim == 2)
-    strain << h(0, 0), h(1, 1), h(0, 1) + h(1, 0);
+    strain << h(0, 0), h(1, 1), 0, h(0, 1) + h(1, 0);
   else
     strain << h(0, 0), h(1, 1), h(2, 2), h(1, 2) + h(2, 1), h(0, 2) + h(2, 0), h(0, 1) + h(1, 0);
   const Eigen::Matrix<double, dim, 1> e = field.head<dim>();

@@ -44,13 +44,13 @@ TEST(Material, InTwoDimensionsThePlaneIsTheCrystals13Plane) {
   // The printed matrix of section 4.
   const BodyConstants<2> c =
       restricted<2>(rotated(constants_of(batio3()), crystal_axes(batio3(), 2)));
-  Eigen::Matrix3d stiffness;
-  stiffness << 166e9, 78e9, 0, 78e9, 162e9, 0, 0, 0, 43e9;
+  Eigen::Matrix4d stiffness;  // xx, yy, zz, xy: the crystal's 11, 33, 22, 13
+  stiffness << 166e9, 78e9, 77e9, 0, 78e9, 162e9, 78e9, 0, 77e9, 78e9, 166e9, 0, 0, 0, 0, 43e9;
   EXPECT_LT((c.stiffness - stiffness).norm(), 1e-3);
-  Eigen::Matrix<double, 2, 3> piezoelectric;
-  piezoelectric << 0, 0, 11.6, -4.4, 18.6, 0;
+  Eigen::Matrix<double, 2, 4> piezoelectric;
+  piezoelectric << 0, 0, 0, 11.6, -4.4, 18.6, -4.4, 0;
   EXPECT_LT((c.piezoelectric - piezoelectric).norm(), 1e-13);
-  EXPECT_LT((c.thermal_stress - Eigen::Vector3d(2.24e6, 1.89e6, 0)).norm(), 1e-8);
+  EXPECT_LT((c.thermal_stress - Eigen::Vector4d(2.24e6, 1.89e6, 2.24e6, 0)).norm(), 1e-8);
   EXPECT_LT((c.conductivity - Eigen::Matrix2d(Eigen::Vector2d(50, 75).asDiagonal())).norm(), 1e-12);
 }
 

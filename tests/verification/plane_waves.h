@@ -61,7 +61,7 @@ std::string term(double coefficient, const Wave<dim> &wave, int order, const std
 // voigt(k)^T a.
 inline Voigt<2> voigt(const Vector<2> &v) {
   Voigt<2> m;
-  m << v.x(), 0, v.y(), 0, v.y(), v.x();
+  m << v.x(), 0, 0, v.y(), 0, v.y(), 0, v.x();
   return m;
 }
 

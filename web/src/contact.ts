@@ -55,11 +55,13 @@ export class Contact {
       ...this.bounds(),
     ], tangential, direction(line));
     add('Slip', 'm', [{ label: 'slip', values: this.tangential('slip_', line), colour: lineColours[1] }], slip, direction(line));
-    add('Temperature', 'K', [{ label: 'θ', values: this.of('temperature'), colour: lineColours[3] }], theta);
+    if (this.result.has('temperature'))
+      add('Temperature', 'K', [{ label: 'θ', values: this.of('temperature'), colour: lineColours[3] }], theta);
     if (this.result.contact!.column('heat_flux')!.some((v) => v !== 0))
       add('Heat flux out of the body', 'W/m²', [{ label: 'q·ν', values: this.of('heat_flux'), colour: lineColours[3] }], theta);
     const phi = !!this.result.field('potential')?.belowRoundOff;
-    add('Potential', 'V', [{ label: 'φ', values: this.of('potential'), colour: lineColours[4] }], phi);
+    if (this.result.has('potential'))
+      add('Potential', 'V', [{ label: 'φ', values: this.of('potential'), colour: lineColours[4] }], phi);
     if (this.result.contact!.column('charge_flux')?.some((v) => v !== 0))
       add('Charge out of the body', 'C/m²', [{ label: 'D·ν', values: this.of('charge_flux'), colour: lineColours[4] }], phi);
     const map = new StatusMap(this.result, line, this.nodes, this.ends, this.timeline);

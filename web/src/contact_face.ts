@@ -50,7 +50,8 @@ export class ContactFace {
       this.add('Normal traction on the body', 'N/m²', this.column('normal_traction'), normal);
     this.add('Tangential traction, size', 'N/m²', this.size('tangential_traction_'), tangential);
     this.add('Slip, size', 'm', this.size('slip_'), slip);
-    this.add('Temperature', 'K', this.column('temperature'), !!result.field('temperature')?.belowRoundOff);
+    if (result.has('temperature'))
+      this.add('Temperature', 'K', this.column('temperature'), !!result.field('temperature')?.belowRoundOff);
     this.groups = [element('div', { class: 'charts' }, ...this.charts)];
     if (this.node) {
       this.groups.push(this.node.box);

@@ -34,9 +34,8 @@ function roundOff(history: Table) {
   return { electric, thermal, charge: electric + (potential > 0 ? (1e-11 * energies[1]) / potential : 0) };
 }
 
-/** Of a plane body everything holds for a metre of its depth. */
-function groups(history: Table, dimension: 2 | 3): Group[] {
-  const per = dimension === 2 ? '/m' : '';
+function groups(history: Table, perDepth: boolean): Group[] {
+  const per = perDepth ? '/m' : '';
   const named = (prefix: string) => history.names.filter((n) => n.startsWith(prefix) && !n.endsWith('_imbalance'))
     .map((n): [string, string] => [n, n.slice(prefix.length)]);
   const electrodes = (quantity: string) => history.names.filter((n) => n.startsWith('electrode_') && n.endsWith(quantity))
@@ -82,7 +81,7 @@ export class History {
   constructor(result: Result, private readonly timeline: Timeline, private readonly sync: string) {
     const history = result.history!;
     const time = [...(history.column('time') ?? [])];
-    const all = groups(history, result.dimension)
+    const all = groups(history, result.perDepth)
       .filter((g) => !g.bars || !!result.contact?.rows || !g.columns.every(([n]) => greatest(history, n) === 0));
     const parts = all.map((group) => ({ group, curves: curvesOf(group, history) })).filter(({ curves }) => curves.length > 0);
     const silent = all.filter((g) => g.columns.some(([n]) => isRoundOff(g, history, n)) && !parts.some((p) => p.group === g));

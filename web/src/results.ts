@@ -7,6 +7,8 @@ interface PackedResult {
   name: string;
   title: string;
   dimension: 2 | 3;
+  perDepth: boolean;
+  leftOut: string[];
   case: string;
   summary: any | null;
   remarks: string[];
@@ -206,6 +208,8 @@ export class Result {
     return this.ambiguous && title !== this.packed.name ? `${title} (${this.packed.name})` : title;
   }
   get dimension(): 2 | 3 { return this.packed.dimension; }
+  /** Whether forces, charges, heats and energies are those of a metre across the plane. */
+  get perDepth(): boolean { return this.packed.perDepth; }
   get caseText(): string { return this.packed.case; }
   get summary(): any | null { return this.packed.summary; }
   /** Regions and what they consist of; empty where the body is one. */
@@ -219,6 +223,9 @@ export class Result {
   get times(): number[] {
     return this.grid ? this.packed.times : [...(this.history?.column('time') ?? [])];
   }
+
+  /** Whether the model has that field among its unknowns. */
+  has(name: string): boolean { return !this.packed.leftOut.includes(name); }
 
   field(name: string): Field | undefined { return this.fields.find((f) => f.name === name); }
 

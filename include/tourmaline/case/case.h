@@ -37,6 +37,10 @@ struct ModelCase {
   bool thermal = true;           ///< false: the temperature stays that of reference
   bool electric = true;          ///< false: the potential stays zero everywhere
 
+  /// Of displacement, potential and temperature, whether it is one of the unknowns.
+  bool has(const std::string &field) const {
+    return field == "temperature" ? thermal : field == "potential" ? electric : true;
+  }
   bool is_axisymmetric() const { return plane == "axisymmetric"; }
 };
 
