@@ -35,9 +35,9 @@ class UnitOf : public Visitor {
   std::string wanted_, path_;
 };
 
-// "ohm (2D: ohm m)" is the one or the other.
+// "ohm (plane bodies: ohm m)" is the one or the other.
 std::string unit_in(int dimension, const std::string &unit) {
-  static const std::regex both(R"((.+) \(2D: (.+)\))");
+  static const std::regex both(R"((.+) \(plane bodies: (.+)\))");
   std::smatch found;
   if (!std::regex_match(unit, found, both))
     return unit;

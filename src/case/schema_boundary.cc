@@ -106,17 +106,17 @@ void declare(Visitor &v, ElectrodeCase &electrode, const MeshCase &mesh) {
   v.optional({.name = "charge",
               .description = "total charge on the electrode over time, -integral of D.nu; its "
                              "potential follows",
-              .unit = "C (2D: C/m)",
+              .unit = "C (plane bodies: C/m)",
               .range = any(sense::charge)},
              electrode.charge);
   v.optional({.name = "resistor",
               .description = "resistance between the electrode and ground, or `voltage`, or `to`",
-              .unit = "ohm (2D: ohm m)",
+              .unit = "ohm (plane bodies: ohm m)",
               .range = positive(sense::resistance)},
              electrode.resistor);
   v.optional({.name = "capacitor",
               .description = "capacitance between the same two, parallel to the resistor",
-              .unit = "F (2D: F/m)",
+              .unit = "F (plane bodies: F/m)",
               .range = positive(sense::capacitance)},
              electrode.capacitor);
   v.optional({.name = "to",

@@ -261,17 +261,17 @@ std::string complaint_about(const FoundationCircuitCase &circuit) {
 void declare(Visitor &v, FoundationCircuitCase &circuit) {
   v.optional({.name = "charge",
               .description = "charge on the foundation over time, -integral of D.nu",
-              .unit = "C (2D: C/m)",
+              .unit = "C (plane bodies: C/m)",
               .range = any(sense::charge)},
              circuit.charge);
   v.optional({.name = "resistor",
               .description = "resistance between the foundation and `voltage`",
-              .unit = "ohm (2D: ohm m)",
+              .unit = "ohm (plane bodies: ohm m)",
               .range = positive(sense::resistance)},
              circuit.resistor);
   v.optional({.name = "capacitor",
               .description = "capacitance between the same two, parallel to the resistor",
-              .unit = "F (2D: F/m)",
+              .unit = "F (plane bodies: F/m)",
               .range = positive(sense::capacitance)},
              circuit.capacitor);
   v.key({.name = "voltage",

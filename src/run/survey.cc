@@ -38,6 +38,7 @@ struct Extent {
     }
   }
 
+  // `of` so many dimensions.
   std::string words(int dimension, int of) const {
     constexpr const char *kind[] = {"", "length", "area", "volume"};
     constexpr const char *unit[] = {"", "m", "m^2", "m^3"};
@@ -116,18 +117,26 @@ std::string poling_words(const casefile::MaterialCase &material, const Region &r
              : ", poled along " + Extent::place(dimension, region.poling, std::sqrt(square));
 }
 
+std::string in_words(const casefile::ModelCase &model) {
+  if (model.is_axisymmetric())
+    return "a body of revolution about x = 0, all around";
+  return "in plane " + model.plane + ", per metre of depth";
+}
+
 template <int dim>
 std::string survey_in(const casefile::Case &asked) {
   const material::Composition<dim> composition(asked);
   const body::Discretisation<dim> body(mesh::build<dim>(asked), 1, body::geometry_of(asked));
   body::check_conductors(body, composition, asked,
                          body::prescribed_unknowns(body, asked.boundaries, asked.electrodes));
-  std::string text = "# Boundaries and regions of this case\n";
+  std::string text = fmt::format("# Boundaries and regions of this case, {}\n",
+                                 dim == 3 ? "a solid" : in_words(asked.model));
+  const int solid = asked.is_per_depth() ? 2 : 3;
   for (const std::string &name : casefile::side_names(asked.mesh)) {
     Extent extent;
     body.for_each_facet({name}, [&](const body::Quadrature<dim> &facet) { extent.add(facet); });
     text +=
-        fmt::format("# boundary {}: {}\n", casefile::toml_text(name), extent.words(dim, dim - 1));
+        fmt::format("# boundary {}: {}\n", casefile::toml_text(name), extent.words(dim, solid - 1));
   }
   const auto regions =
       regions_of(body, composition, std::max<std::size_t>(1, asked.regions.size()));
@@ -135,15 +144,17 @@ std::string survey_in(const casefile::Case &asked) {
   for (std::size_t i = 0; i < regions.size(); ++i) {
     const bool whole = asked.regions.empty();
     const casefile::MaterialCase &material = materials[i];
-    text += fmt::format("# region {}: {}, {}{}\n",
-                        whole ? "(the whole body)" : casefile::toml_text(names(asked.regions[i])),
-                        one_line(material.library.value_or("material of the case")),
-                        regions[i].extent.words(dim, dim), poling_words(material, regions[i], dim));
+    text +=
+        fmt::format("# region {}: {}, {}{}\n",
+                    whole ? "(the whole body)" : casefile::toml_text(names(asked.regions[i])),
+                    one_line(material.library.value_or("material of the case")),
+                    regions[i].extent.words(dim, solid), poling_words(material, regions[i], dim));
   }
   return text;
 }
 
-output::MaterialRecord record_of(const std::string &region, const casefile::MaterialCase &material) {
+output::MaterialRecord record_of(const std::string &region,
+                                 const casefile::MaterialCase &material) {
   return {region, material.library.value_or("material of the case"),
           material::couplings(material::constants_of(material))};
 }
@@ -153,11 +164,11 @@ std::string materials_in_words(const casefile::Case &asked) {
   const std::vector<output::MaterialRecord> parts = materials_of(asked);
   const std::vector<casefile::MaterialCase> materials = material::materials_of(asked);
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    text +=
-        fmt::format("# {}, {}, class {}: {}\n",
-                    asked.regions.empty() ? "(the whole body)" : casefile::toml_text(parts[i].region),
-                    one_line(parts[i].material),
-                    material::with_entry(materials[i]).symmetry.value_or("6mm"), parts[i].couplings);
+    text += fmt::format(
+        "# {}, {}, class {}: {}\n",
+        asked.regions.empty() ? "(the whole body)" : casefile::toml_text(parts[i].region),
+        one_line(parts[i].material), material::with_entry(materials[i]).symmetry.value_or("6mm"),
+        parts[i].couplings);
   }
   return text;
 }
@@ -168,8 +179,7 @@ std::vector<output::MaterialRecord> materials_of(const casefile::Case &asked) {
   const std::vector<casefile::MaterialCase> materials = material::materials_of(asked);
   std::vector<output::MaterialRecord> all;
   for (std::size_t i = 0; i < materials.size(); ++i)
-    all.push_back(
-        record_of(asked.regions.empty() ? "" : names(asked.regions[i]), materials[i]));
+    all.push_back(record_of(asked.regions.empty() ? "" : names(asked.regions[i]), materials[i]));
   return all;
 }
 
