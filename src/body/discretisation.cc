@@ -439,23 +439,55 @@ void Discretisation<dim>::for_each_facet(
 
 // deal.II's own extraction would count the outer faces of the layer around a rank's cells.
 template <int dim>
-std::vector<Node> Discretisation<dim>::nodes_on(const std::vector<std::string> &boundaries) const {
-  const auto ids = ids_of(parts_->mesh, boundaries);
+template <class IsAsked>
+std::vector<Node> Discretisation<dim>::nodes_of_facets(const IsAsked &is_asked) const {
   std::vector<Node> nodes;
   typename Parts::Dofs of_face;
-  for (const auto &cell : parts_->cells)
-    for (const unsigned int f : cell->face_indices()) {
-      if (!cell->face(f)->at_boundary() || !ids.count(cell->face(f)->boundary_id()))
-        continue;
-      of_face.resize(parts_->element->n_dofs_per_face(f));
-      cell->face(f)->get_dof_indices(of_face);
-      for (const auto dof : of_face)
-        nodes.push_back(parts_->node_of[dof]);
-    }
+  parallel::together([&] {
+    for (const auto &cell : parts_->cells)
+      for (const unsigned int f : cell->face_indices()) {
+        if (!is_asked(*cell->face(f)))
+          continue;
+        of_face.resize(parts_->element->n_dofs_per_face(f));
+        cell->face(f)->get_dof_indices(of_face);
+        for (const auto dof : of_face)
+          nodes.push_back(parts_->node_of[dof]);
+      }
+  });
   nodes = parallel::joined(nodes);
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;
+}
+
+template <int dim>
+std::vector<Node> Discretisation<dim>::nodes_on(const std::vector<std::string> &boundaries) const {
+  std::vector<std::string> outer;
+  std::set<dealii::types::manifold_id> inner;
+  for (const std::string &name : boundaries)
+    if (const auto found = parts_->mesh.inner.find(name); found != parts_->mesh.inner.end())
+      inner.insert(found->second.begin(), found->second.end());
+    else
+      outer.push_back(name);
+  const auto ids = ids_of(parts_->mesh, outer);
+  return nodes_of_facets([&](const auto &face) {
+    if (!face.at_boundary())
+      return inner.contains(face.manifold_id());
+    return ids.contains(face.boundary_id()) || inner.contains(face.boundary_id());
+  });
+}
+
+template <int dim>
+std::vector<Node> Discretisation<dim>::nodes_inside(
+    const std::function<bool(const Vector3 &)> &belongs) const {
+  return nodes_of_facets([&](const auto &face) {
+    if (face.at_boundary())
+      return false;
+    const auto corners = face.vertex_indices();
+    return std::all_of(corners.begin(), corners.end(), [&](unsigned int corner) {
+      return belongs(in_space<dim>(face.vertex(corner)));
+    });
+  });
 }
 
 namespace {
@@ -509,19 +541,29 @@ std::vector<std::vector<Node>> separated(const std::vector<Node> &facets) {
 template <int dim>
 std::vector<output::NamedBoundary> Discretisation<dim>::boundaries() const {
   std::vector<output::NamedBoundary> all;
-  for (const auto &[name, ids] : parts_->mesh.boundaries) {
+  const auto add = [&](const std::string &name, bool inside, const auto &is_asked) {
     std::vector<Node> facets;
     for (const auto &cell : parts_->cells)
       for (const unsigned int f : cell->face_indices()) {
-        if (!cell->face(f)->at_boundary() || !ids.count(cell->face(f)->boundary_id()))
+        const bool is_neighbours =
+            !cell->at_boundary(f) && cell->neighbor(f)->id() < cell->id();
+        if (is_neighbours || !is_asked(*cell->face(f)))
           continue;
         const auto dofs = facet_dofs<dim>(*cell->face(f), parts_->element->degree);
         facets.push_back(static_cast<Node>(dofs.size()));
         for (const auto dof : dofs)
           facets.push_back(parts_->node_of[dof]);
       }
-    all.push_back({name, separated(parallel::joined_on_first(facets))});
-  }
+    all.push_back({name, separated(parallel::joined_on_first(facets)), inside});
+  };
+  for (const auto &[name, ids] : parts_->mesh.boundaries)
+    add(name, false, [&](const auto &face) {
+      return face.at_boundary() && ids.contains(face.boundary_id());
+    });
+  for (const auto &[name, ids] : parts_->mesh.inner)
+    add(name, true, [&](const auto &face) {
+      return ids.contains(face.at_boundary() ? face.boundary_id() : face.manifold_id());
+    });
   return all;
 }
 

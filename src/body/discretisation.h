@@ -107,11 +107,14 @@ class Discretisation {
   /// unknown name.
   void for_each_facet(const std::vector<std::string> &boundaries,
                       const std::function<void(const Quadrature<dim> &)> &visit) const;
-  /// Nodes on the closure of the named boundaries, ascending, of all ranks.
+  /// Nodes on the closure of the named boundaries, or of facets inside that have a name, ascending,
+  /// of all ranks.
   std::vector<Node> nodes_on(const std::vector<std::string> &boundaries) const;
+  /// The same of the facets between cells at all of whose corners `belongs` says so.
+  std::vector<Node> nodes_inside(const std::function<bool(const Vector3 &)> &belongs) const;
 
-  /// All named boundaries with the facets of all ranks, on the first rank; without facets on the
-  /// others.
+  /// All named boundaries, and names of facets inside, with the facets of all ranks, on the first
+  /// rank; without facets on the others.
   std::vector<output::NamedBoundary> boundaries() const;
 
   /// The first nodes of a cell are its corners; entry (a, v) is the share of corner v in node a,
@@ -126,6 +129,8 @@ class Discretisation {
   struct Parts;
   std::unique_ptr<Parts> parts_;
 
+  template <class IsAsked>
+  std::vector<Node> nodes_of_facets(const IsAsked &is_asked) const;
   template <class Rule>
   void visit_cells(const Rule &rule, Modes modes,
                    const std::function<void(const Quadrature<dim> &)> &visit) const;

@@ -232,7 +232,8 @@ Slenderness slenderness(const Discretisation<dim> &body) {
   });
   std::vector<std::string> names;
   for (const output::NamedBoundary &boundary : body.boundaries())
-    names.push_back(boundary.name);
+    if (!boundary.inside)
+      names.push_back(boundary.name);
   body.for_each_facet(names, [&](const Quadrature<dim> &facet) {
     sums[2] += std::accumulate(facet.jxw.begin(), facet.jxw.end(), 0.);
   });

@@ -12,6 +12,30 @@
 
 namespace tourmaline::body {
 
+namespace {
+
+template <int dim>
+std::vector<Node> nodes_of(const Discretisation<dim> &body,
+                           const casefile::ElectrodeCase &electrode) {
+  std::vector<Node> nodes = body.nodes_on(electrode.on);
+  if (!electrode.inside)
+    return nodes;
+  const std::vector<Node> inside = body.nodes_inside(
+      [&](const Vector3 &corner) { return electrode.inside->value(corner, 0) != 0; });
+  if (inside.empty())
+    throw CaseError(fmt::format(
+        "{} = {}: is 0 at a corner of every facet between cells, so the electrode \"{}\" covers "
+        "none; cells must meet where it lies, and round-off be allowed for, as in \"abs(y - 0.01) < "
+        "1e-6\"",
+        electrode.inside->where(), casefile::toml_text(electrode.inside->text()), electrode.name));
+  nodes.insert(nodes.end(), inside.begin(), inside.end());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+}  // namespace
+
 template <int dim>
 std::vector<Prescribed> prescribed_unknowns(
     const Discretisation<dim> &body, const std::vector<casefile::BoundaryCase> &boundaries,
@@ -33,7 +57,7 @@ std::vector<Prescribed> prescribed_unknowns(
           prescribe(Fields<dim>::temperature, *boundary.temperature);
       }
   for (std::size_t e = 0; e < electrodes.size(); ++e)
-    for (const Node node : body.nodes_on(electrodes[e].on)) {
+    for (const Node node : nodes_of(body, electrodes[e])) {
       const std::size_t i = unknown<dim>(node, Fields<dim>::potential);
       by_unknown.try_emplace(
           i, Prescribed{i, body.points()[node],

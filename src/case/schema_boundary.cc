@@ -94,9 +94,23 @@ void declare(Visitor &v, ElectrodeCase &electrode, const MeshCase &mesh) {
          .description = "what its columns in history.csv are called; letters, digits, _ and -",
          .required = true},
         &electrode.name);
-  v.key(on_sides("boundary that the electrode covers, or list of boundaries that it joins", mesh),
-        &electrode.on);
-  v.check("on", [&] { return inside_complaint(electrode.on, mesh); });
+  Key on = on_sides("boundary that the electrode covers, or list of boundaries that it joins; facets "
+                    "inside the body that have a name, too",
+                    mesh);
+  on.required = false;
+  on.default_words = "none";
+  v.key(on, &electrode.on);
+  v.optional({.name = "where",
+              .description = "formula, for an electrode inside the body: it covers all facets "
+                             "between cells at whose corners this is not 0, as with \"abs(y - "
+                             "0.01) < 1e-6\"; alone or beside `on`",
+              .constant_in_time = true},
+             electrode.inside);
+  v.check("", [&]() -> std::string {
+    return electrode.on.empty() && !electrode.inside
+               ? "give `on`, names of boundaries, or `where`, a formula for facets inside the body"
+               : "";
+  });
   v.optional({.name = "voltage",
               .description = "potential of the electrode over time; beside a resistor or capacitor "
                              "that of their other end, 0 when not given",
@@ -143,12 +157,13 @@ void declare_electrodes(Visitor &v, std::vector<ElectrodeCase> &electrodes, cons
   const Key key = {
       .name = "electrode",
       .description =
-          "A conducting film on parts of the boundary: one potential all over. With "
+          "A conducting film on parts of the boundary or between cells: one potential all over, "
+          "and no thickness. With "
           "`voltage` it is driven (0: grounded); with `charge` it floats with that "
           "charge; with a resistor or capacitor these lead to ground, to a given "
           "voltage or to another electrode; with nothing it is open and keeps its "
-          "charge at the time 0. In 2D charges, resistances and capacitances are those "
-          "of one metre of thickness"};
+          "charge at the time 0. Of plane bodies charges, resistances and capacitances are "
+          "those of one metre of thickness"};
   v.entries(key, electrodes,
             [&](Visitor &inner, ElectrodeCase &electrode) { declare(inner, electrode, mesh); });
 }

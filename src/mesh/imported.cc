@@ -46,20 +46,24 @@ std::vector<dealii::Point<dim>> points_of(const MeshFile &file) {
   return points;
 }
 
-// A boundary id is the index of the set of names that a facet has.
+// A boundary id, or of a facet between cells a manifold id, is the index of its set of names.
 template <int dim>
-void set_boundary_ids(dealii::Triangulation<dim> &cells, const MeshFile &file) {
+void set_ids(dealii::Triangulation<dim> &cells, const MeshFile &file) {
   const ElementTable facets(file.facets, file.vertices_per_facet());
   std::vector<std::uint32_t> vertices;
   for (const auto &cell : cells.active_cell_iterators())
     for (const auto &face : cell->face_iterators()) {
-      if (!face->at_boundary())
-        continue;
       vertices.clear();
       for (const unsigned int v : face->vertex_indices())
         vertices.push_back(face->vertex_index(v));
-      const std::uint32_t facet = facets.find(vertices).front();
-      face->set_boundary_id(static_cast<dealii::types::boundary_id>(file.boundaries.set_of[facet]));
+      const auto found = facets.find(vertices);
+      if (found.empty())
+        continue;
+      const int set = file.boundaries.set_of[found.front()];
+      if (face->at_boundary())
+        face->set_boundary_id(static_cast<dealii::types::boundary_id>(set));
+      else
+        face->set_manifold_id(static_cast<dealii::types::manifold_id>(set));
     }
 }
 
@@ -75,10 +79,14 @@ Mesh<dim> imported(const MeshFile &file) {
   if (!mesh.simplices)
     dealii::GridTools::consistently_order_cells(cells);
   mesh.cells->create_triangulation(points_of<dim>(file), cells, dealii::SubCellData());
-  set_boundary_ids(*mesh.cells, file);
+  set_ids(*mesh.cells, file);
   for (const std::string &name : file.boundary_names()) {
     const std::vector<int> sets = file.boundaries.sets_with(name);
     mesh.boundaries[name].insert(sets.begin(), sets.end());
+  }
+  for (const std::string &name : file.inner_names()) {
+    const std::vector<int> sets = file.boundaries.sets_with(name);
+    mesh.inner[name].insert(sets.begin(), sets.end());
   }
   return mesh;
 }

@@ -21,6 +21,9 @@ template <int dim>
 struct Mesh {
   std::unique_ptr<dealii::Triangulation<dim>> cells;
   std::map<std::string, std::set<dealii::types::boundary_id>> boundaries;
+  /// Names some of whose facets lie between cells; the ids of these are their manifolds' (all of
+  /// which are flat), as deal.II has boundary ids on the boundary alone.
+  std::map<std::string, std::set<dealii::types::manifold_id>> inner;
   bool simplices = false;
 };
 

@@ -20,6 +20,8 @@ std::string boundaries_text(const std::vector<NamedBoundary> &boundaries) {
     for (const std::vector<std::uint32_t> &facet : boundary.facets)
       facets.push_back(corners(facet));
     list.push_back({{"name", boundary.name}, {"facets", facets}});
+    if (boundary.inside)
+      list.back()["inside"] = true;
   }
   return nlohmann::ordered_json{{"boundaries", list}}.dump() + "\n";
 }

@@ -7,7 +7,8 @@
 
 namespace tourmaline::output {
 
-/// {"boundaries": [{"name": ..., "facets": [[node, ...], ...]}, ...]}; faces by their corners
+/// {"boundaries": [{"name": ..., "facets": [[node, ...], ...]}, ...]}; faces by their corners. What
+/// lies inside, at least in part, has "inside": true.
 std::string boundaries_text(const std::vector<NamedBoundary> &boundaries);
 
 }  // namespace tourmaline::output

@@ -48,6 +48,7 @@ std::vector<std::uint32_t> keep_used_points(Grid &grid);
 struct NamedBoundary {
   std::string name;
   std::vector<std::vector<std::uint32_t>> facets;
+  bool inside = false;  ///< facets between cells are among them
 };
 
 /// Values at the nodes of the grid.

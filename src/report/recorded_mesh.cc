@@ -38,7 +38,7 @@ void add_boundary(MeshFile &mesh, const nlohmann::json &boundary) {
       mesh.cell = vertices.size() == 3 ? CellShape::tetrahedron : CellShape::hexahedron;
     mesh.facets.insert(mesh.facets.end(), vertices.begin(), vertices.end());
     mesh.boundaries.set_of.push_back(set);
-    mesh.inside.push_back(false);
+    mesh.inside.push_back(boundary.value("inside", false));
   }
 }
 

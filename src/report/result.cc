@@ -321,7 +321,8 @@ std::vector<NamedFacets> facets_of(const fs::path &path) {
   try {
     const auto json = nlohmann::json::parse(read_text_file(path));
     for (const auto &entry : json.at("boundaries"))
-      boundaries.push_back({entry.at("name").get<std::string>(),
+      if (!entry.value("inside", false))
+        boundaries.push_back({entry.at("name").get<std::string>(),
                             entry.at("facets").get<std::vector<std::vector<std::uint32_t>>>()});
   } catch (const nlohmann::json::exception &) {
     throw CaseError(path.string() + ": is not what a run writes there");
