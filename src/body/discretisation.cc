@@ -52,7 +52,11 @@ struct Discretisation<dim>::Parts {
   void number_nodes();
   void list_nodes_of_cells();
   void find_axis();
+  using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
   std::span<const Node> nodes_of(std::size_t cell) const;
+  std::optional<dealii::Point<dim>> unit_point(const Cell &cell,
+                                               const dealii::Point<dim> &place) const;
+  NodeShares shares_at(const dealii::Point<dim> &place) const;
   template <class Values>
   void copy(const Values &from, std::span<const Node> cell_nodes, Quadrature<dim> &to) const;
 
@@ -64,10 +68,10 @@ struct Discretisation<dim>::Parts {
   dealii::Quadrature<dim> cell_rule, sampling_rule;
   dealii::Quadrature<dim - 1> facet_rule;
   dealii::DoFHandler<dim> dofs;
-  std::vector<Node> node_of;    // by deal.II's global number, which depends on the ranks
-  std::vector<Vector3> points;  // by node
-  std::vector<typename dealii::DoFHandler<dim>::active_cell_iterator> cells;  // of this rank
-  std::vector<Node> connectivity;                                             // cell by cell
+  std::vector<Node> node_of;       // by deal.II's global number, which depends on the ranks
+  std::vector<Vector3> points;     // by node
+  std::vector<Cell> cells;         // of this rank
+  std::vector<Node> connectivity;  // cell by cell
 };
 
 namespace {
@@ -492,6 +496,89 @@ std::vector<Node> Discretisation<dim>::nodes_inside(
 
 namespace {
 
+// On the reference cell; on its faces round-off decides, and either neighbour will do.
+constexpr double on_face = 1e-9;
+
+template <int dim>
+bool holds(const dealii::Point<dim> &unit, bool simplex) {
+  double rest = 1;
+  for (int axis = 0; axis < dim; ++axis) {
+    rest -= unit[axis];
+    if (unit[axis] < -on_face || unit[axis] > 1 + on_face)
+      return false;
+  }
+  return !simplex || rest > -on_face;
+}
+
+}  // namespace
+
+template <int dim>
+std::optional<dealii::Point<dim>> Discretisation<dim>::Parts::unit_point(
+    const Cell &cell, const dealii::Point<dim> &place) const {
+  const auto box = cell->bounding_box();
+  if (!box.point_inside(place, 1e-9))
+    return std::nullopt;
+  try {
+    const dealii::Point<dim> unit = mapping->transform_real_to_unit_cell(cell, place);
+    if (holds(unit, mesh.simplices))
+      return unit;
+  } catch (const typename dealii::Mapping<dim>::ExcTransformationFailed &) {
+    // far outside of a cell that is no parallelogram
+  }
+  return std::nullopt;
+}
+
+template <int dim>
+NodeShares Discretisation<dim>::Parts::shares_at(const dealii::Point<dim> &place) const {
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const auto unit = unit_point(cells[i], place);
+    if (!unit)
+      continue;
+    NodeShares found;
+    const auto nodes = nodes_of(i);
+    found.nodes.assign(nodes.begin(), nodes.end());
+    for (unsigned int a = 0; a < nodes.size(); ++a)
+      found.shares.push_back(element->shape_value(a, *unit));
+    return found;
+  }
+  return {};
+}
+
+// Each rank says what it found; where two did, the first one is taken.
+template <int dim>
+std::vector<NodeShares> Discretisation<dim>::shares_at(const std::vector<Vector3> &places) const {
+  std::vector<double> told;  // number of the place, number of nodes, nodes, shares
+  parallel::together([&] {
+    for (std::size_t p = 0; p < places.size(); ++p) {
+      dealii::Point<dim> place;
+      for (int axis = 0; axis < dim; ++axis)
+        place[axis] = places[p][axis];
+      const NodeShares found = parts_->shares_at(place);
+      if (found.nodes.empty())
+        continue;
+      told.push_back(static_cast<double>(p));
+      told.push_back(static_cast<double>(found.nodes.size()));
+      told.insert(told.end(), found.nodes.begin(), found.nodes.end());
+      told.insert(told.end(), found.shares.begin(), found.shares.end());
+    }
+  });
+  told = parallel::joined(told);
+  std::vector<NodeShares> all(places.size());
+  for (auto next = told.begin(); next != told.end();) {
+    NodeShares &at = all[static_cast<std::size_t>(*next++)];
+    const auto n = static_cast<std::ptrdiff_t>(*next++);
+    if (at.nodes.empty()) {
+      for (std::ptrdiff_t a = 0; a < n; ++a)
+        at.nodes.push_back(static_cast<Node>(next[a]));
+      at.shares.assign(next + n, next + 2 * n);
+    }
+    next += 2 * n;
+  }
+  return all;
+}
+
+namespace {
+
 // deal.II's numbers of the nodes of a line from end to end.
 template <class Face>
 std::vector<dealii::types::global_dof_index> line_dofs(const Face &face, unsigned int degree) {
@@ -545,8 +632,7 @@ std::vector<output::NamedBoundary> Discretisation<dim>::boundaries() const {
     std::vector<Node> facets;
     for (const auto &cell : parts_->cells)
       for (const unsigned int f : cell->face_indices()) {
-        const bool is_neighbours =
-            !cell->at_boundary(f) && cell->neighbor(f)->id() < cell->id();
+        const bool is_neighbours = !cell->at_boundary(f) && cell->neighbor(f)->id() < cell->id();
         if (is_neighbours || !is_asked(*cell->face(f)))
           continue;
         const auto dofs = facet_dofs<dim>(*cell->face(f), parts_->element->degree);
@@ -557,9 +643,8 @@ std::vector<output::NamedBoundary> Discretisation<dim>::boundaries() const {
     all.push_back({name, separated(parallel::joined_on_first(facets)), inside});
   };
   for (const auto &[name, ids] : parts_->mesh.boundaries)
-    add(name, false, [&](const auto &face) {
-      return face.at_boundary() && ids.contains(face.boundary_id());
-    });
+    add(name, false,
+        [&](const auto &face) { return face.at_boundary() && ids.contains(face.boundary_id()); });
   for (const auto &[name, ids] : parts_->mesh.inner)
     add(name, true, [&](const auto &face) {
       return ids.contains(face.at_boundary() ? face.boundary_id() : face.manifold_id());

@@ -61,6 +61,12 @@ struct Quadrature {
   std::array<double, 3> centre() const;
 };
 
+/// A field's value somewhere is the sum of `shares` times its values at `nodes`.
+struct NodeShares {
+  std::vector<Node> nodes;
+  std::vector<double> shares;
+};
+
 /// Neighbourhood of the nodes in compressed rows: node i shares a cell with column[row[i]] ...
 /// column[row[i+1] - 1], sorted, itself included. On several ranks that of this rank's cells; rows
 /// of nodes that these do not touch are empty.
@@ -112,6 +118,9 @@ class Discretisation {
   std::vector<Node> nodes_on(const std::vector<std::string> &boundaries) const;
   /// The same of the facets between cells at all of whose corners `belongs` says so.
   std::vector<Node> nodes_inside(const std::function<bool(const Vector3 &)> &belongs) const;
+
+  /// What makes a field at each of these places [m]; nothing for places outside of the body.
+  std::vector<NodeShares> shares_at(const std::vector<Vector3> &places) const;
 
   /// All named boundaries, and names of facets inside, with the facets of all ranks, on the first
   /// rank; without facets on the others.

@@ -323,6 +323,7 @@ void declare(Visitor &v, Case &c) {
           [&](Visitor &inner) { declare(inner, c.load, c.dimension); });
   v.table({.name = "initial", .description = "The state at the time 0"},
           [&](Visitor &inner) { declare(inner, c.initial, c.time, c.dimension); });
+  declare_probes(v, c.probes, c.dimension);
   v.table({.name = "model", .description = "Which equations are solved"},
           [&](Visitor &inner) { declare(inner, c.model, c.dimension); });
   v.table({.name = "solver", .description = "How the equations are solved"},

@@ -22,17 +22,17 @@ bool varies(const casefile::FormulaVector &direction) {
 // Mass matters where it is accelerated or its drag counts, and in the heat it stores.
 std::set<std::string> left_out(const casefile::Case &asked,
                                const casefile::MaterialCase &material) {
-  std::set<std::string> kinds;
+  std::set<std::string> left;
   if (!asked.model.electric)
-    kinds.insert({"piezoelectric", "permittivity", "pyroelectric"});
+    left.insert({"piezoelectric", "permittivity", "pyroelectric"});
   if (asked.model.thermal)
-    return kinds;
-  kinds.insert(
+    return left;
+  left.insert(
       {"thermal", "pyroelectric", "conductivity", "specific_heat", "reference_temperature"});
   if (!asked.time.is_dynamic() && asked.load.base_acceleration.empty() &&
       !with_entry(material).constants.contains("mass_damping"))
-    kinds.insert("density");
-  return kinds;
+    left.insert("density");
+  return left;
 }
 
 Plane plane_of(const casefile::ModelCase &model) {

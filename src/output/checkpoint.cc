@@ -19,7 +19,7 @@ namespace tourmaline::output {
 namespace {
 
 constexpr std::string_view magic = "Tourmaline checkpoint\n";
-constexpr std::uint64_t format_version = 4;
+constexpr std::uint64_t format_version = 5;
 
 /// Writes one member behind the other.
 class Writer {
@@ -153,7 +153,9 @@ void write_checkpoint(const std::filesystem::path &path, const Checkpoint &check
   file.text(checkpoint.inputs);
   file.number(checkpoint.ranks);
   file.number(checkpoint.step);
-  for (const TablePosition &table : {checkpoint.position.contact, checkpoint.position.history}) {
+  file.number(std::uint64_t{checkpoint.position.tables.size()});
+  for (const auto &[name, table] : checkpoint.position.tables) {
+    file.text(name);
     file.number(table.bytes);
     file.number(table.checksum);
   }
@@ -180,9 +182,10 @@ Checkpoint read_checkpoint(const std::filesystem::path &path) {
   checkpoint.inputs = file.text();
   checkpoint.ranks = file.number();
   checkpoint.step = file.number();
-  for (TablePosition *table : {&checkpoint.position.contact, &checkpoint.position.history}) {
-    table->bytes = file.number();
-    table->checksum = file.number();
+  for (std::uint64_t left = file.number(); left > 0; --left) {
+    TablePosition &table = checkpoint.position.tables[file.text()];
+    table.bytes = file.number();
+    table.checksum = file.number();
   }
   for (std::uint64_t left = file.number(); left > 0; --left) {
     const double time = std::bit_cast<double>(file.number());

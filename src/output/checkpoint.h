@@ -46,9 +46,9 @@ struct TablePosition {
 
 /// How far the files of a result folder have come.
 struct FolderPosition {
-  TablePosition contact, history;
-  std::vector<PvdEntry> series;   ///< the field files
-  std::uint64_t field_bytes = 0;  ///< of those of all pieces together
+  std::map<std::string, TablePosition> tables;  ///< by the names of the files
+  std::vector<PvdEntry> series;                 ///< the field files
+  std::uint64_t field_bytes = 0;                ///< of those of all pieces together
 };
 
 /// A run between two steps: with it a new process continues to the same bytes.

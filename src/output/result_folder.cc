@@ -46,6 +46,10 @@ std::optional<unsigned long long> step_of_field_file(const std::string &name) {
 
 constexpr std::string_view part = ".part";
 
+bool is_of_probe(std::string_view name) {
+  return name.starts_with("probe-") && name.ends_with(".csv");
+}
+
 /// Whether a run gives a file this name, in its place or while it is being written.
 bool is_ours(std::string_view name) {
   constexpr std::array<std::string_view, 10> others{
@@ -54,7 +58,7 @@ bool is_ours(std::string_view name) {
   if (name.ends_with(part))
     name.remove_suffix(part.size());
   return step_of_field_file(std::string(name)) ||
-         std::find(others.begin(), others.end(), name) != others.end();
+         std::find(others.begin(), others.end(), name) != others.end() || is_of_probe(name);
 }
 
 void remove_file(const fs::path &file) {
@@ -85,11 +89,12 @@ void remove_files(const fs::path &directory, const Which &which) {
 }
 
 /// What an interrupted run wrote after its checkpoint, and what its end left besides the tables.
-bool is_later(const std::string &name, std::uint64_t step) {
-  const bool unfinished = name.ends_with(part) && name != "contact.csv.part" &&
-                          name != "history.csv.part" && is_ours(name);
+bool is_later(const std::string &name, const Checkpoint &checkpoint) {
+  const bool unfinished =
+      name.ends_with(part) && is_ours(name) &&
+      !checkpoint.position.tables.contains(name.substr(0, name.size() - part.size()));
   const auto of_step = step_of_field_file(name);
-  return unfinished || (of_step && *of_step > step) || name == "nodes.csv" ||
+  return unfinished || (of_step && *of_step > checkpoint.step) || name == "nodes.csv" ||
          name == "report.html" || name == "summary.json";
 }
 
@@ -123,13 +128,19 @@ void require_position(const fs::path &directory, const FolderPosition &position)
           "again without --resume",
           directory.string(), position.field_bytes));
   }
-  require_table(directory / "contact.csv", position.contact);
-  require_table(directory / "history.csv", position.history);
+  for (const auto &[name, table] : position.tables)
+    require_table(directory / name, table);
 }
 
 std::map<std::string, std::uint64_t> file_sizes(const fs::path &directory) {
   std::map<std::string, std::uint64_t> sizes;
-  for (const char *name : {"boundaries.json", "contact.csv", "history.csv", "nodes.csv"}) {
+  std::vector<std::string> names{"boundaries.json", "contact.csv", "history.csv", "nodes.csv"};
+  std::error_code unread;
+  for (fs::directory_iterator entry(directory, unread), end; !unread && entry != end;
+       entry.increment(unread))
+    if (const std::string name = entry->path().filename().string(); is_of_probe(name))
+      names.push_back(name);
+  for (const std::string &name : names) {
     std::error_code missing;
     if (const std::uint64_t size = fs::file_size(directory / name, missing); !missing)
       sizes[name] = size;
@@ -185,12 +196,9 @@ ResultFolder::ResultFolder(fs::path directory, int dimension, Piece piece,
     lock_ = std::make_unique<FolderLock>(directory_);
   require_position(directory_, position);
   remove_if_there(directory_ / "summary.json");  // first: it counts on the others
-  if (position.contact.bytes > 0)
-    contact_.emplace(directory_ / "contact.csv", position.contact);
-  if (position.history.bytes > 0)
-    history_.emplace(directory_ / "history.csv", position.history);
-  remove_files(directory_,
-               [&](const std::string &name) { return is_later(name, checkpoint.step); });
+  for (const auto &[name, table] : position.tables)
+    tables_.try_emplace(name, directory_ / name, table);
+  remove_files(directory_, [&](const std::string &name) { return is_later(name, checkpoint); });
   for (const PvdEntry &entry : position.series)
     (is_of_contact(entry.file) ? contact_series_ : series_).push_back(entry);
   for (const auto &[series, name] :
@@ -229,11 +237,22 @@ void ResultFolder::list_fields(int step, double time) {
   write_file(directory_ / "result.pvd", pvd_text(series_));
 }
 
+GrowingTable &ResultFolder::table(const std::string &name,
+                                  const std::function<std::string()> &header) {
+  if (const auto found = tables_.find(name); found != tables_.end())
+    return found->second;
+  return tables_.try_emplace(name, directory_ / name, header()).first->second;
+}
+
 void ResultFolder::put_contact(int step, double time, std::span<const ContactRow> rows) {
-  if (!contact_)
-    contact_.emplace(directory_ / "contact.csv",
-                     contact_header(dimension_, rows.empty() ? ContactRow{} : rows.front()));
-  contact_->append(contact_lines(dimension_, step, time, rows));
+  table("contact.csv", [&] {
+    return contact_header(dimension_, rows.empty() ? ContactRow{} : rows.front());
+  }).append(contact_lines(dimension_, step, time, rows));
+}
+
+void ResultFolder::put_probe(const std::string &name, const std::string &header,
+                             const std::string &lines) {
+  table("probe-" + name + ".csv", [&] { return header; }).append(lines);
 }
 
 void ResultFolder::put_contact_fields(int step, double time, const ContactFacets &facets,
@@ -249,13 +268,11 @@ void ResultFolder::put_contact_fields(int step, double time, const ContactFacets
 
 void ResultFolder::put_history(const HistoryRow &row) {
   const std::string header = history_header(row);
-  if (!history_)
-    history_.emplace(directory_ / "history.csv", header);
   if (history_header_.empty())
     history_header_ = header;
   if (header != history_header_)
     throw std::invalid_argument("put_history: not the quantities of the first row");
-  history_->append(history_line(row));
+  table("history.csv", [&] { return header; }).append(history_line(row));
 }
 
 void ResultFolder::put_nodes(const std::vector<Vector3> &points, const PointFields &fields) {
@@ -281,8 +298,8 @@ void ResultFolder::put_summary(const Summary &summary) {
 
 void ResultFolder::sync_results() {
   sync_fields();
-  for (const char *name : {"contact.csv", "history.csv", "nodes.csv"})
-    if (std::error_code error; fs::exists(directory_ / name, error))
+  for (const auto &[name, size] : file_sizes(directory_))
+    if (std::error_code error; name != "boundaries.json" && fs::exists(directory_ / name, error))
       sync_path(directory_ / name);
 }
 
@@ -294,15 +311,13 @@ void ResultFolder::sync_fields() {
 
 void ResultFolder::put_checkpoint(Checkpoint checkpoint) {
   sync_fields();
-  const auto synced = [](std::optional<GrowingTable> &table) {
-    if (table)
-      table->sync();
-    return table ? table->position() : TablePosition{};
-  };
   std::vector<PvdEntry> all = contact_series_;
   all.insert(all.end(), series_.begin(), series_.end());
-  checkpoint.position = {synced(contact_), synced(history_), all,
-                         field_bytes(directory_, checkpoint.step)};
+  checkpoint.position = {{}, all, field_bytes(directory_, checkpoint.step)};
+  for (auto &[name, table] : tables_) {
+    table.sync();
+    checkpoint.position.tables[name] = table.position();
+  }
   write_checkpoint(directory_ / checkpoint_name, checkpoint);
 }
 
@@ -311,10 +326,8 @@ void ResultFolder::remove_checkpoint() {
 }
 
 void ResultFolder::finish() {
-  if (contact_)
-    contact_->finish();
-  if (history_)
-    history_->finish();
+  for (auto &[name, table] : tables_)
+    table.finish();
 }
 
 }  // namespace tourmaline::output

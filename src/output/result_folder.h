@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -87,6 +88,9 @@ class ResultFolder {
   /// first row.
   void put_history(const HistoryRow &row);
 
+  /// Rows of probe-NAME.csv.
+  void put_probe(const std::string &name, const std::string &header, const std::string &lines);
+
   /// nodes.csv; rows in the order of the points.
   void put_nodes(const std::vector<Vector3> &points, const PointFields &fields);
 
@@ -99,13 +103,14 @@ class ResultFolder {
   /// then.
   void put_checkpoint(Checkpoint checkpoint);
 
-  /// Moves contact.csv and history.csv into place; after a failed solve too, so that the steps that
+  /// Moves the tables into place; after a failed solve too, so that the steps that
   /// were computed are kept. Without it they are discarded. Idempotent; no rows can follow.
   void finish();
 
   const std::filesystem::path &directory() const { return directory_; }
 
  private:
+  GrowingTable &table(const std::string &name, const std::function<std::string()> &header);
   void sync_fields();
   void sync_results();
   void remove_checkpoint();
@@ -118,8 +123,8 @@ class ResultFolder {
   OptionalArrays optional_;
   std::optional<ContactSurface> contact_surface_;
   std::vector<PvdEntry> series_, contact_series_;
-  std::vector<std::string> unsynced_;  // field files since the last checkpoint
-  std::optional<GrowingTable> contact_, history_;
+  std::vector<std::string> unsynced_;           // field files since the last checkpoint
+  std::map<std::string, GrowingTable> tables_;  // by the names of the files
   std::string history_header_;
 };
 

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "body/derived.h"
+#include "output/csv.h"
 #include "parallel/ranks.h"
 #include "run/contact_sums.h"
 #include "run/step_check.h"
@@ -38,7 +39,7 @@ Vector<dim> tangential(const Vector<dim> &v, const Vector<dim> &normal) {
 
 template <int dim>
 Recorder<dim>::Recorder(const solve::Model<dim> &model, output::ResultFolder &folder)
-    : model_(model), folder_(folder) {
+    : model_(model), folder_(folder), probes_(model.body, model.asked) {
   for (std::size_t c = 0; c < model.laws.size(); ++c)
     linear_.push_back({model.laws[c].linear(contact::Crossing::heat),
                        model.laws[c].linear(contact::Crossing::charge)});
@@ -133,6 +134,11 @@ output::HistoryRow Recorder<dim>::step(int n, const solve::StepOutcome &outcome,
       folder_.put_contact(n, time, rows);
     if (has_contact() && has_fields(n))
       folder_.put_contact_fields(n, time, contact_facets_, rows);
+    for (const auto &probe : probes_.all()) {
+      const output::ProbeRows places = Probes<dim>::rows(probe, state);
+      folder_.put_probe(probe.name, output::probe_header(dim, !places.distances.empty()),
+                        output::probe_lines(dim, n, time, places));
+    }
     folder_.put_history(row);
   });
   if (has_fields(n))

@@ -172,6 +172,16 @@ void add_motion(const casefile::Case &asked, List &list) {
   }
 }
 
+void add_probes(const casefile::Case &asked, List &list) {
+  for (const casefile::ProbeCase &probe : asked.probes) {
+    for (int c = 0; c < asked.dimension && !probe.is_line(); ++c)
+      list.add("m", {probe.name + ".u_" + axes[c]});
+    for (const Output &field : fields())
+      if (field.name != "displacement" && !probe.is_line())
+        list.add(field.unit, {probe.name + "." + field.name});
+  }
+}
+
 void add_extremes(const casefile::Case &asked, List &list) {
   std::vector<Output> there = fields();
   std::erase_if(there, [&](const Output &field) { return !asked.model.has(field.name); });
@@ -203,6 +213,7 @@ std::vector<Output> outputs_of(const casefile::Case &asked) {
   add_contact(asked, list);
   list.add(power, {"stored_heat_rate", "heat_source"});
   list.add("", {"energy_imbalance", "force_imbalance", "charge_imbalance", "heat_imbalance"});
+  add_probes(asked, list);
   add_extremes(asked, list);
   add_contact_extremes(asked, list);
   add_each_contact(asked, list);
@@ -217,6 +228,13 @@ std::vector<std::string> usual_names(const std::vector<casefile::Case> &cases) {
   if (std::any_of(cases.begin(), cases.end(),
                   [](const auto &one) { return !one.contacts.empty(); }))
     names.insert(names.begin(), "slip");
+  std::erase_if(names, [&](const std::string &name) {
+    const std::size_t field = name.find('_');
+    return field != std::string::npos &&
+           std::none_of(cases.begin(), cases.end(), [&](const casefile::Case &one) {
+             return one.model.has(name.substr(field + 1));
+           });
+  });
   return names;
 }
 
@@ -379,6 +397,31 @@ std::map<std::string, double> places_in(const std::filesystem::path &file) {
 
 }  // namespace
 
+namespace {
+
+/// Columns of probes by NAME.COLUMN; each table is read once.
+class Probes {
+ public:
+  explicit Probes(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  const std::vector<double> *find(const std::string &name) {
+    const std::size_t dot = name.find('.');
+    const std::string file = "probe-" + name.substr(0, dot) + ".csv";
+    if (dot == std::string::npos || !std::filesystem::exists(folder_ / file))
+      return nullptr;
+    const auto [table, is_new] = tables_.try_emplace(file);
+    if (is_new)
+      table->second = report::read_table(folder_ / file);
+    return table->second.find(name.substr(dot + 1));
+  }
+
+ private:
+  std::filesystem::path folder_;
+  std::map<std::string, report::Table> tables_;
+};
+
+}  // namespace
+
 std::vector<double> read_outputs(const std::filesystem::path &folder,
                                  const std::vector<Output> &outputs) {
   const report::Table history = report::read_table(folder / "history.csv");
@@ -387,9 +430,12 @@ std::vector<double> read_outputs(const std::filesystem::path &folder,
   const std::vector<double> *times = history.find("time");
   if (!times)
     throw CaseError((folder / "history.csv").string() + ": is no history of a run");
+  Probes probes(folder);
   for (const Output &output : outputs) {
-    const std::vector<double> *column =
-        history.find(output.column.empty() ? output.name : output.column);
+    const std::string &name = output.column.empty() ? output.name : output.column;
+    const std::vector<double> *column = history.find(name);
+    if (!column)
+      column = probes.find(name);
     const auto place = places.find(output.name);
     values.push_back(column                  ? reduced(output.reduction, *times, *column)
                      : place != places.end() ? place->second

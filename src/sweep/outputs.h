@@ -21,8 +21,8 @@ struct Output {
   Reduction reduction = {};
 };
 
-/// All that a run of the case will have: the columns of history.csv, then the places of the
-/// extremes in summary.json.
+/// All that a run of the case will have: the columns of history.csv, then those of the probes at
+/// points as NAME.COLUMN, then the places of the extremes in summary.json.
 std::vector<Output> outputs_of(const casefile::Case &asked);
 
 /// Those of the given names, which one of the cases has at least; when there are no names, what one

@@ -23,7 +23,9 @@ Checkpoint example() {
   checkpoint.inputs = "title = \"a\"\n";
   checkpoint.ranks = 2;
   checkpoint.step = 7;
-  checkpoint.position = {{12, 3}, {34, 4}, {{0, "result_0000.vtu"}, {0.1, "result_0001.vtu"}}, 56};
+  checkpoint.position = {{{"contact.csv", {12, 3}}, {"history.csv", {34, 4}}},
+                         {{0, "result_0000.vtu"}, {0.1, "result_0001.vtu"}},
+                         56};
   checkpoint.numbers.put("state", {1. / 3, -0., std::numeric_limits<double>::denorm_min()});
   checkpoint.numbers.put("nothing", {});
   return checkpoint;
@@ -37,10 +39,10 @@ TEST(Checkpoint, EveryNumberReadsBackToTheLastBit) {
   EXPECT_EQ(read.inputs, "title = \"a\"\n");
   EXPECT_EQ(read.ranks, 2u);
   EXPECT_EQ(read.step, 7u);
-  EXPECT_EQ(read.position.contact.bytes, 12u);
-  EXPECT_EQ(read.position.contact.checksum, 3u);
-  EXPECT_EQ(read.position.history.bytes, 34u);
-  EXPECT_EQ(read.position.history.checksum, 4u);
+  EXPECT_EQ(read.position.tables.at("contact.csv").bytes, 12u);
+  EXPECT_EQ(read.position.tables.at("contact.csv").checksum, 3u);
+  EXPECT_EQ(read.position.tables.at("history.csv").bytes, 34u);
+  EXPECT_EQ(read.position.tables.at("history.csv").checksum, 4u);
   EXPECT_EQ(read.position.field_bytes, 56u);
   ASSERT_EQ(read.position.series.size(), 2u);
   EXPECT_EQ(read.position.series[1].time, 0.1);

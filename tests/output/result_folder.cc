@@ -223,7 +223,7 @@ TEST_F(Results, ATableThatIsNotWhatWasWrittenUpToTheCheckpointIsRefused) {
   for (const char *name : {"contact.csv", "history.csv"}) {
     const std::filesystem::path growing = directory / (name + std::string(".part"));
     const std::string written = content_of(growing);
-    const std::uint64_t counted = name[0] == 'c' ? position.contact.bytes : position.history.bytes;
+    const std::uint64_t counted = position.tables.at(name).bytes;
     for (const std::size_t place : {std::size_t{0}, std::size_t{counted} - 2}) {
       std::string edited = written;
       edited[place] = edited[place] == '1' ? '2' : '1';  // of the same length

@@ -264,7 +264,7 @@ TEST_F(Resuming, AMissingFileOnWhichTheCheckpointCountsIsNamed) {
   checkpoint.program = program_version();
   checkpoint.inputs = inputs_of(asked_);
   constexpr std::uint64_t sum = 0x261daee5;  // CRC-32 of 1234567890
-  checkpoint.position = {{}, {10, sum}, {{0., "result_0000.vtu"}}, 3};
+  checkpoint.position = {{{"history.csv", {10, sum}}}, {{0., "result_0000.vtu"}}, 3};
   output::write_checkpoint(folder_ / output::checkpoint_name, checkpoint);
   EXPECT_THAT(asking(), ThrowsMessage<MachineError>(HasSubstr("result_0000.vtu, on which")));
   put("result_0000.vtu", "");

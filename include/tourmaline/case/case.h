@@ -9,6 +9,7 @@
 #include "tourmaline/case/load_case.h"
 #include "tourmaline/case/material_case.h"
 #include "tourmaline/case/mesh_case.h"
+#include "tourmaline/case/probe_case.h"
 
 /// What the user asked for: plain structs, one for each table of the case file. They hold values
 /// that have been read and checked; defaults stand here and nowhere else. All values are SI.
@@ -80,6 +81,7 @@ struct Case {
   OutputCase output;
   LoadCase load;
   InitialCase initial;
+  std::vector<ProbeCase> probes;
 
   int dimension = 2;  ///< 2 or 3, from the mesh
 
