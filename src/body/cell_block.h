@@ -40,8 +40,7 @@ struct Trial {
 
 template <int dim>
 Trial<dim> trial(const material::BodyConstants<dim> &c,
-                 const std::array<double, static_cast<std::size_t>(dim)> &gradient,
-                 double around) {
+                 const std::array<double, static_cast<std::size_t>(dim)> &gradient, double around) {
   Trial<dim> t;
   t.gradient = Eigen::Map<const Eigen::Matrix<double, dim, 1>>(gradient.data());
   t.strain = strain_of(gradient, around);

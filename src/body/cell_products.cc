@@ -106,8 +106,8 @@ Point<dim> part_of(const Point<dim> &p, int field, const Quadrature<dim> &cell, 
   return part;
 }
 
-// The amplitudes that each field of x causes; of u and phi only differences to the first node do, as
-// long as no strain around an axis comes from u itself.
+// The amplitudes that each field of x causes; of u and phi only differences to the first node do,
+// as long as no strain around an axis comes from u itself.
 template <int dim>
 std::array<Amplitudes<dim>, 3> amplitudes(const CellModes<dim> &cell, bool is_revolved,
                                           std::span<const double> x) {

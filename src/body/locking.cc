@@ -40,7 +40,8 @@ struct Loaded {
     for (std::size_t a = 0; a < cell.nodes.size(); ++a) {
       const double *x = &state[unknown<dim>(cell.nodes[a], 0)];
       const auto &g = cell.gradient(q, a);
-      strain += strain_of(g, cell.around(q, a)) * Eigen::Map<const Eigen::Matrix<double, dim, 1>>(x);
+      strain +=
+          strain_of(g, cell.around(q, a)) * Eigen::Map<const Eigen::Matrix<double, dim, 1>>(x);
       slope +=
           x[Fields<dim>::potential] * Eigen::Map<const Eigen::Matrix<double, dim, 1>>(g.data());
       theta += x[Fields<dim>::temperature] * cell.value(q, a);

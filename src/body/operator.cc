@@ -14,7 +14,8 @@ namespace {
 template <int dim>
 using Vector = Eigen::Matrix<double, dim, 1>;
 
-// As on linear simplices that are not revolved: then one product of the constants serves the whole cell.
+// As on linear simplices that are not revolved: then one product of the constants serves the whole
+// cell.
 template <int dim>
 bool has_constant_gradients(const Quadrature<dim> &cell) {
   const std::size_t n = cell.nodes.size();

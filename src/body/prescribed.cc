@@ -25,7 +25,8 @@ std::vector<Node> nodes_of(const Discretisation<dim> &body,
   if (inside.empty())
     throw CaseError(fmt::format(
         "{} = {}: is 0 at a corner of every facet between cells, so the electrode \"{}\" covers "
-        "none; cells must meet where it lies, and round-off be allowed for, as in \"abs(y - 0.01) < "
+        "none; cells must meet where it lies, and round-off be allowed for, as in \"abs(y - 0.01) "
+        "< "
         "1e-6\"",
         electrode.inside->where(), casefile::toml_text(electrode.inside->text()), electrode.name));
   nodes.insert(nodes.end(), inside.begin(), inside.end());

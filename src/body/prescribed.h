@@ -24,15 +24,16 @@ struct Prescribed {
 
 /// Prescribed unknowns of all [[boundary]] entries and the potentials of all [[electrode]] entries,
 /// ascending. An electrode whose voltage is not given has the value 0 here: the circuit adds its
-/// voltage. On the axis of a revolved body u_x is prescribed as 0. Where two boundaries meet and both prescribe an unknown, the entry that stands first in
-/// the case file holds, [[boundary]] before [[electrode]].
+/// voltage. On the axis of a revolved body u_x is prescribed as 0. Where two boundaries meet and
+/// both prescribe an unknown, the entry that stands first in the case file holds, [[boundary]]
+/// before [[electrode]].
 template <int dim>
 std::vector<Prescribed> prescribed_unknowns(
     const Discretisation<dim> &body, const std::vector<casefile::BoundaryCase> &boundaries,
     const std::vector<casefile::ElectrodeCase> &electrodes = {});
 
-/// Throws CaseError where something else than 0 is prescribed as u_x on the axis of a revolved body,
-/// at the end of any step.
+/// Throws CaseError where something else than 0 is prescribed as u_x on the axis of a revolved
+/// body, at the end of any step.
 template <int dim>
 void check_axis(const Discretisation<dim> &body, const casefile::Case &asked,
                 const std::vector<Prescribed> &prescribed);

@@ -61,8 +61,8 @@ void add_stiffness(const Quadrature<dim> &cell, const material::BodyConstants<di
     for (std::size_t b = 0; b < n_shapes; ++b) {
       Block<dim> block = Block<dim>::Zero();
       for (std::size_t q = 0; q < cell.jxw.size(); ++q)
-        block += cell.jxw[q] * strain_of(cell.gradient(q, a), cell.around(q, a)).transpose() * material.stiffness *
-                 strain_of(cell.gradient(q, b), cell.around(q, b));
+        block += cell.jxw[q] * strain_of(cell.gradient(q, a), cell.around(q, a)).transpose() *
+                 material.stiffness * strain_of(cell.gradient(q, b), cell.around(q, b));
       add(a, b, block);
     }
   if (cell.mode_gradients.empty())

@@ -196,8 +196,7 @@ void check_holding(const Case &asked) {
                            "`potential`"));
   if (asked.time.is_dynamic())  // inertia holds it
     return;
-  const std::vector<std::string> free =
-      free_motions(asked, supports_of(asked, Held::all_it_can));
+  const std::vector<std::string> free = free_motions(asked, supports_of(asked, Held::all_it_can));
   if (!free.empty())
     throw CaseError(fmt::format(
         "{} [[boundary]]: nothing holds the body against {}; prescribe further components of "

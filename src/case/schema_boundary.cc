@@ -94,9 +94,10 @@ void declare(Visitor &v, ElectrodeCase &electrode, const MeshCase &mesh) {
          .description = "what its columns in history.csv are called; letters, digits, _ and -",
          .required = true},
         &electrode.name);
-  Key on = on_sides("boundary that the electrode covers, or list of boundaries that it joins; facets "
-                    "inside the body that have a name, too",
-                    mesh);
+  Key on = on_sides(
+      "boundary that the electrode covers, or list of boundaries that it joins; facets "
+      "inside the body that have a name, too",
+      mesh);
   on.required = false;
   on.default_words = "none";
   v.key(on, &electrode.on);

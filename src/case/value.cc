@@ -98,9 +98,10 @@ void check_choice(const Item &item, const std::string &text) {
     fail(item, "is not allowed; " + key.no_choices);
   for (const auto &[other, choice] : key.choices_also)
     if (edit_distance(other, text) == 0)
-      fail(item, "is not allowed; allowed: " + quoted_list(key.choices) + "; did you mean \"" + choice +
-                     "\"?");
-  fail(item, "is not allowed; allowed: " + quoted_list(key.choices) + did_you_mean(text, key.choices));
+      fail(item, "is not allowed; allowed: " + quoted_list(key.choices) + "; did you mean \"" +
+                     choice + "\"?");
+  fail(item,
+       "is not allowed; allowed: " + quoted_list(key.choices) + did_you_mean(text, key.choices));
 }
 
 const toml::array &entries_of(const Item &item, std::string_view wanted) {
@@ -163,8 +164,8 @@ void read_into(const Item &item, double &value) {
 void read_into(const Item &item, std::string &value) {
   const auto given = item.node.value_exact<std::string>();
   if (!given)
-    fail_type(item,
-              item.key.choices.empty() ? "a text" : "a text, one of " + quoted_list(item.key.choices));
+    fail_type(item, item.key.choices.empty() ? "a text"
+                                             : "a text, one of " + quoted_list(item.key.choices));
   if (given->find('\0') != std::string::npos)
     fail(item, "has the character \\u0000, which no text can hold");
   check_choice(item, *given);

@@ -231,8 +231,8 @@ class Joined {
 
 }  // namespace
 
-// Where the contact of a revolved body meets its axis, the normals of all around add up to one along
-// it.
+// Where the contact of a revolved body meets its axis, the normals of all around add up to one
+// along it.
 template <int dim>
 Normal<dim> normal_of(Normal<dim> integral, bool is_on_axis) {
   if (is_on_axis)

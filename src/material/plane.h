@@ -15,8 +15,8 @@ inline constexpr int n_strains = dim == 2 ? 4 : 6;
 enum class Plane { strain, stress, axisymmetric };
 
 /// The constants that a body of `dim` dimensions sees, in its own axes. In plane stress the strains
-/// across the plane have been eliminated, eps_zz = 0 stands for them, and what belongs to it couples
-/// with nothing; damping of the stiffness acts on what is left of it.
+/// across the plane have been eliminated, eps_zz = 0 stands for them, and what belongs to it
+/// couples with nothing; damping of the stiffness acts on what is left of it.
 template <int dim>
 struct BodyConstants {
   static constexpr int strains = n_strains<dim>;

@@ -323,7 +323,7 @@ std::vector<NamedFacets> facets_of(const fs::path &path) {
     for (const auto &entry : json.at("boundaries"))
       if (!entry.value("inside", false))
         boundaries.push_back({entry.at("name").get<std::string>(),
-                            entry.at("facets").get<std::vector<std::vector<std::uint32_t>>>()});
+                              entry.at("facets").get<std::vector<std::vector<std::uint32_t>>>()});
   } catch (const nlohmann::json::exception &) {
     throw CaseError(path.string() + ": is not what a run writes there");
   }

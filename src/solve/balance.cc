@@ -345,8 +345,9 @@ double Balance<dim>::lack_of_energy(const Step &step, double whole,
   return worst;
 }
 
-// Global equilibrium: loads, reactions and contact forces add up to zero in every direction in which
-// the body can be moved as a whole. Radial forces of a revolved body stand against its hoop stress.
+// Global equilibrium: loads, reactions and contact forces add up to zero in every direction in
+// which the body can be moved as a whole. Radial forces of a revolved body stand against its hoop
+// stress.
 template <int dim>
 void Balance<dim>::add_forces(const Step &step, Columns &columns) {
   std::array<Sum, dim> load, reaction, contact;

@@ -76,7 +76,8 @@ void require_mass_that_holds(const Model<dim> &model) {
     return;
   for (const Support &support : supports_beside_mass(model))
     supports.push_back(support);
-  if (const std::string free = casefile::free_motions_in_words(model.asked, supports); !free.empty())
+  if (const std::string free = casefile::free_motions_in_words(model.asked, supports);
+      !free.empty())
     throw CaseError(fmt::format(
         "[time] contact_mass: contact nodes give their mass to other nodes of their cells, and of "
         "these there {}, which {} not resist {}; nothing else holds the body against it; take "

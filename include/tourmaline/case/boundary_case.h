@@ -22,12 +22,12 @@ struct BoundaryCase {
   std::optional<Formula> heat_flux;       ///< q.nu [W/m^2], positive leaves the body
 };
 
-/// One [[electrode]] entry: boundaries, and facets between cells, that share one potential. Of plane
-/// bodies charges, resistances and capacitances are those of one metre of thickness.
+/// One [[electrode]] entry: boundaries, and facets between cells, that share one potential. Of
+/// plane bodies charges, resistances and capacitances are those of one metre of thickness.
 struct ElectrodeCase {
   std::string name;
-  std::vector<std::string> on;      ///< names of the boundary, or of facets inside
-  std::optional<Formula> inside;    ///< `where`: not 0 at all corners of a facet between cells
+  std::vector<std::string> on;    ///< names of the boundary, or of facets inside
+  std::optional<Formula> inside;  ///< `where`: not 0 at all corners of a facet between cells
   std::string where;
   std::map<std::string, std::string> places;  ///< of its keys: file, line and key
   /// [V] of the electrode; beside a resistor or capacitor of their other end, 0 when not given

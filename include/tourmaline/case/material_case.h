@@ -39,8 +39,8 @@ struct MaterialCase {
   /// direction of the crystal's axis 1, made orthogonal to `poling`; empty: x, or any when x is the
   /// poling axis. Matters only for crystals that are not isotropic about axis 3.
   std::vector<double> axis1;
-  /// kinds of constants (`form_of`) and single ones that the case's model does without, so that they
-  /// are not asked for and what is given of them is not looked at
+  /// kinds of constants (`form_of`) and single ones that the case's model does without, so that
+  /// they are not asked for and what is given of them is not looked at
   std::set<std::string> left_out;
 
   /// For error texts; a case that was not read from a file says the table's name.
