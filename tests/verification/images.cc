@@ -76,7 +76,7 @@ mesh::Mesh<2> listed_backwards(const mesh::Mesh<2> &mesh) {
   for (auto &facet : facets.boundary_lines)
     for (unsigned int &vertex : facet.vertices)
       vertex = last - vertex;
-  mesh::Mesh<2> backwards{std::make_unique<dealii::Triangulation<2>>(), mesh.boundaries,
+  mesh::Mesh<2> backwards{std::make_unique<dealii::Triangulation<2>>(), mesh.boundaries, mesh.inner,
                           mesh.simplices};
   backwards.cells->create_triangulation(vertices, cells, facets);
   return backwards;
