@@ -57,6 +57,8 @@ struct Discretisation<dim>::Parts {
   std::optional<dealii::Point<dim>> unit_point(const Cell &cell,
                                                const dealii::Point<dim> &place) const;
   NodeShares shares_at(const dealii::Point<dim> &place) const;
+  template <class Face>
+  bool lies_on_axis(const Face &face) const;
   template <class Values>
   void copy(const Values &from, std::span<const Node> cell_nodes, Quadrature<dim> &to) const;
 
@@ -130,6 +132,15 @@ Discretisation<dim>::Parts::Parts(mesh::Mesh<dim> given, int degree, Geometry as
   list_nodes_of_cells();
   if (geometry == Geometry::revolved)
     find_axis();
+}
+
+template <int dim>
+template <class Face>
+bool Discretisation<dim>::Parts::lies_on_axis(const Face &face) const {
+  const auto corners = face.vertex_indices();
+  return geometry == Geometry::revolved &&
+         std::all_of(corners.begin(), corners.end(),
+                     [&](unsigned int corner) { return face.vertex(corner)[0] <= axis_ends; });
 }
 
 // Meshes of other programs miss the axis by round-off. Nodes stand in the order of x.
@@ -450,7 +461,7 @@ std::vector<Node> Discretisation<dim>::nodes_of_facets(const IsAsked &is_asked) 
   parallel::together([&] {
     for (const auto &cell : parts_->cells)
       for (const unsigned int f : cell->face_indices()) {
-        if (!is_asked(*cell->face(f)))
+        if (!is_asked(*cell->face(f)) || parts_->lies_on_axis(*cell->face(f)))
           continue;
         of_face.resize(parts_->element->n_dofs_per_face(f));
         cell->face(f)->get_dof_indices(of_face);

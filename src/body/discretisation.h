@@ -114,7 +114,7 @@ class Discretisation {
   void for_each_facet(const std::vector<std::string> &boundaries,
                       const std::function<void(const Quadrature<dim> &)> &visit) const;
   /// Nodes on the closure of the named boundaries, or of facets inside that have a name, ascending,
-  /// of all ranks.
+  /// of all ranks. Facets on the axis of a revolved body have no area and count for nothing.
   std::vector<Node> nodes_on(const std::vector<std::string> &boundaries) const;
   /// The same of the facets between cells at all of whose corners `belongs` says so.
   std::vector<Node> nodes_inside(const std::function<bool(const Vector3 &)> &belongs) const;

@@ -65,12 +65,13 @@ std::string charge_text(const casefile::ChargeExchangeCase &electric) {
 }  // namespace
 
 std::vector<std::string> in_words(const casefile::ContactCase &asked,
-                                  const std::string &friction_name) {
+                                  const std::string &friction_name, bool is_thermal) {
   std::vector<std::string> words{kind_of(asked.normal).words(asked.normal)};
   add_foundation(asked, words);
   words.push_back(friction_name.empty() ? kind_of(asked.friction).words(asked.friction)
                                         : "friction of a program: " + friction_name);
-  words.push_back(heat_text(asked.heat));
+  if (is_thermal)
+    words.push_back(heat_text(asked.heat));
   if (asked.electric.exchanges())
     words.push_back(charge_text(asked.electric));
   return words;

@@ -11,6 +11,6 @@ namespace tourmaline::contact {
 /// friction, heat. `friction_name`: of laws that a program brought along instead of the case's; "":
 /// none. UTF-8.
 std::vector<std::string> in_words(const casefile::ContactCase &asked,
-                                  const std::string &friction_name);
+                                  const std::string &friction_name, bool is_thermal);
 
 }  // namespace tourmaline::contact

@@ -35,7 +35,9 @@ void check_plane(const Constants &c, Plane plane) {
   if (couples)
     throw CaseError(fmt::format(
         "[material] in this orientation fields in the plane drive a displacement out of it, so "
-        "{} is no solution; turn poling into the plane, or model the body in three dimensions",
+        "{} is no solution; turn the crystal (poling, axis1) until the plane is one of its planes "
+        "of "
+        "symmetry, if it has any, or model the body in three dimensions",
         plane == Plane::axisymmetric ? "axial symmetry" : "plane strain"));
 }
 

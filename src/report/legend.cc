@@ -31,9 +31,9 @@ std::string traction_text(const casefile::FormulaVector &components) {
 }
 
 void add_contact(Conditions &conditions, const casefile::ContactCase &asked,
-                 const std::string &friction_name) {
+                 const std::string &friction_name, bool is_thermal) {
   conditions.kind = "contact";
-  for (const std::string &text : contact::in_words(asked, friction_name))
+  for (const std::string &text : contact::in_words(asked, friction_name, is_thermal))
     conditions.texts.push_back(text);
 }
 
@@ -88,7 +88,7 @@ Conditions conditions_on(const casefile::Case &asked, const std::string &boundar
     if (names(contact.on, boundary)) {
       if (asked.contacts.size() > 1)
         conditions.texts.push_back("contact " + contact.called());
-      add_contact(conditions, contact, friction_name);
+      add_contact(conditions, contact, friction_name, asked.model.thermal);
     }
   const auto add_entries = [&](auto add) {
     for (const casefile::BoundaryCase &entry : asked.boundaries)

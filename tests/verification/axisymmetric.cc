@@ -248,6 +248,27 @@ heat = {{ law = "exchange", coefficient = 2e4, foundation_temperature = 0 }}
   EXPECT_LT(fine, coarse / 3);
 }
 
+// Of a name whose facets lie in part on the axis only the others count.
+TEST(Axisymmetric, FacetsOnTheAxisHoldNothing) {
+  const output::TemporaryFolder folder;
+  std::ofstream(folder.path() / "mixed.geo") << R"(
+Point(1) = {0, 0, 0}; Point(2) = {0.01, 0, 0}; Point(3) = {0.01, 0.01, 0}; Point(4) = {0, 0.01, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
+Physical Curve("base") = {1, 4}; Physical Curve("rim") = {2}; Physical Curve("top") = {3};
+Physical Surface("body") = {1};
+)";
+  const RunCase run = run_text(std::string(elastic) + R"toml(
+mesh = { file = "mixed.geo", size = 2e-3 }
+boundary = [ { on = "base", displacement = ["free", 0] }, { on = "top", traction = [0, -1e6] } ]
+)toml",
+                               {}, folder.path());
+  const Table nodes = run.nodes();
+  const std::vector<double> y = nodes.numbers("y"), u = nodes.numbers("u_y");
+  for (std::size_t i = 0; i < y.size(); ++i)
+    EXPECT_NEAR(u[i], -5e-6 * y[i], 1e-20);
+}
+
 std::string complaint(const std::string &text, const std::vector<std::string> &overrides) {
   try {
     run_text(text, overrides);
@@ -260,6 +281,13 @@ std::string complaint(const std::string &text, const std::vector<std::string> &o
 TEST(Axisymmetric, WhatHasNoMeaningAroundAnAxisIsRefused) {
   using ::testing::HasSubstr;
   EXPECT_THAT(complaint(rubbed, {"mesh.degree=2"}), HasSubstr("needs mesh.degree = 1"));
+  for (const char *near : {"5e-12", "1e-6", "4e-5"})
+    EXPECT_THAT(complaint(rubbed, {"mesh.degree=2", fmt::format("mesh.box.min=[{}, 0]", near)}),
+                HasSubstr("needs mesh.degree = 1"));
+  for (const char *moved :
+       {"initial.displacement=[1e-9, 0]", "contact.foundation_displacement=['t', 0]"})
+    EXPECT_THAT(complaint(rubbed, {moved}), HasSubstr("on the axis of the body")) << moved;
+  EXPECT_THAT(complaint(rubbed, {"contact.on='left'"}), HasSubstr("lies on the axis"));
   EXPECT_THAT(complaint(rubbed, {"mesh.box.min=[-0.01, 0]"}), HasSubstr("x is the radius"));
   EXPECT_THAT(complaint(rubbed, {"boundary[0].displacement=[1e-7, 0]"}),
               HasSubstr("on the axis of the body"));
