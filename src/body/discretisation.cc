@@ -653,12 +653,13 @@ std::vector<output::NamedBoundary> Discretisation<dim>::boundaries() const {
       }
     all.push_back({name, separated(parallel::joined_on_first(facets)), inside});
   };
-  for (const auto &[name, ids] : parts_->mesh.boundaries)
-    add(name, false,
-        [&](const auto &face) { return face.at_boundary() && ids.contains(face.boundary_id()); });
-  for (const auto &[name, ids] : parts_->mesh.inner)
-    add(name, true, [&](const auto &face) {
-      return ids.contains(face.at_boundary() ? face.boundary_id() : face.manifold_id());
+  for (const auto &named : parts_->mesh.boundaries)
+    add(named.first, false, [&](const auto &face) {
+      return face.at_boundary() && named.second.contains(face.boundary_id());
+    });
+  for (const auto &named : parts_->mesh.inner)
+    add(named.first, true, [&](const auto &face) {
+      return named.second.contains(face.at_boundary() ? face.boundary_id() : face.manifold_id());
     });
   return all;
 }

@@ -272,7 +272,7 @@ void ResultFolder::put_history(const HistoryRow &row) {
     history_header_ = header;
   if (header != history_header_)
     throw std::invalid_argument("put_history: not the quantities of the first row");
-  table("history.csv", [&] { return header; }).append(history_line(row));
+  table("history.csv", [&] { return history_header_; }).append(history_line(row));
 }
 
 void ResultFolder::put_nodes(const std::vector<Vector3> &points, const PointFields &fields) {

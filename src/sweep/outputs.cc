@@ -174,8 +174,10 @@ void add_motion(const casefile::Case &asked, List &list) {
 
 void add_probes(const casefile::Case &asked, List &list) {
   for (const casefile::ProbeCase &probe : asked.probes) {
-    for (int c = 0; c < asked.dimension && !probe.is_line(); ++c)
-      list.add("m", {probe.name + ".u_" + axes[c]});
+    for (const char *axis :
+         asked.dimension == 2 ? std::vector{"x", "y"} : std::vector{"x", "y", "z"})
+      if (!probe.is_line())
+        list.add("m", {probe.name + ".u_" + axis});
     for (const Output &field : fields())
       if (field.name != "displacement" && !probe.is_line())
         list.add(field.unit, {probe.name + "." + field.name});
