@@ -478,17 +478,19 @@ std::vector<Node> Discretisation<dim>::nodes_of_facets(const IsAsked &is_asked) 
 template <int dim>
 std::vector<Node> Discretisation<dim>::nodes_on(const std::vector<std::string> &boundaries) const {
   std::vector<std::string> outer;
-  std::set<dealii::types::manifold_id> inner;
+  std::vector<const std::set<mesh::FacetCorners<dim>> *> inner;
   for (const std::string &name : boundaries)
     if (const auto found = parts_->mesh.inner.find(name); found != parts_->mesh.inner.end())
-      inner.insert(found->second.begin(), found->second.end());
+      inner.push_back(&found->second);
     else
       outer.push_back(name);
   const auto ids = ids_of(parts_->mesh, outer);
   return nodes_of_facets([&](const auto &face) {
-    if (!face.at_boundary())
-      return inner.contains(face.manifold_id());
-    return ids.contains(face.boundary_id()) || inner.contains(face.boundary_id());
+    if (face.at_boundary() && ids.contains(face.boundary_id()))
+      return true;
+    return !inner.empty() && std::any_of(inner.begin(), inner.end(), [&](const auto *facets) {
+      return facets->contains(mesh::corners_of<dim>(face));
+    });
   });
 }
 
@@ -658,9 +660,8 @@ std::vector<output::NamedBoundary> Discretisation<dim>::boundaries() const {
       return face.at_boundary() && named.second.contains(face.boundary_id());
     });
   for (const auto &named : parts_->mesh.inner)
-    add(named.first, true, [&](const auto &face) {
-      return named.second.contains(face.at_boundary() ? face.boundary_id() : face.manifold_id());
-    });
+    add(named.first, true,
+        [&](const auto &face) { return named.second.contains(mesh::corners_of<dim>(face)); });
   return all;
 }
 

@@ -46,12 +46,14 @@ std::vector<dealii::Point<dim>> points_of(const MeshFile &file) {
   return points;
 }
 
-// A boundary id, or of a facet between cells a manifold id, is the index of its set of names.
+// A boundary id is the index of the set of names that a facet has; of facets with a name that lies
+// inside, their corners.
 template <int dim>
-void set_ids(dealii::Triangulation<dim> &cells, const MeshFile &file) {
+void name_facets(Mesh<dim> &mesh, const MeshFile &file) {
   const ElementTable facets(file.facets, file.vertices_per_facet());
+  const std::vector<std::string> inner = file.inner_names();
   std::vector<std::uint32_t> vertices;
-  for (const auto &cell : cells.active_cell_iterators())
+  for (const auto &cell : mesh.cells->active_cell_iterators())
     for (const auto &face : cell->face_iterators()) {
       vertices.clear();
       for (const unsigned int v : face->vertex_indices())
@@ -62,8 +64,10 @@ void set_ids(dealii::Triangulation<dim> &cells, const MeshFile &file) {
       const int set = file.boundaries.set_of[found.front()];
       if (face->at_boundary())
         face->set_boundary_id(static_cast<dealii::types::boundary_id>(set));
-      else
-        face->set_manifold_id(static_cast<dealii::types::manifold_id>(set));
+      for (const int member : file.boundaries.sets[static_cast<std::size_t>(set)])
+        if (const std::string &name = file.boundaries.names[static_cast<std::size_t>(member)];
+            std::find(inner.begin(), inner.end(), name) != inner.end())
+          mesh.inner[name].insert(corners_of<dim>(*face));
     }
 }
 
@@ -79,14 +83,10 @@ Mesh<dim> imported(const MeshFile &file) {
   if (!mesh.simplices)
     dealii::GridTools::consistently_order_cells(cells);
   mesh.cells->create_triangulation(points_of<dim>(file), cells, dealii::SubCellData());
-  set_ids(*mesh.cells, file);
+  name_facets(mesh, file);
   for (const std::string &name : file.boundary_names()) {
     const std::vector<int> sets = file.boundaries.sets_with(name);
     mesh.boundaries[name].insert(sets.begin(), sets.end());
-  }
-  for (const std::string &name : file.inner_names()) {
-    const std::vector<int> sets = file.boundaries.sets_with(name);
-    mesh.inner[name].insert(sets.begin(), sets.end());
   }
   return mesh;
 }
