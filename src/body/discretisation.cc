@@ -293,6 +293,28 @@ std::vector<std::vector<double>> Discretisation<dim>::corner_shares() const {
 }
 
 template <int dim>
+void Discretisation<dim>::for_each_cell_nodes(
+    const std::function<void(std::span<const Node>)> &visit) const {
+  for (std::size_t i = 0; i < parts_->cells.size(); ++i)
+    visit(parts_->nodes_of(i));
+}
+
+template <int dim>
+ReferenceShapes<dim> Discretisation<dim>::shapes_at(
+    const std::array<double, dim> &reference) const {
+  dealii::Point<dim> place;
+  std::copy(reference.begin(), reference.end(), place.begin_raw());
+  ReferenceShapes<dim> shapes;
+  for (unsigned int a = 0; a < parts_->element->n_dofs_per_cell(); ++a)
+    shapes.values.push_back(parts_->element->shape_value(a, place));
+  for (unsigned int v = 0; v < parts_->linear->n_dofs_per_cell(); ++v) {
+    shapes.corners.push_back(parts_->linear->shape_value(v, place));
+    shapes.corner_gradients.push_back(plain<dim>(parts_->linear->shape_grad(v, place)));
+  }
+  return shapes;
+}
+
+template <int dim>
 template <class Rule>
 void Discretisation<dim>::visit_cells(
     const Rule &rule, Modes modes,
@@ -344,6 +366,22 @@ void Discretisation<dim>::for_each_facet(
     const std::vector<std::string> &boundaries,
     const std::function<void(const Quadrature<dim> &)> &visit) const {
   const auto ids = ids_of(parts_->mesh, boundaries);
+  visit_facets([&](unsigned int id) { return ids.contains(id); }, visit);
+}
+
+template <int dim>
+void Discretisation<dim>::for_each_facet_on_both(
+    const std::vector<std::string> &boundaries, const std::vector<std::string> &others,
+    const std::function<void(const Quadrature<dim> &)> &visit) const {
+  const auto ids = ids_of(parts_->mesh, boundaries), other_ids = ids_of(parts_->mesh, others);
+  visit_facets([&](unsigned int id) { return ids.contains(id) && other_ids.contains(id); }, visit);
+}
+
+// `is_meant` is asked with the facet's part of the boundary.
+template <int dim>
+void Discretisation<dim>::visit_facets(
+    const std::function<bool(unsigned int)> &is_meant,
+    const std::function<void(const Quadrature<dim> &)> &visit) const {
   dealii::FEFaceValues<dim> shape(*parts_->mapping, *parts_->element, parts_->facet_rule,
                                   dealii::update_values | dealii::update_JxW_values |
                                       dealii::update_quadrature_points |
@@ -352,7 +390,7 @@ void Discretisation<dim>::for_each_facet(
   for (std::size_t i = 0; i < parts_->cells.size(); ++i) {
     const auto &cell = parts_->cells[i];
     for (const unsigned int f : cell->face_indices()) {
-      if (!cell->face(f)->at_boundary() || !ids.count(cell->face(f)->boundary_id()))
+      if (!cell->face(f)->at_boundary() || !is_meant(cell->face(f)->boundary_id()))
         continue;
       shape.reinit(cell, f);
       parts_->copy(shape, parts_->nodes_of(i), plain_values);

@@ -44,6 +44,15 @@ struct Quadrature {
   std::array<double, 3> centre() const;
 };
 
+/// Shape functions at a place of the reference cell, which is (0, 1)^dim or, of simplices, has its
+/// corners at 0 and 1 along each axis.
+template <int dim>
+struct ReferenceShapes {
+  std::vector<double> values;   ///< by node of a cell
+  std::vector<double> corners;  ///< by corner: of the linear ones, which say where the place is
+  std::vector<std::array<double, dim>> corner_gradients;  ///< of these [1]
+};
+
 /// Neighbourhood of the nodes in compressed rows: node i shares a cell with column[row[i]] ...
 /// column[row[i+1] - 1], sorted, itself included. On several ranks that of this rank's cells; rows
 /// of nodes that these do not touch are empty.
@@ -86,6 +95,10 @@ class Discretisation {
   /// unknown name.
   void for_each_facet(const std::vector<std::string> &boundaries,
                       const std::function<void(const Quadrature<dim> &)> &visit) const;
+  /// The same of the facets that are on boundaries of both lists.
+  void for_each_facet_on_both(const std::vector<std::string> &boundaries,
+                              const std::vector<std::string> &others,
+                              const std::function<void(const Quadrature<dim> &)> &visit) const;
   /// Nodes on the closure of the named boundaries, ascending, of all ranks.
   std::vector<Node> nodes_on(const std::vector<std::string> &boundaries) const;
 
@@ -97,6 +110,12 @@ class Discretisation {
   /// the corner's linear shape function there. Shares of a node add up to 1.
   std::vector<std::vector<double>> corner_shares() const;
 
+  /// Calls `visit` for the nodes of every cell of this rank. Corners come first; of quadrilaterals
+  /// and hexahedra x turns fastest.
+  void for_each_cell_nodes(const std::function<void(std::span<const Node>)> &visit) const;
+  /// The same in every cell.
+  ReferenceShapes<dim> shapes_at(const std::array<double, dim> &reference) const;
+
   /// The grid as the output wants it: all nodes, and this rank's cells in the order of
   /// `for_each_cell`.
   output::Grid grid() const;
@@ -105,6 +124,8 @@ class Discretisation {
   struct Parts;
   std::unique_ptr<Parts> parts_;
 
+  void visit_facets(const std::function<bool(unsigned int)> &is_meant,
+                    const std::function<void(const Quadrature<dim> &)> &visit) const;
   template <class Rule>
   void visit_cells(const Rule &rule, Modes modes,
                    const std::function<void(const Quadrature<dim> &)> &visit) const;

@@ -317,6 +317,7 @@ void declare(Visitor &v, Case &c) {
           [&](Visitor &inner) { declare(inner, c.model, c.dimension); });
   v.table({.name = "solver", .description = "How the equations are solved"},
           [&](Visitor &inner) { declare(inner, c.solver, c.contacts); });
+  declare_probes(v, c.probes, c.mesh, c.dimension);
   v.table({.name = "output", .description = "What a run leaves in its folder"},
           [&](Visitor &inner) { declare(inner, c.output); });
 }

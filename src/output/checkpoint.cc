@@ -19,7 +19,7 @@ namespace tourmaline::output {
 namespace {
 
 constexpr std::string_view magic = "Tourmaline checkpoint\n";
-constexpr std::uint64_t format_version = 4;
+constexpr std::uint64_t format_version = 5;
 
 /// Writes one member behind the other.
 class Writer {
@@ -163,6 +163,12 @@ void write_checkpoint(const std::filesystem::path &path, const Checkpoint &check
     file.text(entry.file);
   }
   file.number(checkpoint.position.field_bytes);
+  file.number(std::uint64_t{checkpoint.position.probes.size()});
+  for (const auto &[name, table] : checkpoint.position.probes) {
+    file.text(name);
+    file.number(table.bytes);
+    file.number(table.checksum);
+  }
   file.number(std::uint64_t{checkpoint.numbers.all().size()});
   for (const auto &[name, values] : checkpoint.numbers.all()) {
     file.text(name);
@@ -189,6 +195,11 @@ Checkpoint read_checkpoint(const std::filesystem::path &path) {
     checkpoint.position.series.push_back({time, file.text()});
   }
   checkpoint.position.field_bytes = file.number();
+  for (std::uint64_t left = file.number(); left > 0; --left) {
+    TablePosition &table = checkpoint.position.probes[file.text()];
+    table.bytes = file.number();
+    table.checksum = file.number();
+  }
   for (std::uint64_t left = file.number(); left > 0; --left) {
     const std::string name = file.text();
     checkpoint.numbers.put(name, file.numbers());

@@ -47,8 +47,9 @@ struct TablePosition {
 /// How far the files of a result folder have come.
 struct FolderPosition {
   TablePosition contact, history;
-  std::vector<PvdEntry> series;   ///< the field files
-  std::uint64_t field_bytes = 0;  ///< of those of all pieces together
+  std::vector<PvdEntry> series;                      ///< the field files
+  std::uint64_t field_bytes = 0;                     ///< of those of all pieces together
+  std::map<std::string, TablePosition> probes = {};  ///< by the name of the table's file
 };
 
 /// A run between two steps: with it a new process continues to the same bytes.

@@ -153,4 +153,27 @@ std::string history_line(const HistoryRow &row) {
   return text;
 }
 
+std::string probe_header(const ProbeRows &probe) {
+  std::string text;
+  Line line(text);
+  line << "step"
+       << "time";
+  for (const std::string &name : probe.columns)
+    line << name;
+  line.end();
+  return text;
+}
+
+std::string probe_lines(int step, double time, const ProbeRows &probe) {
+  std::string text;
+  for (const std::vector<double> &row : probe.rows) {
+    Line line(text);
+    line << step << time;
+    for (const double value : row)
+      line << value;
+    line.end();
+  }
+  return text;
+}
+
 }  // namespace tourmaline::output

@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 
+#include "output/probe_rows.h"
 #include "output/records.h"
 
 /// The tables of a run as text: comma-separated, a header line, '\n' line ends, SI units, 17
@@ -24,5 +25,9 @@ std::string contact_lines(int dimension, int step, double time, std::span<const 
 /// step,time,newton_iterations,residual,stick,slip,open, then the row's own quantities
 std::string history_header(const HistoryRow &row);
 std::string history_line(const HistoryRow &row);
+
+/// step,time, then the probe's own columns; a line for each of its rows
+std::string probe_header(const ProbeRows &probe);
+std::string probe_lines(int step, double time, const ProbeRows &probe);
 
 }  // namespace tourmaline::output

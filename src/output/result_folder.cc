@@ -46,14 +46,24 @@ std::optional<unsigned long long> step_of_field_file(const std::string &name) {
 
 constexpr std::string_view part = ".part";
 
+bool is_of_probe(std::string_view name) {
+  return name.starts_with("probe-") && name.ends_with(".csv");
+}
+
+/// The file's name without what it has while it is being written.
+std::string_view without_part(std::string_view name) {
+  if (name.ends_with(part))
+    name.remove_suffix(part.size());
+  return name;
+}
+
 /// Whether a run gives a file this name, in its place or while it is being written.
 bool is_ours(std::string_view name) {
   constexpr std::array<std::string_view, 10> others{
       "result.pvd",   "contact.pvd",   "nodes.csv",       "contact.csv", "history.csv",
       "summary.json", "resolved.toml", "boundaries.json", "report.html", checkpoint_name};
-  if (name.ends_with(part))
-    name.remove_suffix(part.size());
-  return step_of_field_file(std::string(name)) ||
+  name = without_part(name);
+  return step_of_field_file(std::string(name)) || is_of_probe(name) ||
          std::find(others.begin(), others.end(), name) != others.end();
 }
 
@@ -87,7 +97,8 @@ void remove_files(const fs::path &directory, const Which &which) {
 /// What an interrupted run wrote after its checkpoint, and what its end left besides the tables.
 bool is_later(const std::string &name, std::uint64_t step) {
   const bool unfinished = name.ends_with(part) && name != "contact.csv.part" &&
-                          name != "history.csv.part" && is_ours(name);
+                          name != "history.csv.part" && !is_of_probe(without_part(name)) &&
+                          is_ours(name);
   const auto of_step = step_of_field_file(name);
   return unfinished || (of_step && *of_step > step) || name == "nodes.csv" ||
          name == "report.html" || name == "summary.json";
@@ -110,6 +121,16 @@ std::uint64_t field_bytes(const fs::path &directory, std::uint64_t last_step,
   return bytes;
 }
 
+std::vector<std::string> probe_files(const fs::path &directory) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator entry(directory, error), end; !error && entry != end;
+       entry.increment(error))
+    if (std::string name = entry->path().filename().string(); is_of_probe(name))
+      names.push_back(std::move(name));
+  return names;
+}
+
 }  // namespace
 
 void require_position(const fs::path &directory, const FolderPosition &position) {
@@ -125,11 +146,15 @@ void require_position(const fs::path &directory, const FolderPosition &position)
   }
   require_table(directory / "contact.csv", position.contact);
   require_table(directory / "history.csv", position.history);
+  for (const auto &[name, table] : position.probes)
+    require_table(directory / name, table);
 }
 
 std::map<std::string, std::uint64_t> file_sizes(const fs::path &directory) {
   std::map<std::string, std::uint64_t> sizes;
-  for (const char *name : {"boundaries.json", "contact.csv", "history.csv", "nodes.csv"}) {
+  std::vector<std::string> tables = probe_files(directory);
+  tables.insert(tables.end(), {"boundaries.json", "contact.csv", "history.csv", "nodes.csv"});
+  for (const std::string &name : tables) {
     std::error_code missing;
     if (const std::uint64_t size = fs::file_size(directory / name, missing); !missing)
       sizes[name] = size;
@@ -189,6 +214,8 @@ ResultFolder::ResultFolder(fs::path directory, int dimension, Piece piece,
     contact_.emplace(directory_ / "contact.csv", position.contact);
   if (position.history.bytes > 0)
     history_.emplace(directory_ / "history.csv", position.history);
+  for (const auto &[name, table] : position.probes)
+    probes_.try_emplace(name, directory_ / name, table);
   remove_files(directory_,
                [&](const std::string &name) { return is_later(name, checkpoint.step); });
   for (const PvdEntry &entry : position.series)
@@ -258,6 +285,14 @@ void ResultFolder::put_history(const HistoryRow &row) {
   history_->append(history_line(row));
 }
 
+void ResultFolder::put_probe(int step, double time, const ProbeRows &probe) {
+  const std::string name = probe_file(probe.name);
+  auto table = probes_.find(name);
+  if (table == probes_.end())
+    table = probes_.try_emplace(name, directory_ / name, probe_header(probe)).first;
+  table->second.append(probe_lines(step, time, probe));
+}
+
 void ResultFolder::put_nodes(const std::vector<Vector3> &points, const PointFields &fields) {
   write_file(directory_ / "nodes.csv", nodes_table(dimension_, points, fields));
 }
@@ -284,6 +319,9 @@ void ResultFolder::sync_results() {
   for (const char *name : {"contact.csv", "history.csv", "nodes.csv"})
     if (std::error_code error; fs::exists(directory_ / name, error))
       sync_path(directory_ / name);
+  for (const auto &[name, table] : probes_)
+    if (std::error_code error; fs::exists(directory_ / name, error))
+      sync_path(directory_ / name);
 }
 
 void ResultFolder::sync_fields() {
@@ -303,6 +341,10 @@ void ResultFolder::put_checkpoint(Checkpoint checkpoint) {
   all.insert(all.end(), series_.begin(), series_.end());
   checkpoint.position = {synced(contact_), synced(history_), all,
                          field_bytes(directory_, checkpoint.step)};
+  for (auto &[name, table] : probes_) {
+    table.sync();
+    checkpoint.position.probes[name] = table.position();
+  }
   write_checkpoint(directory_ / checkpoint_name, checkpoint);
 }
 
@@ -315,6 +357,8 @@ void ResultFolder::finish() {
     contact_->finish();
   if (history_)
     history_->finish();
+  for (auto &[name, table] : probes_)
+    table.finish();
 }
 
 }  // namespace tourmaline::output

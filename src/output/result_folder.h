@@ -13,6 +13,7 @@
 #include "output/contact_surface.h"
 #include "output/folder_lock.h"
 #include "output/growing_table.h"
+#include "output/probe_rows.h"
 #include "output/pvd.h"
 #include "output/records.h"
 #include "output/summary.h"
@@ -87,6 +88,9 @@ class ResultFolder {
   /// first row.
   void put_history(const HistoryRow &row);
 
+  /// Rows of probe-NAME.csv.
+  void put_probe(int step, double time, const ProbeRows &probe);
+
   /// nodes.csv; rows in the order of the points.
   void put_nodes(const std::vector<Vector3> &points, const PointFields &fields);
 
@@ -99,8 +103,9 @@ class ResultFolder {
   /// then.
   void put_checkpoint(Checkpoint checkpoint);
 
-  /// Moves contact.csv and history.csv into place; after a failed solve too, so that the steps that
-  /// were computed are kept. Without it they are discarded. Idempotent; no rows can follow.
+  /// Moves contact.csv, history.csv and the probes' tables into place; after a failed solve too, so
+  /// that the steps that were computed are kept. Without it they are discarded. Idempotent; no rows
+  /// can follow.
   void finish();
 
   const std::filesystem::path &directory() const { return directory_; }
@@ -120,6 +125,7 @@ class ResultFolder {
   std::vector<PvdEntry> series_, contact_series_;
   std::vector<std::string> unsynced_;  // field files since the last checkpoint
   std::optional<GrowingTable> contact_, history_;
+  std::map<std::string, GrowingTable> probes_;  // by the names of their files
   std::string history_header_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "body/recovery.h"
 #include "output/result_folder.h"
+#include "run/probes.h"
 #include "run/schedule.h"
 #include "solve/balance.h"
 #include "solve/judgement.h"
@@ -15,7 +16,7 @@
 namespace tourmaline::run {
 
 /// Turns states into what the files hold: fields every so many steps, contact rows and a line of
-/// history every step, nodes and extremes at the end.
+/// history every step, the probes' rows likewise, nodes and extremes at the end.
 template <int dim>
 class Recorder {
  public:
@@ -71,6 +72,7 @@ class Recorder {
   output::ContactFacets contact_facets_;  // on the first rank
   std::optional<solve::Balance<dim>> balance_;
   solve::Judgement judgement_;
+  Probes<dim> probes_;
   double seconds_ = 0;
 };
 

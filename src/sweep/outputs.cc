@@ -14,6 +14,7 @@
 #include "case/nearest.h"
 #include "case/toml_text.h"
 #include "contact/contacts.h"
+#include "output/probe_rows.h"
 #include "report/table.h"
 #include "report/text_file.h"
 #include "tourmaline/case/case.h"
@@ -175,6 +176,19 @@ void add_extremes(int dimension, List &list) {
         list.add("m", {"at_" + (which + field.name) + "_" + axes[c]});
 }
 
+// As run/probes.cc writes them.
+void add_probes(const casefile::Case &asked, List &list) {
+  for (const casefile::ProbeCase &probe : asked.probes) {
+    if (!probe.at)
+      continue;
+    for (const char *prefix : {".", ".u_"})
+      for (int c = 0; c < asked.dimension; ++c)
+        list.add("m", {probe.name + prefix + axes[c]});
+    list.add("V", {probe.name + ".potential"});
+    list.add("K", {probe.name + ".temperature"});
+  }
+}
+
 }  // namespace
 
 std::vector<Output> outputs_of(const casefile::Case &asked) {
@@ -198,6 +212,7 @@ std::vector<Output> outputs_of(const casefile::Case &asked) {
   add_extremes(asked.dimension, list);
   add_contact_extremes(asked, list);
   add_each_contact(asked, list);
+  add_probes(asked, list);
   return list.all;
 }
 
@@ -224,12 +239,17 @@ std::vector<Output> possible_outputs(const std::vector<casefile::Case> &cases) {
 
 namespace {
 
-constexpr std::string_view of_place = "at_";  // how the names of places begin, and no column's
+constexpr std::string_view of_place = "at_";  // how the names of places begin
+
+// Columns of probes, whose names may begin so, have a point.
+bool is_place(const std::string &name) {
+  return name.starts_with(of_place) && name.find('.') == std::string::npos;
+}
 
 std::string joined(const std::vector<std::string> &names, bool places) {
   std::string text;
   for (const std::string &name : names)
-    if (name.starts_with(of_place) == places)
+    if (is_place(name) == places)
       text += (text.empty() ? "" : ", ") + name;
   return text;
 }
@@ -265,7 +285,8 @@ class Chooser {
                                  const std::string &column, const std::string &behind) const {
     const auto meant = casefile::nearest(column, names_);
     fail(name,
-         "no column of history.csv and no place of an extreme is called so" +
+         "no column of history.csv or of a probe, as PROBE.COLUMN, and no place of an extreme is "
+         "called so" +
              (meant ? "; did you mean \"" + before + *meant + behind + "\"?" : "") +
              "; allowed: " + joined(names_, false) +
              ", each also as min:NAME, max:NAME, mean:NAME, rms:NAME, last:NAME or NAME@TIME" +
@@ -292,7 +313,7 @@ class Chooser {
     const Output *output = find(column);
     if (!output)
       fail_unknown(name, before, column, behind);
-    if (column.starts_with(of_place))
+    if (is_place(column))
       fail(name, column + " is a place, which a run has at its end only; write " + column);
     return {name, output->unit, column, reduction};
   }
@@ -369,21 +390,57 @@ std::map<std::string, double> places_in(const std::filesystem::path &file) {
   return places;
 }
 
+/// A column and the time of each of its rows.
+struct Series {
+  const std::vector<double> *times = nullptr, *values = nullptr;
+};
+
+/// The tables of a run's folder, of its probes those that somebody asks for.
+class Tables {
+ public:
+  explicit Tables(std::filesystem::path folder)
+      : folder_(std::move(folder)), history_(report::read_table(folder_ / "history.csv")) {
+    if (!history_.find("time"))
+      throw CaseError((folder_ / "history.csv").string() + ": is no history of a run");
+  }
+
+  /// Nothing where the run has no such column.
+  Series find(const std::string &name) {
+    if (const std::vector<double> *column = history_.find(name))
+      return {history_.find("time"), column};
+    const auto dot = name.rfind('.');
+    if (dot == std::string::npos)
+      return {};
+    const report::Table *probe = table_of(name.substr(0, dot));
+    return probe ? Series{probe->find("time"), probe->find(name.substr(dot + 1))} : Series{};
+  }
+
+ private:
+  const report::Table *table_of(const std::string &probe) {
+    const std::filesystem::path file = folder_ / output::probe_file(probe);
+    if (!probes_.contains(probe) && std::filesystem::exists(file))
+      probes_[probe] = report::read_table(file);
+    const auto found = probes_.find(probe);
+    return found == probes_.end() ? nullptr : &found->second;
+  }
+
+  std::filesystem::path folder_;
+  report::Table history_;
+  std::map<std::string, report::Table> probes_;
+};
+
 }  // namespace
 
 std::vector<double> read_outputs(const std::filesystem::path &folder,
                                  const std::vector<Output> &outputs) {
-  const report::Table history = report::read_table(folder / "history.csv");
+  Tables tables(folder);
   const std::map<std::string, double> places = places_in(folder / "summary.json");
   std::vector<double> values;
-  const std::vector<double> *times = history.find("time");
-  if (!times)
-    throw CaseError((folder / "history.csv").string() + ": is no history of a run");
   for (const Output &output : outputs) {
-    const std::vector<double> *column =
-        history.find(output.column.empty() ? output.name : output.column);
+    const Series series = tables.find(output.column.empty() ? output.name : output.column);
     const auto place = places.find(output.name);
-    values.push_back(column                  ? reduced(output.reduction, *times, *column)
+    values.push_back(series.times && series.values
+                         ? reduced(output.reduction, *series.times, *series.values)
                      : place != places.end() ? place->second
                                              : std::numeric_limits<double>::quiet_NaN());
   }

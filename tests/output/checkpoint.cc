@@ -24,6 +24,7 @@ Checkpoint example() {
   checkpoint.ranks = 2;
   checkpoint.step = 7;
   checkpoint.position = {{12, 3}, {34, 4}, {{0, "result_0000.vtu"}, {0.1, "result_0001.vtu"}}, 56};
+  checkpoint.position.probes = {{"probe-tip.csv", {78, 5}}, {"probe-a.csv", {9, 6}}};
   checkpoint.numbers.put("state", {1. / 3, -0., std::numeric_limits<double>::denorm_min()});
   checkpoint.numbers.put("nothing", {});
   return checkpoint;
@@ -42,6 +43,9 @@ TEST(Checkpoint, EveryNumberReadsBackToTheLastBit) {
   EXPECT_EQ(read.position.history.bytes, 34u);
   EXPECT_EQ(read.position.history.checksum, 4u);
   EXPECT_EQ(read.position.field_bytes, 56u);
+  ASSERT_EQ(read.position.probes.size(), 2u);
+  EXPECT_EQ(read.position.probes.at("probe-tip.csv").bytes, 78u);
+  EXPECT_EQ(read.position.probes.at("probe-tip.csv").checksum, 5u);
   ASSERT_EQ(read.position.series.size(), 2u);
   EXPECT_EQ(read.position.series[1].time, 0.1);
   EXPECT_EQ(read.position.series[1].file, "result_0001.vtu");

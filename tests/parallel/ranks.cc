@@ -120,6 +120,25 @@ TEST_P(Ranks, RegionsOfAMeshFileAndElectrodesOnItsCurvesAreTheSame) {
   expect_same_device(one_, several_, "lower", "upper");
 }
 
+// Each place belongs to the cells of one rank, those on edges between cells to one of several.
+TEST_P(Ranks, ProbesAreTheSame) {
+  ASSERT_NO_FATAL_FAILURE(run_twice(file_of(slipping_block) +
+                                    " --set 'probe=[{name=\"p\",at=[0.031,0.047,0.053]},"
+                                    "{name=\"l\",from=[0,0,0],to=[0.1,0.1,0.1],points=9}]'"));
+  for (const char *file : {"probe-p.csv", "probe-l.csv"}) {
+    const Table one = read_table(folder_ / "one" / file),
+                several = read_table(folder_ / "several" / file);
+    for (const char *column : {"x", "y", "z"})
+      EXPECT_EQ(several.columns.at(column), one.columns.at(column));
+    expect_equal_quantities(several, one, {{"u_x", "u_y", "u_z"}, {"potential"}, {"temperature"}});
+  }
+}
+
+TEST_P(Ranks, AProbeOutsideIsToldOnce) {
+  expect_told_once(paper_ + "--set 'probe=[{name=\"p\",at=[0.05,0.2]}]'", 2,
+                   "the nearest place in it is [0.05, 0.1]");
+}
+
 TEST_P(Ranks, AWrongCaseIsToldOnce) {
   expect_told_once(paper_ + "--set time.stps=3", 2, "stps");
 }

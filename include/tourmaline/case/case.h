@@ -9,6 +9,7 @@
 #include "tourmaline/case/load_case.h"
 #include "tourmaline/case/material_case.h"
 #include "tourmaline/case/mesh_case.h"
+#include "tourmaline/case/probe_case.h"
 
 /// What the user asked for: plain structs, one for each table of the case file. They hold values
 /// that have been read and checked; defaults stand here and nowhere else. All values are SI.
@@ -69,6 +70,7 @@ struct Case {
   std::vector<ContactCase> contacts;  ///< no boundary in two of them
   ModelCase model;
   SolverCase solver;
+  std::vector<ProbeCase> probes;
   OutputCase output;
   LoadCase load;
   InitialCase initial;

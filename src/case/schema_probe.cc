@@ -1,0 +1,74 @@
+#include <fmt/format.h>
+
+#include "schema_parts.h"
+#include "sense.h"
+#include "tourmaline/case/mesh_case.h"
+#include "tourmaline/case/probe_case.h"
+
+namespace tourmaline::casefile {
+
+namespace {
+
+Key place_key(const std::string &name, const std::string &description, int dimension) {
+  return {.name = name,
+          .description = description,
+          .unit = "m",
+          .range = any(sense::coordinate),
+          .length = one_each_axis(dimension)};
+}
+
+const std::string kinds = "`at`, a place, or `from`, `to` and `points`, a line";
+
+std::string kind_complaint(const ProbeCase &probe) {
+  const bool is_line = probe.from || probe.to || probe.points;
+  const int given = (probe.at ? 1 : 0) + (is_line ? 1 : 0);
+  if (given != 1)
+    return (given == 0 ? "does not say where it looks; give "
+                       : "looks at one thing; give either ") +
+           kinds;
+  if (!is_line)
+    return "";
+  for (const auto &[name, is_given] :
+       {std::pair{"from", probe.from.has_value()}, std::pair{"to", probe.to.has_value()},
+        std::pair{"points", probe.points.has_value()}})
+    if (!is_given)
+      return fmt::format("has no `{}`; a line is from = [...], to = [...], points = 21", name);
+  return *probe.from == *probe.to ? "ends where it begins; give `at` for a single place" : "";
+}
+
+void declare(Visitor &v, ProbeCase &probe, int dimension) {
+  v.place(probe.where);
+  v.places(probe.places);
+  v.key({.name = "name",
+         .description = "of its table, probe-NAME.csv; letters, digits, _, - and .",
+         .required = true},
+        &probe.name);
+  v.optional(place_key("at",
+                       "a place in the body, not deformed: displacement, potential and "
+                       "temperature there, by the shape functions",
+                       dimension),
+             probe.at);
+  v.optional(place_key("from", "where a line of places begins, its first one", dimension),
+             probe.from);
+  v.optional(place_key("to", "where it ends, its last one", dimension), probe.to);
+  v.optional({.name = "points",
+              .description = "how many places of equal distance there are on the line",
+              .range = from_to(2, 100000)},
+             probe.points);
+  v.one_group({{"at"}, {"from", "to", "points"}});
+  v.check("", [&] { return kind_complaint(probe); });
+}
+
+}  // namespace
+
+void declare_probes(Visitor &v, std::vector<ProbeCase> &probes, const MeshCase & /*mesh*/,
+                    int dimension) {
+  const Key key = {.name = "probe",
+                   .description =
+                       "What a table of its own, probe-NAME.csv, tells in every step: "
+                       "the fields at a place or along a line"};
+  v.entries(key, probes,
+            [&](Visitor &inner, ProbeCase &probe) { declare(inner, probe, dimension); });
+}
+
+}  // namespace tourmaline::casefile

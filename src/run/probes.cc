@@ -1,0 +1,118 @@
+#include "run/probes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tourmaline/error.h"
+
+namespace tourmaline::run {
+
+namespace {
+
+constexpr const char *axes[] = {"x", "y", "z"};
+
+Vector3 in_space(const std::vector<double> &place) {
+  Vector3 all{};
+  std::copy(place.begin(), place.end(), all.begin());
+  return all;
+}
+
+// As in a case file, with digits enough for it to lie in the body when it is given there.
+std::string words(int dimension, const Vector3 &place) {
+  std::string text;
+  for (int axis = 0; axis < dimension; ++axis)
+    text += fmt::format("{}{:.12g}", axis == 0 ? "[" : ", ", place[axis] == 0 ? 0. : place[axis]);
+  return text + "]";
+}
+
+std::vector<Vector3> line(const Vector3 &from, const Vector3 &to, int points) {
+  std::vector<Vector3> all;
+  for (int i = 0; i < points; ++i) {
+    const double share = static_cast<double>(i) / (points - 1);
+    Vector3 &place = all.emplace_back();
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      place[axis] = (1 - share) * from[axis] + share * to[axis];
+  }
+  return all;
+}
+
+[[noreturn]] void fail(int dimension, const casefile::ProbeCase &probe, std::size_t number,
+                       const Vector3 &asked, const body::Interpolation &nearest) {
+  const std::string place = words(dimension, asked),
+                    what = probe.at ? fmt::format("at = {}: this place", place)
+                                    : fmt::format("from: place {} of the {} on this line, {},",
+                                                  number + 1, *probe.points, place);
+  throw CaseError(
+      fmt::format("{} {} lies outside of the body; the nearest place in it is {}, {:.3g} m away",
+                  probe.where, what, words(dimension, nearest.place), nearest.distance));
+}
+
+}  // namespace
+
+template <int dim>
+double Probes<dim>::Places::along(std::size_t i) const {
+  return std::hypot(at[i][0] - at[0][0], at[i][1] - at[0][1], at[i][2] - at[0][2]);
+}
+
+template <int dim>
+typename Probes<dim>::Places Probes<dim>::places_of(const casefile::ProbeCase &probe) {
+  if (probe.at)
+    return {probe.name, false, {in_space(*probe.at)}, {}};
+  return {probe.name, true, line(in_space(*probe.from), in_space(*probe.to), *probe.points), {}};
+}
+
+template <int dim>
+Probes<dim>::Probes(const casefile::Case &asked, const body::Discretisation<dim> &body) {
+  std::vector<Vector3> all;
+  for (const casefile::ProbeCase &probe : asked.probes) {
+    const Places &places = places_.emplace_back(places_of(probe));
+    all.insert(all.end(), places.at.begin(), places.at.end());
+  }
+  if (all.empty())
+    return;
+  const std::vector<body::Interpolation> found = body::nearest_places(body, all);
+  auto next = found.begin();
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    Places &places = places_[i];
+    for (std::size_t p = 0; p < places.at.size(); ++p, ++next) {
+      if (next->distance > 0)
+        fail(dim, asked.probes[i], p, places.at[p], *next);
+      places.fields.push_back(*next);
+    }
+  }
+}
+
+template <int dim>
+output::ProbeRows Probes<dim>::rows_of(const Places &probe, std::span<const double> state) {
+  output::ProbeRows rows{probe.name, {}, {}};
+  if (probe.is_line)
+    rows.columns.emplace_back("s");
+  for (const char *prefix : {"", "u_"})
+    for (int axis = 0; axis < dim; ++axis)
+      rows.columns.push_back(std::string(prefix) + axes[axis]);
+  rows.columns.insert(rows.columns.end(), {"potential", "temperature"});
+  for (std::size_t i = 0; i < probe.at.size(); ++i) {
+    std::vector<double> &row = rows.rows.emplace_back();
+    if (probe.is_line)
+      row.push_back(probe.along(i));
+    row.insert(row.end(), probe.at[i].begin(), probe.at[i].begin() + dim);
+    for (int c = 0; c < body::Fields<dim>::count; ++c)
+      row.push_back(probe.fields[i].template value<dim>(state, c));
+  }
+  return rows;
+}
+
+template <int dim>
+std::vector<output::ProbeRows> Probes<dim>::rows(std::span<const double> state) const {
+  std::vector<output::ProbeRows> all;
+  for (const Places &probe : places_)
+    all.push_back(rows_of(probe, state));
+  return all;
+}
+
+template class Probes<2>;
+template class Probes<3>;
+
+}  // namespace tourmaline::run
