@@ -17,11 +17,12 @@ Key place_key(const std::string &name, const std::string &description, int dimen
           .length = one_each_axis(dimension)};
 }
 
-const std::string kinds = "`at`, a place, or `from`, `to` and `points`, a line";
+const std::string kinds =
+    "`at`, a place, or `from`, `to` and `points`, a line, or `on`, boundaries";
 
 std::string kind_complaint(const ProbeCase &probe) {
   const bool is_line = probe.from || probe.to || probe.points;
-  const int given = (probe.at ? 1 : 0) + (is_line ? 1 : 0);
+  const int given = (probe.at ? 1 : 0) + (is_line ? 1 : 0) + (probe.on ? 1 : 0);
   if (given != 1)
     return (given == 0 ? "does not say where it looks; give "
                        : "looks at one thing; give either ") +
@@ -36,7 +37,7 @@ std::string kind_complaint(const ProbeCase &probe) {
   return *probe.from == *probe.to ? "ends where it begins; give `at` for a single place" : "";
 }
 
-void declare(Visitor &v, ProbeCase &probe, int dimension) {
+void declare(Visitor &v, ProbeCase &probe, const MeshCase &mesh, int dimension) {
   v.place(probe.where);
   v.places(probe.places);
   v.key({.name = "name",
@@ -55,20 +56,31 @@ void declare(Visitor &v, ProbeCase &probe, int dimension) {
               .description = "how many places of equal distance there are on the line",
               .range = from_to(2, 100000)},
              probe.points);
-  v.one_group({{"at"}, {"from", "to", "points"}});
+  Key on = on_sides(
+      "boundary, or list of boundaries, also of a contact: the force and its moment on "
+      "the body, the charge and heat that leave it through them, and their area",
+      mesh);
+  on.required = false;
+  v.optional(on, probe.on);
+  v.check("on", [&] { return probe.on ? inside_complaint(*probe.on, mesh) : std::string(); });
+  Key about = place_key("about", "what the moment of the force is about", dimension);
+  about.default_words = "the origin";
+  about.used = with("on", probe.on.has_value());
+  v.key(about, &probe.about);
+  v.one_group({{"at"}, {"from", "to", "points"}, {"on"}});
   v.check("", [&] { return kind_complaint(probe); });
 }
 
 }  // namespace
 
-void declare_probes(Visitor &v, std::vector<ProbeCase> &probes, const MeshCase & /*mesh*/,
+void declare_probes(Visitor &v, std::vector<ProbeCase> &probes, const MeshCase &mesh,
                     int dimension) {
   const Key key = {.name = "probe",
                    .description =
                        "What a table of its own, probe-NAME.csv, tells in every step: "
-                       "the fields at a place or along a line"};
+                       "the fields at a place or along a line, or what goes through boundaries"};
   v.entries(key, probes,
-            [&](Visitor &inner, ProbeCase &probe) { declare(inner, probe, dimension); });
+            [&](Visitor &inner, ProbeCase &probe) { declare(inner, probe, mesh, dimension); });
 }
 
 }  // namespace tourmaline::casefile

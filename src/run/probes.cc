@@ -64,24 +64,33 @@ typename Probes<dim>::Places Probes<dim>::places_of(const casefile::ProbeCase &p
 }
 
 template <int dim>
-Probes<dim>::Probes(const casefile::Case &asked, const body::Discretisation<dim> &body) {
+Probes<dim>::Probes(const solve::Model<dim> &model) {
+  find_places(model);
+  for (const casefile::ProbeCase &probe : model.asked.probes)
+    if (probe.on)
+      boundaries_.push_back({probe.name, in_space(probe.about), {model, *probe.on}});
+}
+
+template <int dim>
+void Probes<dim>::find_places(const solve::Model<dim> &model) {
+  std::vector<const casefile::ProbeCase *> asked;
   std::vector<Vector3> all;
-  for (const casefile::ProbeCase &probe : asked.probes) {
-    const Places &places = places_.emplace_back(places_of(probe));
-    all.insert(all.end(), places.at.begin(), places.at.end());
-  }
+  for (const casefile::ProbeCase &probe : model.asked.probes)
+    if (probe.at || probe.from) {
+      asked.push_back(&probe);
+      const Places &places = places_.emplace_back(places_of(probe));
+      all.insert(all.end(), places.at.begin(), places.at.end());
+    }
   if (all.empty())
     return;
-  const std::vector<body::Interpolation> found = body::nearest_places(body, all);
+  const std::vector<body::Interpolation> found = body::nearest_places(model.body, all);
   auto next = found.begin();
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    Places &places = places_[i];
-    for (std::size_t p = 0; p < places.at.size(); ++p, ++next) {
+  for (std::size_t i = 0; i < places_.size(); ++i)
+    for (std::size_t p = 0; p < places_[i].at.size(); ++p, ++next) {
       if (next->distance > 0)
-        fail(dim, asked.probes[i], p, places.at[p], *next);
-      places.fields.push_back(*next);
+        fail(dim, *asked[i], p, places_[i].at[p], *next);
+      places_[i].fields.push_back(*next);
     }
-  }
 }
 
 template <int dim>
@@ -105,10 +114,31 @@ output::ProbeRows Probes<dim>::rows_of(const Places &probe, std::span<const doub
 }
 
 template <int dim>
-std::vector<output::ProbeRows> Probes<dim>::rows(std::span<const double> state) const {
+output::ProbeRows Probes<dim>::rows_of(const Boundaries &probe, const solve::BoundaryFlow &flow) {
+  output::ProbeRows rows{probe.name, {}, {{}}};
+  const auto put = [&](const std::string &column, double value) {
+    rows.columns.push_back(column);
+    rows.rows[0].push_back(value);
+  };
+  for (int c = 0; c < dim; ++c)
+    put(std::string("force_") + axes[c], flow.force[c]);
+  for (int c = dim == 2 ? 2 : 0; c < 3; ++c)
+    put(std::string("moment_") + axes[c], flow.moment[c]);
+  put("charge", flow.charge);
+  put("heat", flow.heat);
+  put("area", probe.part.area());
+  return rows;
+}
+
+template <int dim>
+std::vector<output::ProbeRows> Probes<dim>::rows(double time,
+                                                 std::span<const solve::Passage> passages,
+                                                 std::span<const double> state) const {
   std::vector<output::ProbeRows> all;
   for (const Places &probe : places_)
     all.push_back(rows_of(probe, state));
+  for (const Boundaries &probe : boundaries_)
+    all.push_back(rows_of(probe, probe.part.flow(time, passages, state, probe.about)));
   return all;
 }
 

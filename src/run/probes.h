@@ -5,20 +5,23 @@
 
 #include "body/interpolation.h"
 #include "output/probe_rows.h"
-#include "tourmaline/case/case.h"
+#include "solve/boundary_flow.h"
+#include "solve/model.h"
 
 namespace tourmaline::run {
 
-/// What the case's probes tell of a state.
+/// What the case's probes tell of a step.
 template <int dim>
 class Probes {
  public:
   /// All ranks make one together. Throws CaseError for a place outside of the body, with the
   /// nearest one in it.
-  Probes(const casefile::Case &asked, const body::Discretisation<dim> &body);
+  explicit Probes(const solve::Model<dim> &model);
 
-  /// Of all probes in the order of the case.
-  std::vector<output::ProbeRows> rows(std::span<const double> state) const;
+  /// Of the step that ends at `time` [s] with that state; `passages` are those of its balance. All
+  /// ranks ask together.
+  std::vector<output::ProbeRows> rows(double time, std::span<const solve::Passage> passages,
+                                      std::span<const double> state) const;
 
  private:
   /// A place or a line.
@@ -31,10 +34,20 @@ class Probes {
     double along(std::size_t i) const;
   };
 
+  struct Boundaries {
+    std::string name;
+    Vector3 about;  ///< [m]
+    solve::BoundaryPart<dim> part;
+  };
+
+  void find_places(const solve::Model<dim> &model);
   static Places places_of(const casefile::ProbeCase &probe);
   static output::ProbeRows rows_of(const Places &probe, std::span<const double> state);
 
+  static output::ProbeRows rows_of(const Boundaries &probe, const solve::BoundaryFlow &flow);
+
   std::vector<Places> places_;
+  std::vector<Boundaries> boundaries_;
 };
 
 }  // namespace tourmaline::run

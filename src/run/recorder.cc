@@ -38,7 +38,7 @@ Vector<dim> tangential(const Vector<dim> &v, const Vector<dim> &normal) {
 
 template <int dim>
 Recorder<dim>::Recorder(const solve::Model<dim> &model, output::ResultFolder &folder)
-    : model_(model), folder_(folder), probes_(model.asked, model.body) {
+    : model_(model), folder_(folder), probes_(model) {
   for (std::size_t c = 0; c < model.laws.size(); ++c)
     linear_.push_back({model.laws[c].linear(contact::Crossing::heat),
                        model.laws[c].linear(contact::Crossing::charge)});
@@ -125,7 +125,7 @@ output::HistoryRow Recorder<dim>::step(int n, const solve::StepOutcome &outcome,
   check.quantities({{"residual", row.residual}});
   judgement_.step(n, time, balance_->judged(), measure);
   judgement_.forward_error(n, time, route.accuracy_so_far());
-  const std::vector<output::ProbeRows> probes = probes_.rows(state);
+  const std::vector<output::ProbeRows> probes = probes_.rows(time, balance_->passages(), state);
   output::CellFields cells;
   if (has_fields(n))
     cells = checked_fields(n, state);

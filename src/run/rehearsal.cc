@@ -12,7 +12,7 @@ namespace tourmaline::run {
 
 template <int dim>
 void rehearse(const solve::Model<dim> &model, int n_steps) {
-  Probes<dim>(model.asked, model.body);  // refuses places outside of the body
+  Probes<dim>{model};  // refuses places outside of the body
   const std::vector<double> before = body::initial_state(model.body, model.asked.initial);
   std::vector<double> state = before, loads;
   if (model.asked.time.is_dynamic())

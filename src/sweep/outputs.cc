@@ -176,9 +176,21 @@ void add_extremes(int dimension, List &list) {
         list.add("m", {"at_" + (which + field.name) + "_" + axes[c]});
 }
 
+void add_boundary_probe(int dimension, const std::string &prefix, List &list) {
+  for (int c = 0; c < dimension; ++c)
+    list.add(whole("N", dimension), {prefix + "force_" + axes[c]});
+  for (int c = dimension == 2 ? 2 : 0; c < 3; ++c)
+    list.add(whole("N m", dimension), {prefix + "moment_" + axes[c]});
+  list.add(whole("C", dimension), {prefix + "charge"});
+  list.add(whole("W", dimension), {prefix + "heat"});
+  list.add(whole("m^2", dimension), {prefix + "area"});
+}
+
 // As run/probes.cc writes them.
 void add_probes(const casefile::Case &asked, List &list) {
   for (const casefile::ProbeCase &probe : asked.probes) {
+    if (probe.on)
+      add_boundary_probe(asked.dimension, probe.name + ".", list);
     if (!probe.at)
       continue;
     for (const char *prefix : {".", ".u_"})

@@ -17,9 +17,12 @@ std::string error_of(const std::string &probes) {
   return error_in(example, {"probe=[" + probes + "]"});
 }
 
-TEST(Probes, PlacesAndLinesCanBeAsked) {
+TEST(Probes, PlacesLinesAndBoundariesCanBeAsked) {
   EXPECT_EQ(error_of("{ name = 'tip', at = [0.1, 0.05] }"), "no error");
   EXPECT_EQ(error_of("{ name = 'a.b-c_1', from = [0, 0], to = [0.1, 0.1], points = 2 }"),
+            "no error");
+  EXPECT_EQ(error_of("{ name = 'a', on = 'left' }, { name = 'b', on = ['top', 'bottom'], about = "
+                     "[0.1, 0] }"),
             "no error");
 }
 
@@ -70,6 +73,10 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"name = 'a', from = [1, 0], to = [1, 0], points = 3", "",
                 "ends where it begins; give `at`"},
         Mistake{"name = 'a', from = [0, 0], to = [1, 0], points = 1", " points", "must be >= 2"},
+        Mistake{"name = 'a', on = 'rihgt'", " on", "did you mean \"right\"?"},
+        Mistake{"name = 'a', on = 'left', at = [0, 0]", "", "give either"},
+        Mistake{"name = 'a', at = [0, 0], about = [0, 0]", " about", "is only used with on"},
+        Mistake{"name = 'a', on = 'left', about = [0]", " about", "has 1 entr"},
         Mistake{"at = [0, 0]", " name", "missing"},
         Mistake{"name = 'a', att = [0, 0]", " att", "did you mean \"at\"?"}));
 

@@ -79,10 +79,11 @@ boundary = [ { on = "right", displacement = [0, 0], potential = 0, temperature =
              { on = "top", traction = [0, "-50*t - 200*t*t"] } ]
 contact = { on = "left", friction = { law = "tresca", bound = 0.5 } }
 probe = [ { name = "tip", at = [0, 0.1] },
-          { name = "line", from = [0, 0], to = [0.1, 0.1], points = 3 } ]
+          { name = "line", from = [0, 0], to = [0.1, 0.1], points = 3 },
+          { name = "rubbed", on = "left" } ]
 )toml";
   expect_to_go_on("probed.toml", "150steps");
-  for (const char *name : {"tip", "line"})
+  for (const char *name : {"tip", "line", "rubbed"})
     EXPECT_TRUE(fs::exists(here() / "other/results" / ("probe-" + std::string(name) + ".csv")));
 }
 

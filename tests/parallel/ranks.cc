@@ -134,6 +134,31 @@ TEST_P(Ranks, ProbesAreTheSame) {
   }
 }
 
+// Of loads by place and time, whose shares stay with the ranks, too.
+TEST_P(Ranks, ProbesOfBoundariesAreTheSame) {
+  const std::vector<std::string> sides{"left", "right", "front", "back", "bottom", "top"};
+  std::string probes;
+  for (const std::string &side : sides)
+    probes += "\n[[probe]]\nname = '" + side + "'\non = '" + side + "'";
+  ASSERT_NO_FATAL_FAILURE(run_twice(file_of(slipping_block + probes) +
+                                    " --set 'contact.heat.coefficient=\"1+10*y\"'"
+                                    " --set 'contact.heat.foundation_temperature=\"-27+y*t\"'"));
+  const auto tables = [&](const char *run, const std::string &side) {
+    return read_table(folder_ / run / ("probe-" + side + ".csv"));
+  };
+  const double force = largest(tables("one", "right"), "force_x"), size = 0.1;
+  EXPECT_GT(force, 0);
+  for (const std::string &side : sides) {
+    const Table one = tables("one", side), several = tables("several", side);
+    for (const std::string axis : {"x", "y", "z"}) {
+      EXPECT_LE(difference(several, one, "force_" + axis, force), 1e-9);
+      EXPECT_LE(difference(several, one, "moment_" + axis, size * force), 1e-9);
+    }
+    EXPECT_LE(difference(several, one, "area", size * size), 1e-14);
+    EXPECT_LE(difference(several, one, "heat"), 1e-9);
+  }
+}
+
 TEST_P(Ranks, AProbeOutsideIsToldOnce) {
   expect_told_once(paper_ + "--set 'probe=[{name=\"p\",at=[0.05,0.2]}]'", 2,
                    "the nearest place in it is [0.05, 0.1]");

@@ -182,9 +182,10 @@ TEST(ChosenOutputs, LastIsWhatANameAloneSays) {
 
 // Of a place, `{name = "max.a"}`, in the paper's body.
 std::vector<casefile::Case> probed() {
-  return {shipped("ouafik-2020/insulated.toml", {"mesh.box.cells=[8,8]", "time.steps=2",
-                                                 "probe=[{name=\"max.a\",at=[0.03,0.1]},"
-                                                 "{name=\"l\",from=[0,0],to=[0.1,0],points=3}]"})};
+  return {shipped("ouafik-2020/insulated.toml",
+                  {"mesh.box.cells=[8,8]", "time.steps=2",
+                   "probe=[{name=\"max.a\",at=[0.03,0.1]},"
+                   "{name=\"l\",from=[0,0],to=[0.1,0],points=3},{name=\"clamp\",on=\"right\"}]"})};
 }
 
 TEST(ChosenOutputs, AProbeHasItsColumnsBehindAPoint) {
@@ -198,6 +199,17 @@ TEST(ChosenOutputs, AProbeHasItsColumnsBehindAPoint) {
               ThrowsMessage<CaseError>(HasSubstr("did you mean \"max.a.u_")));
   EXPECT_THAT([] { chosen_outputs({"l.u_x"}, probed()); },  // which has many rows in each step
               ThrowsMessage<CaseError>(HasSubstr("no column")));
+}
+
+TEST(ChosenOutputs, AProbeOfABoundaryHasAllColumnsOfItsTable) {
+  const output::TemporaryFolder folder;
+  run::simulate(probed().front(), folder.path(), {.quiet = true});
+  for (const std::string name : {"clamp", "max.a"})
+    for (const std::string &column : report::read_table(folder / ("probe-" + name + ".csv")).names)
+      if (column != "step" && column != "time") {
+        EXPECT_NO_THROW(chosen_outputs({name + "." + column}, probed())) << column;
+      }
+  EXPECT_EQ(chosen_outputs({"clamp.moment_z"}, probed()).front().unit, "N m/m");
 }
 
 TEST(ReadOutputs, OfAProbeAreTakenFromItsTable) {
