@@ -18,11 +18,12 @@ Key place_key(const std::string &name, const std::string &description, int dimen
 }
 
 const std::string kinds =
-    "`at`, a place, or `from`, `to` and `points`, a line, or `on`, boundaries";
+    "`at`, a place, or `from`, `to` and `points`, a line, or `on`, boundaries, or `region`";
 
 std::string kind_complaint(const ProbeCase &probe) {
   const bool is_line = probe.from || probe.to || probe.points;
-  const int given = (probe.at ? 1 : 0) + (is_line ? 1 : 0) + (probe.on ? 1 : 0);
+  const int given =
+      (probe.at ? 1 : 0) + (is_line ? 1 : 0) + (probe.on ? 1 : 0) + (probe.region ? 1 : 0);
   if (given != 1)
     return (given == 0 ? "does not say where it looks; give "
                        : "looks at one thing; give either ") +
@@ -67,7 +68,11 @@ void declare(Visitor &v, ProbeCase &probe, const MeshCase &mesh, int dimension) 
   about.default_words = "the origin";
   about.used = with("on", probe.on.has_value());
   v.key(about, &probe.about);
-  v.one_group({{"at"}, {"from", "to", "points"}, {"on"}});
+  v.optional({.name = "region",
+              .description = "region, or list of regions, by `name` or the names in a mesh file: "
+                             "volume, stored energies, means and extremes of the fields"},
+             probe.region);
+  v.one_group({{"at"}, {"from", "to", "points"}, {"on"}, {"region"}});
   v.check("", [&] { return kind_complaint(probe); });
 }
 
@@ -78,7 +83,8 @@ void declare_probes(Visitor &v, std::vector<ProbeCase> &probes, const MeshCase &
   const Key key = {.name = "probe",
                    .description =
                        "What a table of its own, probe-NAME.csv, tells in every step: "
-                       "the fields at a place or along a line, or what goes through boundaries"};
+                       "the fields at a place or along a line, "
+                       "what goes through boundaries, or what a region holds"};
   v.entries(key, probes,
             [&](Visitor &inner, ProbeCase &probe) { declare(inner, probe, mesh, dimension); });
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "case/probes.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::run {
@@ -64,18 +65,34 @@ typename Probes<dim>::Places Probes<dim>::places_of(const casefile::ProbeCase &p
 }
 
 template <int dim>
-Probes<dim>::Probes(const solve::Model<dim> &model) {
-  find_places(model);
+Probes<dim>::Probes(const solve::Model<dim> &model) : model_(model) {
+  find_places();
   for (const casefile::ProbeCase &probe : model.asked.probes)
     if (probe.on)
       boundaries_.push_back({probe.name, in_space(probe.about), {model, *probe.on}});
+  find_regions();
 }
 
 template <int dim>
-void Probes<dim>::find_places(const solve::Model<dim> &model) {
+void Probes<dim>::find_regions() {
+  const std::vector<casefile::RegionCase> &all = model_.asked.regions;
+  for (const casefile::ProbeCase &probe : model_.asked.probes) {
+    if (!probe.region)
+      continue;
+    std::vector<std::size_t> numbers;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (std::find(probe.region->begin(), probe.region->end(), called(all[i])) !=
+          probe.region->end())
+        numbers.push_back(i);
+    regions_.push_back({probe.name, {model_.body, numbers}});
+  }
+}
+
+template <int dim>
+void Probes<dim>::find_places() {
   std::vector<const casefile::ProbeCase *> asked;
   std::vector<Vector3> all;
-  for (const casefile::ProbeCase &probe : model.asked.probes)
+  for (const casefile::ProbeCase &probe : model_.asked.probes)
     if (probe.at || probe.from) {
       asked.push_back(&probe);
       const Places &places = places_.emplace_back(places_of(probe));
@@ -83,7 +100,7 @@ void Probes<dim>::find_places(const solve::Model<dim> &model) {
     }
   if (all.empty())
     return;
-  const std::vector<body::Interpolation> found = body::nearest_places(model.body, all);
+  const std::vector<body::Interpolation> found = body::nearest_places(model_.body, all);
   auto next = found.begin();
   for (std::size_t i = 0; i < places_.size(); ++i)
     for (std::size_t p = 0; p < places_[i].at.size(); ++p, ++next) {
@@ -131,6 +148,17 @@ output::ProbeRows Probes<dim>::rows_of(const Boundaries &probe, const solve::Bou
 }
 
 template <int dim>
+output::ProbeRows Probes<dim>::rows_of(const Regions &probe, std::span<const double> state,
+                                       const std::vector<body::Energies> &stored) {
+  output::ProbeRows rows{probe.name, {}, {{}}};
+  for (const auto &[column, value] : probe.part.columns(state, stored)) {
+    rows.columns.push_back(column);
+    rows.rows[0].push_back(value);
+  }
+  return rows;
+}
+
+template <int dim>
 std::vector<output::ProbeRows> Probes<dim>::rows(double time,
                                                  std::span<const solve::Passage> passages,
                                                  std::span<const double> state) const {
@@ -139,6 +167,12 @@ std::vector<output::ProbeRows> Probes<dim>::rows(double time,
     all.push_back(rows_of(probe, state));
   for (const Boundaries &probe : boundaries_)
     all.push_back(rows_of(probe, probe.part.flow(time, passages, state, probe.about)));
+  if (regions_.empty())
+    return all;
+  const std::vector<body::Energies> stored =
+      model_.cells.stored(state, model_.asked.regions.size());
+  for (const Regions &probe : regions_)
+    all.push_back(rows_of(probe, state, stored));
   return all;
 }
 

@@ -5,6 +5,7 @@
 
 #include "body/interpolation.h"
 #include "output/probe_rows.h"
+#include "run/probed_region.h"
 #include "solve/boundary_flow.h"
 #include "solve/model.h"
 
@@ -40,14 +41,23 @@ class Probes {
     solve::BoundaryPart<dim> part;
   };
 
-  void find_places(const solve::Model<dim> &model);
+  struct Regions {
+    std::string name;
+    ProbedRegion<dim> part;
+  };
+
+  void find_regions();
+  void find_places();
   static Places places_of(const casefile::ProbeCase &probe);
   static output::ProbeRows rows_of(const Places &probe, std::span<const double> state);
-
   static output::ProbeRows rows_of(const Boundaries &probe, const solve::BoundaryFlow &flow);
+  static output::ProbeRows rows_of(const Regions &probe, std::span<const double> state,
+                                   const std::vector<body::Energies> &stored);
 
+  const solve::Model<dim> &model_;
   std::vector<Places> places_;
   std::vector<Boundaries> boundaries_;
+  std::vector<Regions> regions_;
 };
 
 }  // namespace tourmaline::run

@@ -186,11 +186,25 @@ void add_boundary_probe(int dimension, const std::string &prefix, List &list) {
   list.add(whole("m^2", dimension), {prefix + "area"});
 }
 
+void add_region_probe(int dimension, const std::string &prefix, List &list) {
+  list.add(whole("m^3", dimension), {prefix + "volume"});
+  list.add_each(prefix, {"elastic_energy", "electric_energy", "thermal_energy", "coupling_energy"},
+                whole("J", dimension));
+  for (const std::string kind : {"mean_", "min_", "max_"}) {
+    for (int c = 0; c < dimension; ++c)
+      list.add("m", {prefix + kind + "u_" + axes[c]});
+    list.add("V", {prefix + kind + "potential"});
+    list.add("K", {prefix + kind + "temperature"});
+  }
+}
+
 // As run/probes.cc writes them.
 void add_probes(const casefile::Case &asked, List &list) {
   for (const casefile::ProbeCase &probe : asked.probes) {
     if (probe.on)
       add_boundary_probe(asked.dimension, probe.name + ".", list);
+    if (probe.region)
+      add_region_probe(asked.dimension, probe.name + ".", list);
     if (!probe.at)
       continue;
     for (const char *prefix : {".", ".u_"})

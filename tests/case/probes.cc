@@ -39,6 +39,34 @@ TEST(Probes, StandInTheResolvedCaseAsTheyWereGiven) {
   EXPECT_EQ(again.probes[1].points, 7);
 }
 
+// The example in two layers instead of one material.
+std::string error_in_layers(const std::string &regions, const std::string &probe) {
+  std::string text = example;
+  const std::size_t begin = text.find("[material]"), end = text.find("[time]");
+  text.erase(begin, end - begin);
+  return error_in(text, {"region=[" + regions + "]", "probe=[{ name = 'p', " + probe + " }]"});
+}
+
+TEST(Probes, KnowRegionsByTheirNames) {
+  const std::string steel = "material = { library = 'steel' } }",
+                    layers = "{ name = 'lower', where = 'y < 0.05', " + steel +
+                             ", { name = 'upper', where = 'y >= 0.05', " + steel;
+  EXPECT_EQ(error_in_layers(layers, "region = 'lower'"), "no error");
+  EXPECT_EQ(error_in_layers(layers, "region = ['lower', 'upper']"), "no error");
+  EXPECT_THAT(error_in_layers(layers, "region = 'lowre'"),
+              HasSubstr("region = \"lowre\": no region is called so; there are lower, upper; did "
+                        "you mean \"lower\"?"));
+  EXPECT_THAT(error_in_layers("{ where = '1', " + steel, "region = 'a'"),
+              HasSubstr("no region is called so; give the [[region]] that is meant a `name`"));
+  EXPECT_THAT(error_in_layers("{ name = 'a', where = 'y < 0.05', " + steel +
+                                  ", { name = 'a', where = 'y >= 0.05', " + steel,
+                              "region = 'a'"),
+              HasSubstr("2 regions are called so; give each a `name` of its own"));
+  EXPECT_THAT(error_of("{ name = 'p', region = [] }"),
+              HasSubstr("names nothing; give at least one name"));
+  EXPECT_THAT(error_of("{ name = 'p', region = 'a' }"), HasSubstr("the case has no [[region]]"));
+}
+
 struct Mistake {
   std::string probe, key, piece;  ///< of the error text
 };

@@ -159,6 +159,19 @@ TEST_P(Ranks, ProbesOfBoundariesAreTheSame) {
   }
 }
 
+TEST_P(Ranks, ProbesOfRegionsAreTheSame) {
+  ASSERT_NO_FATAL_FAILURE(run_twice(file_of(laminate) +
+                                    " --set 'region[0].name=\"layer\"'"
+                                    " --set 'probe=[{name=\"p\",region=\"layer\"}]'"));
+  const Table one = read_table(folder_ / "one" / "probe-p.csv"),
+              several = read_table(folder_ / "several" / "probe-p.csv");
+  expect_equal_quantities(several, one,
+                          {{"volume"},
+                           {"elastic_energy", "electric_energy", "thermal_energy"},
+                           {"mean_u_x", "mean_u_y", "min_u_x", "max_u_y"},
+                           {"mean_potential", "min_potential", "max_potential"}});
+}
+
 TEST_P(Ranks, AProbeOutsideIsToldOnce) {
   expect_told_once(paper_ + "--set 'probe=[{name=\"p\",at=[0.05,0.2]}]'", 2,
                    "the nearest place in it is [0.05, 0.1]");
