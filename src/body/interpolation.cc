@@ -81,6 +81,14 @@ class Cell {
     }
   }
 
+  /// Whether the box around the cell, so much larger, holds the place.
+  bool may_hold(const Vector<dim> &place, double tolerance) const {
+    for (int axis = 0; axis < dim; ++axis)
+      if (place[axis] < low_[axis] - tolerance || place[axis] > high_[axis] + tolerance)
+        return false;
+    return true;
+  }
+
   /// At least so far is the cell from the place.
   double least_distance(const Vector<dim> &place) const {
     return (place - place.cwiseMax(low_).cwiseMin(high_)).norm();
@@ -169,27 +177,33 @@ Vector3 in_space(const Vector<dim> &v) {
   return plain;
 }
 
-// Looks into one cell for a place nearer than `best`.
+// Looks for the place in one cell.
 template <int dim>
-void improve(const Discretisation<dim> &body, const Cell<dim> &cell, std::span<const Node> nodes,
-             const Vector<dim> &place, double tolerance, Interpolation &best) {
-  if (best.distance == 0 || cell.least_distance(place) > std::max(best.distance, tolerance))
+void look_inside(const Discretisation<dim> &body, const Cell<dim> &cell,
+                 std::span<const Node> nodes, const Vector<dim> &place, double tolerance,
+                 Interpolation &found) {
+  if (found.distance == 0 || !cell.may_hold(place, tolerance))
     return;
-  if (cell.least_distance(place) <= tolerance) {
-    const ReferenceShapes<dim> shapes = body.shapes_at(cell.reference(place));
-    if ((cell.mapped(shapes) - place).norm() <= tolerance) {
-      best = {in_space<dim>(place), {nodes.begin(), nodes.end()}, shapes.values, 0};
-      return;
-    }
-  }
+  const ReferenceShapes<dim> shapes = body.shapes_at(cell.reference(place));
+  if ((cell.mapped(shapes) - place).norm() <= tolerance)
+    found = {in_space<dim>(place), {nodes.begin(), nodes.end()}, shapes.values, 0};
+}
+
+// Looks for a place in one cell that is nearer than the best so far.
+template <int dim>
+void look_nearby(const Cell<dim> &cell, const Vector<dim> &place, double tolerance,
+                 Interpolation &best) {
+  if (cell.least_distance(place) > best.distance)
+    return;
   const Vector<dim> found = cell.nearest(place);
   if (const double distance = std::max((found - place).norm(), tolerance); distance < best.distance)
     best = {in_space<dim>(found), {}, {}, distance};
 }
 
+// Whoever has no cell, or none that holds it, is infinitely far away.
 template <int dim>
-std::vector<Interpolation> nearest_on_this_rank(const Discretisation<dim> &body,
-                                                const std::vector<Vector3> &places) {
+std::vector<Interpolation> on_this_rank(const Discretisation<dim> &body,
+                                        const std::vector<Vector3> &places, bool inside) {
   const std::size_t n_corners = body.has_simplices() ? dim + 1 : std::size_t{1} << dim;
   const double tolerance = 1e-9 * extent(body.points());
   constexpr double nowhere = std::numeric_limits<double>::infinity();
@@ -198,7 +212,10 @@ std::vector<Interpolation> nearest_on_this_rank(const Discretisation<dim> &body,
   body.for_each_cell_nodes([&](std::span<const Node> nodes) {
     cell.set(nodes);
     for (std::size_t i = 0; i < places.size(); ++i)
-      improve(body, cell, nodes, vector<dim>(places[i]), tolerance, found[i]);
+      if (inside)
+        look_inside(body, cell, nodes, vector<dim>(places[i]), tolerance, found[i]);
+      else
+        look_nearby(cell, vector<dim>(places[i]), tolerance, found[i]);
   });
   return found;
 }
@@ -230,15 +247,13 @@ Interpolation unpacked(std::span<const double> numbers) {
   return one;
 }
 
-}  // namespace
-
 // Of several ranks that have a place the first one's cell counts.
 template <int dim>
-std::vector<Interpolation> nearest_places(const Discretisation<dim> &body,
-                                          const std::vector<Vector3> &places) {
+std::vector<Interpolation> on_all_ranks(const Discretisation<dim> &body,
+                                        const std::vector<Vector3> &places, bool inside) {
   const std::size_t n_nodes = body.shapes_at({}).values.size(), size = 5 + 2 * n_nodes;
   const std::vector<double> all =
-      parallel::joined(packed(nearest_on_this_rank(body, places), n_nodes));
+      parallel::joined(packed(on_this_rank(body, places, inside), n_nodes));
   std::vector<Interpolation> best(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
     std::size_t nearest = i;
@@ -247,6 +262,27 @@ std::vector<Interpolation> nearest_places(const Discretisation<dim> &body,
         nearest = other;
     best[i] = unpacked(std::span(all).subspan(nearest * size, size));
   }
+  return best;
+}
+
+}  // namespace
+
+// Most places are inside; only of the others every cell may have to be measured.
+template <int dim>
+std::vector<Interpolation> nearest_places(const Discretisation<dim> &body,
+                                          const std::vector<Vector3> &places) {
+  std::vector<Interpolation> best = on_all_ranks(body, places, true);
+  std::vector<Vector3> outside;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (best[i].distance > 0)
+      outside.push_back(places[i]);
+  if (outside.empty())
+    return best;
+  const std::vector<Interpolation> near = on_all_ranks(body, outside, false);
+  auto next = near.begin();
+  for (Interpolation &one : best)
+    if (one.distance > 0)
+      one = *next++;
   return best;
 }
 

@@ -46,6 +46,12 @@ void add_area(const Quadrature<dim> &facet, std::vector<double> &areas) {
   }
 }
 
+void add_force(const Eigen::Vector3d &force, const Vector3 &place, const Vector3 &about,
+               BoundaryFlow &flow) {
+  flow.force += force;
+  flow.moment += (Eigen::Vector3d(place.data()) - Eigen::Vector3d(about.data())).cross(force);
+}
+
 }  // namespace
 
 template <int dim>
@@ -172,16 +178,27 @@ double BoundaryPart<dim>::exchanged(const Exchange &exchange, double time,
          (inside - exchange.outside.resultant(time));
 }
 
+// Charges and heats that do not pass at nodes.
+template <int dim>
+void BoundaryPart<dim>::add_given(double time, std::span<const double> state,
+                                  BoundaryFlow &flow) const {
+  for (const Load &load : charges_)
+    flow.charge += load.resultant(time);
+  for (const Load &load : heats_)
+    flow.heat += load.resultant(time);
+  for (const Exchange &exchange : exchanges_) {
+    const bool is_heat =
+        model_.linear_exchanges[exchange.number].field == SurfaceExchange::temperature;
+    (is_heat ? flow.heat : flow.charge) += exchanged(exchange, time, state);
+  }
+}
+
 template <int dim>
 BoundaryFlow BoundaryPart<dim>::flow(double time, std::span<const Passage> passages,
                                      std::span<const double> state, const Vector3 &about) const {
   BoundaryFlow flow;
   const auto push = [&](body::Node node, int component, double size) {
-    const Eigen::Vector3d force = size * Eigen::Vector3d::Unit(component),
-                          arm = Eigen::Vector3d(model_.body.points()[node].data()) -
-                                Eigen::Vector3d(about.data());
-    flow.force += force;
-    flow.moment += arm.cross(force);
+    add_force(size * Eigen::Vector3d::Unit(component), model_.body.points()[node], about, flow);
   };
   for (const Passage &passage : passages) {
     const double amount = share(passage) * passage.amount;
@@ -195,15 +212,7 @@ BoundaryFlow BoundaryPart<dim>::flow(double time, std::span<const Passage> passa
     if (tractions[i] != 0)
       push(static_cast<body::Node>(i / Fields<dim>::count),
            static_cast<int>(i % Fields<dim>::count), tractions[i]);
-  for (const Load &load : charges_)
-    flow.charge += load.resultant(time);
-  for (const Load &load : heats_)
-    flow.heat += load.resultant(time);
-  for (const Exchange &exchange : exchanges_) {
-    const bool is_heat =
-        model_.linear_exchanges[exchange.number].field == SurfaceExchange::temperature;
-    (is_heat ? flow.heat : flow.charge) += exchanged(exchange, time, state);
-  }
+  add_given(time, state, flow);
   return flow;
 }
 
