@@ -274,6 +274,41 @@ std::vector<double> CellProducts<dim>::held_by_capacitors(std::span<const double
 }
 
 template <int dim>
+std::vector<Energies> CellProducts<dim>::stored(std::span<const double> x,
+                                                std::size_t n_regions) const {
+  std::vector<double> sums(4 * n_regions, 0.);
+  std::size_t number = 0;
+  const auto add_cell = [&](const Quadrature<dim> &cell) {
+    const material::BodyConstants<dim> c = composition_.at(cell.region, cell.centre());
+    std::array<Amplitudes<dim>, 3> modes;
+    if (!modes_.empty())
+      modes = amplitudes(modes_[number++], !cell.inverse_radius.empty(), x);
+    for (std::size_t q = 0; q < cell.jxw.size(); ++q) {
+      const Point<dim> all = fields_at(cell, q, x);
+      Point<dim> p;
+      p.strain.setZero();
+      for (int field = 0; field < 3; ++field) {
+        const Point<dim> part = part_of(all, field, cell, q, modes[field]);
+        p.strain += part.strain;
+        p.potential_gradient += part.potential_gradient;
+      }
+      double *sum = &sums[4 * cell.region];
+      sum[0] += cell.jxw[q] * p.strain.dot(c.stiffness * p.strain) / 2;
+      sum[1] += cell.jxw[q] * p.potential_gradient.dot(c.permittivity * p.potential_gradient) / 2;
+      sum[2] += cell.jxw[q] * c.heat_capacity * all.temperature * all.temperature / 2;
+      sum[3] -= cell.jxw[q] * c.pyroelectric.dot(p.potential_gradient) * all.temperature;
+    }
+  };
+  parallel::together(
+      [&] { body_.for_each_cell(add_cell, modes_.empty() ? Modes::none : Modes::incompatible); });
+  parallel::sum(sums);
+  std::vector<Energies> energies;
+  for (std::size_t r = 0; r < sums.size(); r += 4)
+    energies.push_back({sums[r], sums[r + 1], sums[r + 2], sums[r + 3]});
+  return energies;
+}
+
+template <int dim>
 void CellProducts<dim>::multiply(double step, std::span<const double> x,
                                  std::span<double> y) const {
   FieldProducts products;

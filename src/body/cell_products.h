@@ -41,6 +41,9 @@ class CellProducts {
   std::vector<double> conducted(std::span<const double> x) const;
   std::vector<double> held_by_capacitors(std::span<const double> x) const;
 
+  /// What is stored in each region of the case, of which there are so many [J].
+  std::vector<Energies> stored(std::span<const double> x, std::size_t n_regions) const;
+
  private:
   /// What one cell or facet adds to the rows of its nodes.
   struct Rows;

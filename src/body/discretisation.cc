@@ -54,9 +54,6 @@ struct Discretisation<dim>::Parts {
   void find_axis();
   using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
   std::span<const Node> nodes_of(std::size_t cell) const;
-  std::optional<dealii::Point<dim>> unit_point(const Cell &cell,
-                                               const dealii::Point<dim> &place) const;
-  NodeShares shares_at(const dealii::Point<dim> &place) const;
   template <class Face>
   bool lies_on_axis(const Face &face) const;
   template <class Values>
@@ -374,6 +371,28 @@ std::vector<std::vector<double>> Discretisation<dim>::corner_shares() const {
 }
 
 template <int dim>
+void Discretisation<dim>::for_each_cell_nodes(
+    const std::function<void(std::span<const Node>)> &visit) const {
+  for (std::size_t i = 0; i < parts_->cells.size(); ++i)
+    visit(parts_->nodes_of(i));
+}
+
+template <int dim>
+ReferenceShapes<dim> Discretisation<dim>::shapes_at(
+    const std::array<double, dim> &reference) const {
+  dealii::Point<dim> place;
+  std::copy(reference.begin(), reference.end(), place.begin_raw());
+  ReferenceShapes<dim> shapes;
+  for (unsigned int a = 0; a < parts_->element->n_dofs_per_cell(); ++a)
+    shapes.values.push_back(parts_->element->shape_value(a, place));
+  for (unsigned int v = 0; v < parts_->linear->n_dofs_per_cell(); ++v) {
+    shapes.corners.push_back(parts_->linear->shape_value(v, place));
+    shapes.corner_gradients.push_back(plain<dim>(parts_->linear->shape_grad(v, place)));
+  }
+  return shapes;
+}
+
+template <int dim>
 template <class Rule>
 void Discretisation<dim>::visit_cells(
     const Rule &rule, Modes modes,
@@ -432,6 +451,27 @@ void Discretisation<dim>::for_each_facet(
     const std::vector<std::string> &boundaries,
     const std::function<void(const Quadrature<dim> &)> &visit) const {
   const auto ids = ids_of(parts_->mesh, boundaries);
+  visit_facets([&](unsigned int id) { return ids.contains(id); }, visit);
+}
+
+template <int dim>
+bool Discretisation<dim>::is_boundary(const std::string &name) const {
+  return parts_->mesh.boundaries.contains(name);
+}
+
+template <int dim>
+void Discretisation<dim>::for_each_facet_on_both(
+    const std::vector<std::string> &boundaries, const std::vector<std::string> &others,
+    const std::function<void(const Quadrature<dim> &)> &visit) const {
+  const auto ids = ids_of(parts_->mesh, boundaries), other_ids = ids_of(parts_->mesh, others);
+  visit_facets([&](unsigned int id) { return ids.contains(id) && other_ids.contains(id); }, visit);
+}
+
+// `is_meant` is asked with the facet's part of the boundary.
+template <int dim>
+void Discretisation<dim>::visit_facets(
+    const std::function<bool(unsigned int)> &is_meant,
+    const std::function<void(const Quadrature<dim> &)> &visit) const {
   dealii::FEFaceValues<dim> shape(*parts_->mapping, *parts_->element, parts_->facet_rule,
                                   dealii::update_values | dealii::update_JxW_values |
                                       dealii::update_quadrature_points |
@@ -440,7 +480,7 @@ void Discretisation<dim>::for_each_facet(
   for (std::size_t i = 0; i < parts_->cells.size(); ++i) {
     const auto &cell = parts_->cells[i];
     for (const unsigned int f : cell->face_indices()) {
-      if (!cell->face(f)->at_boundary() || !ids.count(cell->face(f)->boundary_id()))
+      if (!cell->face(f)->at_boundary() || !is_meant(cell->face(f)->boundary_id()))
         continue;
       shape.reinit(cell, f);
       parts_->copy(shape, parts_->nodes_of(i), plain_values);
@@ -505,89 +545,6 @@ std::vector<Node> Discretisation<dim>::nodes_inside(
       return belongs(in_space<dim>(face.vertex(corner)));
     });
   });
-}
-
-namespace {
-
-// On the reference cell; on its faces round-off decides, and either neighbour will do.
-constexpr double on_face = 1e-9;
-
-template <int dim>
-bool holds(const dealii::Point<dim> &unit, bool simplex) {
-  double rest = 1;
-  for (int axis = 0; axis < dim; ++axis) {
-    rest -= unit[axis];
-    if (unit[axis] < -on_face || unit[axis] > 1 + on_face)
-      return false;
-  }
-  return !simplex || rest > -on_face;
-}
-
-}  // namespace
-
-template <int dim>
-std::optional<dealii::Point<dim>> Discretisation<dim>::Parts::unit_point(
-    const Cell &cell, const dealii::Point<dim> &place) const {
-  const auto box = cell->bounding_box();
-  if (!box.point_inside(place, 1e-9))
-    return std::nullopt;
-  try {
-    const dealii::Point<dim> unit = mapping->transform_real_to_unit_cell(cell, place);
-    if (holds(unit, mesh.simplices))
-      return unit;
-  } catch (const typename dealii::Mapping<dim>::ExcTransformationFailed &) {
-    // far outside of a cell that is no parallelogram
-  }
-  return std::nullopt;
-}
-
-template <int dim>
-NodeShares Discretisation<dim>::Parts::shares_at(const dealii::Point<dim> &place) const {
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const auto unit = unit_point(cells[i], place);
-    if (!unit)
-      continue;
-    NodeShares found;
-    const auto nodes = nodes_of(i);
-    found.nodes.assign(nodes.begin(), nodes.end());
-    for (unsigned int a = 0; a < nodes.size(); ++a)
-      found.shares.push_back(element->shape_value(a, *unit));
-    return found;
-  }
-  return {};
-}
-
-// Each rank says what it found; where two did, the first one is taken.
-template <int dim>
-std::vector<NodeShares> Discretisation<dim>::shares_at(const std::vector<Vector3> &places) const {
-  std::vector<double> told;  // number of the place, number of nodes, nodes, shares
-  parallel::together([&] {
-    for (std::size_t p = 0; p < places.size(); ++p) {
-      dealii::Point<dim> place;
-      for (int axis = 0; axis < dim; ++axis)
-        place[axis] = places[p][axis];
-      const NodeShares found = parts_->shares_at(place);
-      if (found.nodes.empty())
-        continue;
-      told.push_back(static_cast<double>(p));
-      told.push_back(static_cast<double>(found.nodes.size()));
-      told.insert(told.end(), found.nodes.begin(), found.nodes.end());
-      told.insert(told.end(), found.shares.begin(), found.shares.end());
-    }
-  });
-  told = parallel::joined(told);
-  std::vector<NodeShares> all(places.size());
-  for (auto next = told.begin(); next != told.end();) {
-    NodeShares &at = all[static_cast<std::size_t>(*next++)];
-    const auto n = static_cast<std::ptrdiff_t>(*next++);
-    if (at.nodes.empty()) {
-      for (std::ptrdiff_t a = 0; a < n; ++a)
-        at.nodes.push_back(static_cast<Node>(next[a]));
-      at.shares.assign(next + n, next + 2 * n);
-    }
-    next += 2 * n;
-  }
-  return all;
 }
 
 namespace {

@@ -61,10 +61,13 @@ struct Quadrature {
   std::array<double, 3> centre() const;
 };
 
-/// A field's value somewhere is the sum of `shares` times its values at `nodes`.
-struct NodeShares {
-  std::vector<Node> nodes;
-  std::vector<double> shares;
+/// Shape functions at a place of the reference cell, which is (0, 1)^dim or, of simplices, has its
+/// corners at 0 and 1 along each axis.
+template <int dim>
+struct ReferenceShapes {
+  std::vector<double> values;   ///< by node of a cell
+  std::vector<double> corners;  ///< by corner: of the linear ones, which say where the place is
+  std::vector<std::array<double, dim>> corner_gradients;  ///< of these [1]
 };
 
 /// Neighbourhood of the nodes in compressed rows: node i shares a cell with column[row[i]] ...
@@ -113,14 +116,17 @@ class Discretisation {
   /// unknown name.
   void for_each_facet(const std::vector<std::string> &boundaries,
                       const std::function<void(const Quadrature<dim> &)> &visit) const;
+  /// The same of the facets that are on boundaries of both lists.
+  void for_each_facet_on_both(const std::vector<std::string> &boundaries,
+                              const std::vector<std::string> &others,
+                              const std::function<void(const Quadrature<dim> &)> &visit) const;
+  /// Whether facets of that name are on the boundary; else they are inside.
+  bool is_boundary(const std::string &name) const;
   /// Nodes on the closure of the named boundaries, or of facets inside that have a name, ascending,
   /// of all ranks. Facets on the axis of a revolved body have no area and count for nothing.
   std::vector<Node> nodes_on(const std::vector<std::string> &boundaries) const;
   /// The same of the facets between cells at all of whose corners `belongs` says so.
   std::vector<Node> nodes_inside(const std::function<bool(const Vector3 &)> &belongs) const;
-
-  /// What makes a field at each of these places [m]; nothing for places outside of the body.
-  std::vector<NodeShares> shares_at(const std::vector<Vector3> &places) const;
 
   /// All named boundaries, and names of facets inside, with the facets of all ranks, on the first
   /// rank; without facets on the others.
@@ -129,6 +135,12 @@ class Discretisation {
   /// The first nodes of a cell are its corners; entry (a, v) is the share of corner v in node a,
   /// the corner's linear shape function there. Shares of a node add up to 1.
   std::vector<std::vector<double>> corner_shares() const;
+
+  /// Calls `visit` for the nodes of every cell of this rank. Corners come first; of quadrilaterals
+  /// and hexahedra x turns fastest.
+  void for_each_cell_nodes(const std::function<void(std::span<const Node>)> &visit) const;
+  /// The same in every cell.
+  ReferenceShapes<dim> shapes_at(const std::array<double, dim> &reference) const;
 
   /// The grid as the output wants it: all nodes, and this rank's cells in the order of
   /// `for_each_cell`.
@@ -140,6 +152,8 @@ class Discretisation {
 
   template <class IsAsked>
   std::vector<Node> nodes_of_facets(const IsAsked &is_asked) const;
+  void visit_facets(const std::function<bool(unsigned int)> &is_meant,
+                    const std::function<void(const Quadrature<dim> &)> &visit) const;
   template <class Rule>
   void visit_cells(const Rule &rule, Modes modes,
                    const std::function<void(const Quadrature<dim> &)> &visit) const;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <string>
 
 #include "body/discretisation.h"
 
@@ -23,6 +24,14 @@ constexpr std::size_t unknown(Node node, int component) {
 template <int dim>
 constexpr int field_of(std::size_t unknown) {
   return std::max(0, static_cast<int>(unknown % Fields<dim>::count) - dim + 1);
+}
+
+/// What tables call a component of a node: u_x, ..., potential, temperature.
+template <int dim>
+std::string column_of(int component) {
+  if (component < dim)
+    return std::string("u_") + "xyz"[component];
+  return component == Fields<dim>::potential ? "potential" : "temperature";
 }
 
 }  // namespace tourmaline::body

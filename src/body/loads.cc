@@ -68,9 +68,6 @@ void Load::add_to(std::vector<double> &right_side, double density, const Share &
         factor_ * density * share.weights[a];
 }
 
-namespace {
-
-// Shares of cells or facets for a density; `weight` scales each point (1, or k_c there).
 template <int dim>
 void add_shares(const Quadrature<dim> &quadrature, const casefile::Formula &weight, Load &load) {
   for (std::size_t q = 0; q < quadrature.jxw.size(); ++q) {
@@ -82,7 +79,8 @@ void add_shares(const Quadrature<dim> &quadrature, const casefile::Formula &weig
   }
 }
 
-}  // namespace
+template void add_shares<2>(const Quadrature<2> &, const casefile::Formula &, Load &);
+template void add_shares<3>(const Quadrature<3> &, const casefile::Formula &, Load &);
 
 template <int dim>
 Loads<dim>::Loads(const Discretisation<dim> &body, const casefile::Case &asked, double step,

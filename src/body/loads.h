@@ -70,6 +70,10 @@ class Load {
   std::vector<double> uniform_;  // by node, of any other: density(t) or 1 times this
 };
 
+/// Adds the shares of a cell or facet; `weight` scales the density at each point.
+template <int dim>
+void add_shares(const Quadrature<dim> &quadrature, const casefile::Formula &weight, Load &load);
+
 /// Right-hand sides (19)-(21), (18) in the signs of `Operator`: the electric part times -1, the
 /// heat part times -k / theta_ref.
 template <int dim>

@@ -16,6 +16,7 @@
 #include "case/holding.h"
 #include "case/left_out.h"
 #include "case/plane_formulas.h"
+#include "case/probes.h"
 #include "case/regime.h"
 #include "case/schema.h"
 #include "case/tables_in_time.h"
@@ -316,6 +317,7 @@ Case read_text(const std::string &text, const std::string &name,
   check_conflicts(asked);
   check_contacts(asked);
   check_electrodes(asked);
+  check_probes(asked);
   check_holding(asked);
   check_regime(asked);
   return asked;

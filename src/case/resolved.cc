@@ -85,7 +85,7 @@ void fill_in(Case &asked) {
     fill_in(region.material, asked.dimension);
   if (asked.load.force.empty())
     asked.load.force = zero(asked.dimension);
-  if (asked.initial.displacement.empty())
+  if (!asked.initial.from && asked.initial.displacement.empty())
     asked.initial.displacement = zero(asked.dimension);
 }
 

@@ -153,13 +153,28 @@ void declare(Visitor &v, LoadCase &load, int dimension) {
 }
 
 void declare(Visitor &v, InitialCase &initial, const TimeCase &time, int dimension) {
+  v.places(initial.places);
+  v.optional({.name = "from",
+              .description = "results folder of a run from whose displacement, potential and "
+                             "temperature this one starts, at its own time 0; on another mesh of "
+                             "the same body they are interpolated; seen from the case's folder"},
+             initial.from);
+  if (initial.from)
+    v.locate("from", *initial.from);
+  v.optional({.name = "step",
+              .description = "step of that run, of which it has fields; its last one if not given",
+              .range = from_to(0, std::numeric_limits<int>::max()),
+              .used = with("from", initial.from.has_value())},
+             initial.step);
+  const Use without_from = {!initial.from, "a start of the case's own, without `from`"};
   v.key({.name = "displacement",
          .description = "displacement u_0 at the time 0",
          .unit = "m",
          .range = any(sense::coordinate),
          .length = one_each_axis(dimension),
          .constant_in_time = true,
-         .default_words = "zero"},
+         .default_words = "zero",
+         .used = without_from},
         &initial.displacement);
   v.key({.name = "velocity",
          .description = "velocity at the time 0, of a dynamic case",
@@ -180,14 +195,16 @@ void declare(Visitor &v, InitialCase &initial, const TimeCase &time, int dimensi
          .description = "electric potential at the time 0",
          .unit = "V",
          .range = any(sense::potential),
-         .constant_in_time = true},
+         .constant_in_time = true,
+         .used = without_from},
         &initial.potential);
   v.key(
       {.name = "temperature",
        .description = "temperature theta_0 at the time 0, difference to the reference temperature",
        .unit = "K",
        .range = any(sense::temperature),
-       .constant_in_time = true},
+       .constant_in_time = true,
+       .used = without_from},
       &initial.temperature);
 }
 
@@ -323,11 +340,11 @@ void declare(Visitor &v, Case &c) {
           [&](Visitor &inner) { declare(inner, c.load, c.dimension); });
   v.table({.name = "initial", .description = "The state at the time 0"},
           [&](Visitor &inner) { declare(inner, c.initial, c.time, c.dimension); });
-  declare_probes(v, c.probes, c.dimension);
   v.table({.name = "model", .description = "Which equations are solved"},
           [&](Visitor &inner) { declare(inner, c.model, c.dimension); });
   v.table({.name = "solver", .description = "How the equations are solved"},
           [&](Visitor &inner) { declare(inner, c.solver, c.contacts); });
+  declare_probes(v, c.probes, c.mesh, c.dimension, c.model.is_axisymmetric());
   v.table({.name = "output", .description = "What a run leaves in its folder"},
           [&](Visitor &inner) { declare(inner, c.output); });
 }

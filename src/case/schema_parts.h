@@ -31,7 +31,9 @@ void declare_boundaries(Visitor &v, std::vector<BoundaryCase> &boundaries, const
 void declare_electrodes(Visitor &v, std::vector<ElectrodeCase> &electrodes, const MeshCase &mesh);
 void declare_contacts(Visitor &v, std::vector<ContactCase> &contacts, const MeshCase &mesh,
                       int dimension);
-void declare_probes(Visitor &v, std::vector<ProbeCase> &probes, int dimension);
+/// The tables that a run writes of single places, lines, boundaries and regions.
+void declare_probes(Visitor &v, std::vector<ProbeCase> &probes, const MeshCase &mesh, int dimension,
+                    bool is_axisymmetric);
 std::string multiplier_complaint(const std::vector<ContactCase> &contacts,
                                  const std::string &multiplier);
 

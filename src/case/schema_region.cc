@@ -35,6 +35,10 @@ Key key_of_names(const MeshCase &mesh) {
 
 void declare(Visitor &v, RegionCase &region, const MeshCase &mesh) {
   v.place(region.place);
+  v.optional({.name = "name",
+              .description = "by which probes know it; where it is not given, the names of `on`, "
+                             "joined by +"},
+             region.name);
   v.key(key_of_names(mesh), &region.on);
   v.optional({.name = "where",
               .description = "formula: a cell belongs to the region when this is not 0 at its "

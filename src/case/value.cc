@@ -318,9 +318,10 @@ void read_into(const Item &item, std::vector<std::string> &names) {
   }
   read_entries(item, "a text or a list of texts", names);
   if (names.empty())
-    fail(item, "names nothing; " + (item.key.no_choices.empty() || !item.key.choices.empty()
+    fail(item, "names nothing; " + (!item.key.choices.empty()
                                         ? "allowed: " + quoted_list(item.key.choices)
-                                        : item.key.no_choices));
+                                    : !item.key.no_choices.empty() ? item.key.no_choices
+                                                                   : "give at least one name"));
   for (std::size_t i = 0; i < names.size(); ++i)
     if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
         names.begin() + static_cast<std::ptrdiff_t>(i))

@@ -130,33 +130,6 @@ std::string contact_lines(int dimension, int step, double time, std::span<const 
   return text;
 }
 
-std::string probe_header(int dimension, bool is_line) {
-  std::string text;
-  Line line(text);
-  line << "step"
-       << "time";
-  if (is_line)
-    line << "s";
-  line.put_names(dimension, "").put_names(dimension, "u_") << "potential"
-                                                           << "temperature";
-  line.end();
-  return text;
-}
-
-std::string probe_lines(int dimension, int step, double time, const ProbeRows &rows) {
-  std::string text;
-  for (std::size_t i = 0; i < rows.places.size(); ++i) {
-    Line line(text);
-    line << step << time;
-    if (!rows.distances.empty())
-      line << rows.distances[i];
-    line.put(dimension, rows.places[i]).put(dimension, rows.values.displacement[i])
-        << rows.values.potential[i] << rows.values.temperature[i];
-    line.end();
-  }
-  return text;
-}
-
 std::string history_header(const HistoryRow &row) {
   std::string text;
   Line line(text);
@@ -177,6 +150,29 @@ std::string history_line(const HistoryRow &row) {
   for (const auto &[name, value] : row.quantities)
     line << value;
   line.end();
+  return text;
+}
+
+std::string probe_header(const ProbeRows &probe) {
+  std::string text;
+  Line line(text);
+  line << "step"
+       << "time";
+  for (const std::string &name : probe.columns)
+    line << name;
+  line.end();
+  return text;
+}
+
+std::string probe_lines(int step, double time, const ProbeRows &probe) {
+  std::string text;
+  for (const std::vector<double> &row : probe.rows) {
+    Line line(text);
+    line << step << time;
+    for (const double value : row)
+      line << value;
+    line.end();
+  }
   return text;
 }
 

@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 
+#include "output/probe_rows.h"
 #include "output/records.h"
 
 /// The tables of a run as text: comma-separated, a header line, '\n' line ends, SI units, 17
@@ -21,13 +22,12 @@ std::string nodes_table(int dimension, const std::vector<Vector3> &points,
 std::string contact_header(int dimension, const ContactRow &row);
 std::string contact_lines(int dimension, int step, double time, std::span<const ContactRow> rows);
 
-/// step,time,x,y[,z],u_x,u_y[,u_z],potential,temperature; of a line with the distance s from its
-/// first point before x. One row for each point.
-std::string probe_header(int dimension, bool is_line);
-std::string probe_lines(int dimension, int step, double time, const ProbeRows &rows);
-
 /// step,time,newton_iterations,residual,stick,slip,open, then the row's own quantities
 std::string history_header(const HistoryRow &row);
 std::string history_line(const HistoryRow &row);
+
+/// step,time, then the probe's own columns; a line for each of its rows
+std::string probe_header(const ProbeRows &probe);
+std::string probe_lines(int step, double time, const ProbeRows &probe);
 
 }  // namespace tourmaline::output

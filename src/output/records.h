@@ -61,13 +61,6 @@ struct PointFields {
   std::vector<double> von_mises;        // Pa, of that stress
 };
 
-/// What a probe has in a step.
-struct ProbeRows {
-  std::vector<Vector3> places;    ///< [m]
-  std::vector<double> distances;  ///< of a line, from its first point [m]; else empty
-  PointFields values;
-};
-
 /// Means over each cell, by the constitutive law (1)-(3).
 struct CellFields {
   std::vector<SymmetricTensor> stress;         // Pa

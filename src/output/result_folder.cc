@@ -250,11 +250,6 @@ void ResultFolder::put_contact(int step, double time, std::span<const ContactRow
   }).append(contact_lines(dimension_, step, time, rows));
 }
 
-void ResultFolder::put_probe(const std::string &name, const std::string &header,
-                             const std::string &lines) {
-  table("probe-" + name + ".csv", [&] { return header; }).append(lines);
-}
-
 void ResultFolder::put_contact_fields(int step, double time, const ContactFacets &facets,
                                       std::span<const ContactRow> rows) {
   if (!contact_surface_)
@@ -273,6 +268,12 @@ void ResultFolder::put_history(const HistoryRow &row) {
   if (header != history_header_)
     throw std::invalid_argument("put_history: not the quantities of the first row");
   table("history.csv", [&] { return history_header_; }).append(history_line(row));
+}
+
+void ResultFolder::put_probe(int step, double time, const ProbeRows &probe) {
+  table(probe_file(probe.name), [&] {
+    return probe_header(probe);
+  }).append(probe_lines(step, time, probe));
 }
 
 void ResultFolder::put_nodes(const std::vector<Vector3> &points, const PointFields &fields) {

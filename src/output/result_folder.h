@@ -14,6 +14,7 @@
 #include "output/contact_surface.h"
 #include "output/folder_lock.h"
 #include "output/growing_table.h"
+#include "output/probe_rows.h"
 #include "output/pvd.h"
 #include "output/records.h"
 #include "output/summary.h"
@@ -89,7 +90,7 @@ class ResultFolder {
   void put_history(const HistoryRow &row);
 
   /// Rows of probe-NAME.csv.
-  void put_probe(const std::string &name, const std::string &header, const std::string &lines);
+  void put_probe(int step, double time, const ProbeRows &probe);
 
   /// nodes.csv; rows in the order of the points.
   void put_nodes(const std::vector<Vector3> &points, const PointFields &fields);
@@ -103,8 +104,8 @@ class ResultFolder {
   /// then.
   void put_checkpoint(Checkpoint checkpoint);
 
-  /// Moves the tables into place; after a failed solve too, so that the steps that
-  /// were computed are kept. Without it they are discarded. Idempotent; no rows can follow.
+  /// Moves the tables into place; after a failed solve too, so that the steps that were computed
+  /// are kept. Without it they are discarded. Idempotent; no rows can follow.
   void finish();
 
   const std::filesystem::path &directory() const { return directory_; }

@@ -168,6 +168,8 @@ Json result_json(Packing &packing, const Result &result) {
       json["contacts"].push_back(contact.called());
   if (result.history)
     json["history"] = table_json(packing, *result.history);
+  for (const ProbeTable &probe : result.probes)
+    json["probes"].push_back({{"name", probe.name}, {"table", table_json(packing, probe.table)}});
   if (result.contact)
     json["contact"] = table_json(packing, *result.contact);
   if (!result.friction_bound.empty() && !result.contact->find("friction_bound"))

@@ -10,6 +10,7 @@
 
 #include "case/resolved.h"
 #include "contact/kinds.h"
+#include "output/probe_rows.h"
 #include "report/field_file.h"
 #include "report/recorded_mesh.h"
 #include "report/text_file.h"
@@ -93,6 +94,11 @@ void read_tables(Result &result, const fs::path &folder) {
     result.history = read_table(folder / "history.csv");
   if (fs::exists(folder / "contact.csv"))
     result.contact = read_table(folder / "contact.csv", "contact", names_of_contacts(result));
+  if (result.asked)
+    for (const casefile::ProbeCase &probe : result.asked->probes)
+      if (const fs::path file = folder / output::probe_file(probe.name);
+          !probe.from && fs::exists(file))
+        result.probes.push_back({probe.name, read_table(file)});
   if (fs::exists(folder / "summary.json"))
     result.summary = read_text_file(folder / "summary.json");
   else

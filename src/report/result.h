@@ -41,6 +41,12 @@ struct Boundary {
   std::vector<std::vector<std::uint32_t>> facets;
 };
 
+/// What a probe told in every step, one row for each of them.
+struct ProbeTable {
+  std::string name;
+  Table table;
+};
+
 /// A result folder, read back. What is not there is empty, with a remark where somebody may look
 /// for it.
 struct Result {
@@ -51,6 +57,7 @@ struct Result {
   std::string friction_name;            ///< of a program's own laws; empty: the case's
   std::string summary;                  ///< summary.json
   std::optional<Table> history, contact;
+  std::vector<ProbeTable> probes;            ///< but of those along lines
   std::vector<ContactPiece> contact_pieces;  ///< of a plane body
   std::vector<double> friction_bound;        ///< S at each row of `contact` [N/m^2]; empty: none
   std::vector<std::string> remarks;

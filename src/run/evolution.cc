@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "body/prescribed.h"
+#include "run/start_state.h"
 #include "run/step_check.h"
 #include "solve/settling.h"
 #include "stopwatch.h"
@@ -15,7 +16,7 @@ Evolution<dim>::Evolution(solve::Model<dim> &model)
       leaked_(model),
       motion_(model),
       foundations_(model),
-      state_(body::initial_state(model.body, model.asked.initial)) {}
+      state_(start_state(model)) {}
 
 template <int dim>
 void Evolution<dim>::make_ready(bool iterative, output::Progress &progress, int first) {

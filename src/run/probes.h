@@ -1,36 +1,63 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <vector>
 
-#include "body/discretisation.h"
-#include "output/records.h"
-
-namespace tourmaline::casefile {
-struct Case;
-}
+#include "body/interpolation.h"
+#include "output/probe_rows.h"
+#include "run/probed_region.h"
+#include "solve/boundary_flow.h"
+#include "solve/model.h"
 
 namespace tourmaline::run {
 
-/// The fields at the places of the case's probes.
+/// What the case's probes tell of a step.
 template <int dim>
 class Probes {
  public:
-  /// Throws CaseError for a place outside of the body, with the nearest node. All ranks together.
-  Probes(const body::Discretisation<dim> &body, const casefile::Case &asked);
+  /// All ranks make one together. Throws CaseError for a place outside of the body, with the
+  /// nearest one in it.
+  explicit Probes(const solve::Model<dim> &model);
 
-  struct Probe {
-    std::string name;
-    output::ProbeRows rows;                ///< without values
-    std::vector<body::NodeShares> shares;  ///< by place
-  };
-  const std::vector<Probe> &all() const { return all_; }
-
-  static output::ProbeRows rows(const Probe &probe, std::span<const double> state);
+  /// Of the step that ends at `time` [s] with that state; `passages` are those of its balance. All
+  /// ranks ask together.
+  std::vector<output::ProbeRows> rows(double time, std::span<const solve::Passage> passages,
+                                      std::span<const double> state) const;
 
  private:
-  std::vector<Probe> all_;
+  /// A place or a line.
+  struct Places {
+    std::string name;
+    bool is_line;
+    std::vector<Vector3> at;  ///< [m]
+    std::vector<body::Interpolation> fields;
+
+    double along(std::size_t i) const;
+  };
+
+  struct Boundaries {
+    std::string name;
+    Vector3 about;  ///< [m]
+    solve::BoundaryPart<dim> part;
+  };
+
+  struct Regions {
+    std::string name;
+    ProbedRegion<dim> part;
+  };
+
+  void find_regions();
+  void find_places();
+  static Places places_of(const casefile::ProbeCase &probe);
+  output::ProbeRows rows_of(const Places &probe, std::span<const double> state) const;
+  output::ProbeRows rows_of(const Boundaries &probe, const solve::BoundaryFlow &flow) const;
+  static output::ProbeRows rows_of(const Regions &probe, std::span<const double> state,
+                                   const std::vector<body::Energies> &stored);
+
+  const solve::Model<dim> &model_;
+  std::vector<Places> places_;
+  std::vector<Boundaries> boundaries_;
+  std::vector<Regions> regions_;
 };
 
 }  // namespace tourmaline::run

@@ -39,7 +39,7 @@ Vector<dim> tangential(const Vector<dim> &v, const Vector<dim> &normal) {
 
 template <int dim>
 Recorder<dim>::Recorder(const solve::Model<dim> &model, output::ResultFolder &folder)
-    : model_(model), folder_(folder), probes_(model.body, model.asked) {
+    : model_(model), folder_(folder), probes_(model) {
   for (std::size_t c = 0; c < model.laws.size(); ++c)
     linear_.push_back({model.laws[c].linear(contact::Crossing::heat),
                        model.laws[c].linear(contact::Crossing::charge)});
@@ -126,6 +126,7 @@ output::HistoryRow Recorder<dim>::step(int n, const solve::StepOutcome &outcome,
   check.quantities({{"residual", row.residual}});
   judgement_.step(n, time, balance_->judged(), measure);
   judgement_.forward_error(n, time, route.accuracy_so_far());
+  const std::vector<output::ProbeRows> probes = probes_.rows(time, balance_->passages(), state);
   output::CellFields cells;
   if (has_fields(n))
     cells = checked_fields(n, state);
@@ -134,11 +135,8 @@ output::HistoryRow Recorder<dim>::step(int n, const solve::StepOutcome &outcome,
       folder_.put_contact(n, time, rows);
     if (has_contact() && has_fields(n))
       folder_.put_contact_fields(n, time, contact_facets_, rows);
-    for (const auto &probe : probes_.all()) {
-      const output::ProbeRows places = Probes<dim>::rows(probe, state);
-      folder_.put_probe(probe.name, output::probe_header(dim, !places.distances.empty()),
-                        output::probe_lines(dim, n, time, places));
-    }
+    for (const output::ProbeRows &probe : probes)
+      folder_.put_probe(n, time, probe);
     folder_.put_history(row);
   });
   if (has_fields(n))

@@ -16,7 +16,7 @@
 namespace tourmaline::run {
 
 /// Turns states into what the files hold: fields every so many steps, contact rows and a line of
-/// history every step, nodes and extremes at the end.
+/// history every step, the probes' rows likewise, nodes and extremes at the end.
 template <int dim>
 class Recorder {
  public:

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "run/probes.h"
+#include "run/start_state.h"
 #include "run/step_check.h"
 #include "solve/contact_nodes.h"
 #include "solve/exchange_nodes.h"
@@ -11,6 +13,7 @@ namespace tourmaline::run {
 
 template <int dim>
 void rehearse(const solve::Model<dim> &model, int n_steps) {
+  Probes<dim>{model};  // refuses places outside of the body
   const std::vector<double> before = body::initial_state(model.body, model.asked.initial);
   std::vector<double> state = before, loads;
   if (model.asked.time.is_dynamic())
@@ -31,12 +34,22 @@ void rehearse(const solve::Model<dim> &model, int n_steps) {
   }
 }
 
+namespace {
+
+template <int dim>
+void rehearse_from_start(const casefile::Case &asked) {
+  solve::Model<dim> model(asked);
+  start_state(model);
+  rehearse(model, std::min(asked.time.steps, 100));
+}
+
+}  // namespace
+
 void rehearse(const casefile::Case &asked) {
-  const int n_steps = std::min(asked.time.steps, 100);
   if (asked.dimension == 2)
-    rehearse(solve::Model<2>(asked), n_steps);
+    rehearse_from_start<2>(asked);
   else
-    rehearse(solve::Model<3>(asked), n_steps);
+    rehearse_from_start<3>(asked);
 }
 
 template void rehearse<2>(const solve::Model<2> &, int);

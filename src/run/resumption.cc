@@ -273,6 +273,8 @@ std::map<std::string, std::string> contents_of(const casefile::Case &asked) {
   add(asked.material);
   for (const casefile::RegionCase &region : asked.regions)
     add(region.material);
+  for (const fs::path &file : start_files(asked.initial))
+    digests[file.string()] = digest_of_file(file);
   return digests;
 }
 

@@ -94,6 +94,7 @@ Balance<dim>::Balance(const Model<dim> &model, std::span<const double> initial)
   find_weights();
   for (const contact::Crossing what : {contact::Crossing::heat, contact::Crossing::charge})
     find_crossings(what);
+  find_contact_boundaries();
   if (!model.laws.can_open())
     return;
   can_open_.resize(model.body.n_nodes());
@@ -133,6 +134,20 @@ void Balance<dim>::find_crossings(contact::Crossing what) {
           boundary_of[i] = name;
     }
   }
+}
+
+// Forces of the contact act at nodes, too.
+template <int dim>
+void Balance<dim>::find_contact_boundaries() {
+  contact_boundary_of_.resize(model_.interface.size());
+  for (std::size_t c = 0; c < model_.asked.contacts.size(); ++c)
+    for (const std::string &name : model_.asked.contacts[c].on) {
+      const std::vector<body::Node> nodes = model_.body.nodes_on({name});
+      for (std::size_t i = 0; i < contact_boundary_of_.size(); ++i)
+        if (model_.interface[i].contact == c && contact_boundary_of_[i].empty() &&
+            std::binary_search(nodes.begin(), nodes.end(), model_.interface[i].node))
+          contact_boundary_of_[i] = name;
+    }
 }
 
 // Where nothing warms a body, its heats are round-off and do not balance. They are measured by what
@@ -205,6 +220,7 @@ template <int dim>
 typename Balance<dim>::Columns Balance<dim>::columns_of(const Step &step) {
   Columns columns;
   judged_.clear();
+  passages_.clear();
   add_energy(step, columns);
   add_forces(step, columns);
   add_charges(step, columns);
@@ -358,8 +374,9 @@ void Balance<dim>::add_forces(const Step &step, Columns &columns) {
     load[c].add(step.loads[i]);
     contact[c].add(step.contact[i]);
     if (is_prescribed_[i])
-      reaction[c].add(step.holding(i) - step.loads[i] - step.contact[i]);
+      reaction[c].add(step.reaction(i));
   }
+  find_forces(step);
   double worst = 0, size = 0;
   for (int c = 0; c < dim; ++c) {
     columns.emplace_back(std::string("load_") + axes[c], load[c].value);
@@ -385,6 +402,20 @@ void Balance<dim>::add_forces(const Step &step, Columns &columns) {
   put_imbalance("force_imbalance", worst, size, step.round_off.force, columns);
 }
 
+template <int dim>
+void Balance<dim>::find_forces(const Step &step) {
+  for (const body::Prescribed &p : model_.prescribed)
+    if (const int c = static_cast<int>(p.unknown % Fields<dim>::count); c < dim)
+      passages_.push_back({static_cast<body::Node>(p.unknown / Fields<dim>::count), c,
+                           step.reaction(p.unknown), p.boundary});
+  for (std::size_t i = 0; i < model_.interface.size(); ++i)
+    for (int c = 0; c < dim; ++c) {
+      const body::Node node = model_.interface[i].node;
+      passages_.push_back(
+          {node, c, step.contact[body::unknown<dim>(node, c)], contact_boundary_of_[i]});
+    }
+}
+
 // Of the contact forces about the origin.
 template <int dim>
 void Balance<dim>::add_moment(const Step &step, Columns &columns) const {
@@ -399,29 +430,41 @@ void Balance<dim>::add_moment(const Step &step, Columns &columns) const {
     columns.emplace_back(std::string("contact_moment_") + axes[c], moment[c]);
 }
 
+// What holds prescribed potentials, and what crosses at the contact by its state, as D.nu.
+template <int dim>
+std::vector<Passage> Balance<dim>::charges_held(const Step &step) const {
+  std::vector<Passage> held;
+  for (const body::Prescribed &p : model_.prescribed)
+    if (p.unknown % Fields<dim>::count == Fields<dim>::potential && p.is_given()) {
+      const auto node = static_cast<body::Node>(p.unknown / Fields<dim>::count);
+      held.push_back({node, Fields<dim>::potential,
+                      step.now.charges[p.unknown] - step.known_charges()[p.unknown] -
+                          step.charge_crossed[node],
+                      p.boundary, p.electrode >= 0});
+    }
+  for (std::size_t i = 0; i < charge_boundary_of_.size(); ++i) {
+    const body::Node node = model_.interface[i].node;
+    const std::size_t unknown = body::unknown<dim>(node, Fields<dim>::potential);
+    if (charge_boundary_of_[i].empty())
+      continue;
+    double charge = step.leaked.size() > 0 ? step.leaked[static_cast<Eigen::Index>(i)] : 0;
+    charge += is_prescribed_[unknown] ? step.charge_crossed[node]
+                                      : step.now.charges[unknown] - step.known_charges()[unknown];
+    held.push_back({node, Fields<dim>::potential, charge, charge_boundary_of_[i]});
+  }
+  return held;
+}
+
 // Gauss's law for the whole body: the integral of D.nu over all boundaries is the charge inside.
 template <int dim>
 void Balance<dim>::add_charges(const Step &step, Columns &columns) {
   std::map<std::string, double> through;
   double on_electrodes = 0;
   Sum imbalance;
-  for (const body::Prescribed &p : model_.prescribed)
-    if (p.unknown % Fields<dim>::count == Fields<dim>::potential && p.is_given()) {
-      const double charge = step.now.charges[p.unknown] - step.known_charges()[p.unknown] -
-                            step.charge_crossed[p.unknown / Fields<dim>::count];
-      (p.electrode < 0 ? through[p.boundary] : on_electrodes) += charge;
-      imbalance.add(charge);
-    }
-  for (std::size_t i = 0; i < charge_boundary_of_.size(); ++i) {
-    const std::size_t unknown =
-        body::unknown<dim>(model_.interface[i].node, Fields<dim>::potential);
-    if (charge_boundary_of_[i].empty())
-      continue;
-    double charge = step.leaked.size() > 0 ? step.leaked[static_cast<Eigen::Index>(i)] : 0;
-    charge += is_prescribed_[unknown] ? step.charge_crossed[model_.interface[i].node]
-                                      : step.now.charges[unknown] - step.known_charges()[unknown];
-    through[charge_boundary_of_[i]] += charge;
-    imbalance.add(charge);
+  for (const Passage &at : charges_held(step)) {
+    (at.is_on_electrode ? on_electrodes : through[std::string(at.boundary)]) += at.amount;
+    imbalance.add(at.amount);
+    passages_.push_back(at);
   }
   double inside = 0;
   for (const body::Load &load : model_.loads.each())
@@ -471,23 +514,33 @@ double Balance<dim>::exchanged(const std::map<std::string, NodeWeights> &exchang
   return flow;
 }
 
+// What holds prescribed temperatures, and what crosses at the contact by its state, outwards.
+template <int dim>
+std::vector<Passage> Balance<dim>::heats_held(const Step &step) const {
+  std::vector<Passage> held;
+  for (const body::Prescribed &p : model_.prescribed)
+    if (p.unknown % Fields<dim>::count == Fields<dim>::temperature && p.is_given()) {
+      const auto node = static_cast<body::Node>(p.unknown / Fields<dim>::count);
+      held.push_back({node, Fields<dim>::temperature, -step.heat_supplied[node], p.boundary});
+    }
+  for (std::size_t i = 0; i < heat_boundary_of_.size(); ++i)
+    if (!heat_boundary_of_[i].empty()) {
+      const body::Node node = model_.interface[i].node;
+      held.push_back(
+          {node, Fields<dim>::temperature, -step.heat_crossed[node], heat_boundary_of_[i]});
+    }
+  return held;
+}
+
 // Heat: what is stored comes from sources and has not left through the boundaries.
 template <int dim>
 void Balance<dim>::add_heat(const Step &step, Columns &columns) {
   std::map<std::string, double> out;
   Sum imbalance;
-  for (const body::Prescribed &p : model_.prescribed)
-    if (p.unknown % Fields<dim>::count == Fields<dim>::temperature && p.is_given()) {
-      const double supplied = step.heat_supplied[p.unknown / Fields<dim>::count];
-      out[p.boundary] -= supplied;
-      imbalance.size += std::abs(supplied);
-    }
-  for (std::size_t i = 0; i < heat_boundary_of_.size(); ++i) {
-    if (heat_boundary_of_[i].empty())
-      continue;
-    const double crossed = step.heat_crossed[model_.interface[i].node];
-    out[heat_boundary_of_[i]] -= crossed;
-    imbalance.size += std::abs(crossed);
+  for (const Passage &at : heats_held(step)) {
+    out[std::string(at.boundary)] += at.amount;
+    imbalance.size += std::abs(at.amount);
+    passages_.push_back(at);
   }
   double source = 0;
   for (const body::Load &load : model_.loads.each())

@@ -10,6 +10,7 @@
 #include "output/checkpoint.h"
 #include "solve/balance_step.h"
 #include "solve/model.h"
+#include "solve/passage.h"
 #include "solve/route.h"
 
 namespace tourmaline::solve {
@@ -49,6 +50,9 @@ class Balance {
   /// round-off lacks nothing.
   const Columns &judged() const { return judged_; }
 
+  /// Of the last step: the terms of these sums that stand at nodes.
+  const std::vector<Passage> &passages() const { return passages_; }
+
   /// What the next step compares with, besides the state: that of the checkpoint is what the
   /// balance to be restored was made with.
   void save(output::SavedNumbers &numbers) const;
@@ -61,12 +65,16 @@ class Balance {
   void put_imbalance(const std::string &name, double value, double size, double round_off,
                      Columns &columns);
   void add_forces(const Step &step, Columns &columns);
+  void find_forces(const Step &step);
   void add_moment(const Step &step, Columns &columns) const;
+  std::vector<Passage> charges_held(const Step &step) const;
   void add_charges(const Step &step, Columns &columns);
   void add_electrodes(const Step &step, Columns &columns) const;
+  std::vector<Passage> heats_held(const Step &step) const;
   void add_heat(const Step &step, Columns &columns);
   void add_friction_heat(const Step &step, Columns &columns) const;
   void find_crossings(contact::Crossing what);
+  void find_contact_boundaries();
   void add_energy(const Step &step, Columns &columns);
   double lack_of_energy(const Step &step, double whole, const std::array<double, 3> &gained,
                         const std::array<double, 3> &lost,
@@ -94,9 +102,11 @@ class Balance {
   double smallest_heat_;               // [W]
   CoupledFields coupled_;
   Columns judged_;
+  std::vector<Passage> passages_;
   std::vector<std::string> heat_boundaries_, charge_boundaries_;
   // by interface node: the boundary that what crosses there counts for; empty: nothing crosses so
   std::vector<std::string> heat_boundary_of_, charge_boundary_of_;
+  std::vector<std::string> contact_boundary_of_;              // likewise, of forces
   std::map<std::string, NodeWeights> exchange_, capacitors_;  // integral of k_c N_i, of c N_i
 };
 

@@ -83,6 +83,8 @@ struct BalanceStep {
   double rate_force(std::size_t i) const { return rates.forces.empty() ? 0 : rates.forces[i]; }
   /// What holds a prescribed displacement and the contact's force together [N].
   double holding(std::size_t i) const { return now.products.sum(i) + rate_force(i); }
+  /// What holds a prescribed displacement beside load and contact [N].
+  double reaction(std::size_t i) const { return holding(i) - loads[i] - contact[i]; }
   /// What moves a displacement beside the contact: what holds a prescribed one, else the load [N].
   double working_load(std::size_t i, bool is_prescribed) const {
     const double end = is_prescribed ? holding(i) - contact[i] : loads[i];

@@ -14,6 +14,7 @@
 #include "case/nearest.h"
 #include "case/toml_text.h"
 #include "contact/contacts.h"
+#include "output/probe_rows.h"
 #include "report/table.h"
 #include "report/text_file.h"
 #include "tourmaline/case/case.h"
@@ -172,18 +173,6 @@ void add_motion(const casefile::Case &asked, List &list) {
   }
 }
 
-void add_probes(const casefile::Case &asked, List &list) {
-  for (const casefile::ProbeCase &probe : asked.probes) {
-    for (const char *axis :
-         asked.dimension == 2 ? std::vector{"x", "y"} : std::vector{"x", "y", "z"})
-      if (!probe.is_line())
-        list.add("m", {probe.name + ".u_" + axis});
-    for (const Output &field : fields())
-      if (field.name != "displacement" && !probe.is_line())
-        list.add(field.unit, {probe.name + "." + field.name});
-  }
-}
-
 void add_extremes(const casefile::Case &asked, List &list) {
   std::vector<Output> there = fields();
   std::erase_if(there, [&](const Output &field) { return !asked.model.has(field.name); });
@@ -193,6 +182,50 @@ void add_extremes(const casefile::Case &asked, List &list) {
     for (int c = 0; c < asked.dimension; ++c)
       for (const char *which : {"min_", "max_"})
         list.add("m", {"at_" + (which + field.name) + "_" + axes[c]});
+}
+
+// u, phi and theta, but for what is left out.
+void add_probed_fields(const casefile::Case &asked, const std::string &prefix, List &list) {
+  for (int c = 0; c < asked.dimension; ++c)
+    list.add("m", {prefix + "u_" + axes[c]});
+  for (const Output &field : fields())
+    if (field.name != "displacement" && asked.model.has(field.name))
+      list.add(field.unit, {prefix + field.name});
+}
+
+void add_boundary_probe(const casefile::Case &asked, const std::string &prefix, List &list) {
+  for (int c = 0; c < asked.dimension; ++c)
+    list.add(whole("N", asked), {prefix + "force_" + axes[c]});
+  for (int c = asked.dimension == 2 ? 2 : 0; c < 3 && !asked.model.is_axisymmetric(); ++c)
+    list.add(whole("N m", asked), {prefix + "moment_" + axes[c]});
+  if (asked.model.electric)
+    list.add(whole("C", asked), {prefix + "charge"});
+  if (asked.model.thermal)
+    list.add(whole("W", asked), {prefix + "heat"});
+  list.add(whole("m^2", asked), {prefix + "area"});
+}
+
+void add_region_probe(const casefile::Case &asked, const std::string &prefix, List &list) {
+  list.add(whole("m^3", asked), {prefix + "volume"});
+  list.add_each(prefix, {"elastic_energy", "electric_energy", "thermal_energy", "coupling_energy"},
+                whole("J", asked));
+  for (const std::string kind : {"mean_", "min_", "max_"})
+    add_probed_fields(asked, prefix + kind, list);
+}
+
+// As run/probes.cc writes them.
+void add_probes(const casefile::Case &asked, List &list) {
+  for (const casefile::ProbeCase &probe : asked.probes) {
+    if (probe.on)
+      add_boundary_probe(asked, probe.name + ".", list);
+    if (probe.region)
+      add_region_probe(asked, probe.name + ".", list);
+    if (!probe.at)
+      continue;
+    for (int c = 0; c < asked.dimension; ++c)
+      list.add("m", {probe.name + "." + axes[c]});
+    add_probed_fields(asked, probe.name + ".", list);
+  }
 }
 
 }  // namespace
@@ -215,10 +248,10 @@ std::vector<Output> outputs_of(const casefile::Case &asked) {
   add_contact(asked, list);
   list.add(power, {"stored_heat_rate", "heat_source"});
   list.add("", {"energy_imbalance", "force_imbalance", "charge_imbalance", "heat_imbalance"});
-  add_probes(asked, list);
   add_extremes(asked, list);
   add_contact_extremes(asked, list);
   add_each_contact(asked, list);
+  add_probes(asked, list);
   return list.all;
 }
 
@@ -252,12 +285,17 @@ std::vector<Output> possible_outputs(const std::vector<casefile::Case> &cases) {
 
 namespace {
 
-constexpr std::string_view of_place = "at_";  // how the names of places begin, and no column's
+constexpr std::string_view of_place = "at_";  // how the names of places begin
+
+// Columns of probes, whose names may begin so, have a point.
+bool is_place(const std::string &name) {
+  return name.starts_with(of_place) && name.find('.') == std::string::npos;
+}
 
 std::string joined(const std::vector<std::string> &names, bool places) {
   std::string text;
   for (const std::string &name : names)
-    if (name.starts_with(of_place) == places)
+    if (is_place(name) == places)
       text += (text.empty() ? "" : ", ") + name;
   return text;
 }
@@ -293,7 +331,8 @@ class Chooser {
                                  const std::string &column, const std::string &behind) const {
     const auto meant = casefile::nearest(column, names_);
     fail(name,
-         "no column of history.csv and no place of an extreme is called so" +
+         "no column of history.csv or of a probe, as PROBE.COLUMN, and no place of an extreme is "
+         "called so" +
              (meant ? "; did you mean \"" + before + *meant + behind + "\"?" : "") +
              "; allowed: " + joined(names_, false) +
              ", each also as min:NAME, max:NAME, mean:NAME, rms:NAME, last:NAME or NAME@TIME" +
@@ -320,7 +359,7 @@ class Chooser {
     const Output *output = find(column);
     if (!output)
       fail_unknown(name, before, column, behind);
-    if (column.starts_with(of_place))
+    if (is_place(column))
       fail(name, column + " is a place, which a run has at its end only; write " + column);
     return {name, output->unit, column, reduction};
   }
@@ -397,49 +436,57 @@ std::map<std::string, double> places_in(const std::filesystem::path &file) {
   return places;
 }
 
-}  // namespace
+/// A column and the time of each of its rows.
+struct Series {
+  const std::vector<double> *times = nullptr, *values = nullptr;
+};
 
-namespace {
-
-/// Columns of probes by NAME.COLUMN; each table is read once.
-class Probes {
+/// The tables of a run's folder, of its probes those that somebody asks for.
+class Tables {
  public:
-  explicit Probes(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  explicit Tables(std::filesystem::path folder)
+      : folder_(std::move(folder)), history_(report::read_table(folder_ / "history.csv")) {
+    if (!history_.find("time"))
+      throw CaseError((folder_ / "history.csv").string() + ": is no history of a run");
+  }
 
-  const std::vector<double> *find(const std::string &name) {
-    const std::size_t dot = name.find('.');
-    const std::string file = "probe-" + name.substr(0, dot) + ".csv";
-    if (dot == std::string::npos || !std::filesystem::exists(folder_ / file))
-      return nullptr;
-    const auto [table, is_new] = tables_.try_emplace(file);
-    if (is_new)
-      table->second = report::read_table(folder_ / file);
-    return table->second.find(name.substr(dot + 1));
+  /// Nothing where the run has no such column.
+  Series find(const std::string &name) {
+    if (const std::vector<double> *column = history_.find(name))
+      return {history_.find("time"), column};
+    const auto dot = name.rfind('.');
+    if (dot == std::string::npos)
+      return {};
+    const report::Table *probe = table_of(name.substr(0, dot));
+    return probe ? Series{probe->find("time"), probe->find(name.substr(dot + 1))} : Series{};
   }
 
  private:
+  const report::Table *table_of(const std::string &probe) {
+    const std::filesystem::path file = folder_ / output::probe_file(probe);
+    if (!probes_.contains(probe) && std::filesystem::exists(file))
+      probes_[probe] = report::read_table(file);
+    const auto found = probes_.find(probe);
+    return found == probes_.end() ? nullptr : &found->second;
+  }
+
   std::filesystem::path folder_;
-  std::map<std::string, report::Table> tables_;
+  report::Table history_;
+  std::map<std::string, report::Table> probes_;
 };
 
 }  // namespace
 
 std::vector<double> read_outputs(const std::filesystem::path &folder,
                                  const std::vector<Output> &outputs) {
-  const report::Table history = report::read_table(folder / "history.csv");
+  Tables tables(folder);
   const std::map<std::string, double> places = places_in(folder / "summary.json");
   std::vector<double> values;
-  const std::vector<double> *times = history.find("time");
-  if (!times)
-    throw CaseError((folder / "history.csv").string() + ": is no history of a run");
-  Probes probes(folder);
   for (const Output &output : outputs) {
-    const std::string &name = output.column.empty() ? output.name : output.column;
-    const std::vector<double> *column = history.find(name);
-    if (!column)
-      column = probes.find(name);
+    const Series series = tables.find(output.column.empty() ? output.name : output.column);
     const auto place = places.find(output.name);
-    values.push_back(column                  ? reduced(output.reduction, *times, *column)
+    values.push_back(series.times && series.values
+                         ? reduced(output.reduction, *series.times, *series.values)
                      : place != places.end() ? place->second
                                              : std::numeric_limits<double>::quiet_NaN());
   }

@@ -14,15 +14,16 @@ namespace tourmaline::sweep {
 
 /// A number that a finished run has.
 struct Output {
-  std::string name;  ///< a column of history.csv, or at_min_FIELD_x, ... of an extreme's place;
-                     ///< with what is made of the column: "max:slip", "slip@0.5"
+  std::string name;  ///< a column of history.csv, PROBE.COLUMN of a probe's table, or
+                     ///< at_min_FIELD_x, ... of an extreme's place; with what is made of the
+                     ///< column: "max:slip", "slip@0.5"
   std::string unit;
   std::string column = {};  ///< where it is not the name
   Reduction reduction = {};
 };
 
-/// All that a run of the case will have: the columns of history.csv, then those of the probes at
-/// points as NAME.COLUMN, then the places of the extremes in summary.json.
+/// All that a run of the case will have: the columns of history.csv, the places of the extremes in
+/// summary.json, then the columns of probes, PROBE.COLUMN, but of those along a line.
 std::vector<Output> outputs_of(const casefile::Case &asked);
 
 /// Those of the given names, which one of the cases has at least; when there are no names, what one

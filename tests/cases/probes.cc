@@ -1,117 +1,134 @@
-// Fields at places that a case asks for.
-
-#include <fmt/format.h>
+// What probes tell is what the other files and closed forms say.
 #include <gmock/gmock.h>
-
-#include <cmath>
+#include <gtest/gtest.h>
 
 #include "run_case.h"
-#include "sweep/outputs.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::testing {
 namespace {
 
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+// A glass plate between two electrodes whose faces are held at different temperatures: potential
+// and temperature are linear across it, in every step the same.
+const std::string plate = R"(
+material = { symmetry = "isotropic", young = 70e9, poisson = 0.2, eps11 = 5, k11 = 1, density = 2500, specific_heat = 800, reference_temperature = 293 }
+time = { end = 1, steps = 3, regime = "static" }
+)";
+
+std::string plane_plate(const std::string &cell, int degree) {
+  return plate + "mesh = { degree = " + std::to_string(degree) +
+         ", box = { min = [0, 0], max = [0.3, 0.1], cells = [5, 3], cell = \"" + cell + "\" } }" +
+         R"(
+boundary = [ { on = "left", displacement = [0, 0], potential = 0, temperature = 1 },
+             { on = "right", potential = "600*t", temperature = 4 } ]
+)";
+}
+
+std::string solid_plate(const std::string &cell, int degree) {
+  return plate + "mesh = { degree = " + std::to_string(degree) +
+         ", box = { min = [0, 0, 0], max = [0.3, 0.1, 0.1], cells = [3, 2, 2], cell = \"" + cell +
+         "\" } }" + R"(
+boundary = [ { on = "left", displacement = [0, 0, 0], potential = 0, temperature = 1 },
+             { on = "right", potential = "600*t", temperature = 4 } ]
+)";
+}
+
 Table probe(const RunCase &run, const std::string &name) {
   return read_table(run.folder() / ("probe-" + name + ".csv"));
 }
 
-// u_x = 1e-6 (x + 2 y) t on all sides, phi = 3 x - y t, theta = 5 y t: fields that every cell has.
-std::string linear(int dimension, const std::string &cell, const std::string &probes) {
-  const bool solid = dimension == 3;
-  return fmt::format(
-      R"toml(
-mesh.box = {{ min = {}, max = {}, cells = {}, cell = "{}", grading = {{ left = 2, top = 3 }} }}
-material = {{ library = "BaTiO3-Liu2014", m11 = 0, m33 = 0, p3 = 0, e31 = 0, e33 = 0, e15 = 0 }}
-time = {{ end = 1, steps = 2, regime = "static" }}
-{}
-[[boundary]]
-on = {}
-displacement = ["1e-6*(x + 2*y)*t", "-1e-6*x*t"{}]
-potential = "3*x - y*t"
-temperature = "5*y*t"
-)toml",
-      solid ? "[0, 0, 0]" : "[0, 0]", solid ? "[0.2, 0.1, 0.1]" : "[0.2, 0.1]",
-      solid ? "[4, 3, 2]" : "[4, 3]", cell, probes,
-      solid ? R"(["left", "right", "bottom", "top", "front", "back"])"
-            : R"(["left", "right", "bottom", "top"])",
-      solid ? ", 0" : "");
-}
-
-TEST(Probes, FieldsThatCellsHoldAreExactAtAnyPlace) {
-  for (const auto &[dimension, cell] : std::vector<std::pair<int, std::string>>{
-           {2, "triangle"}, {2, "quadrilateral"}, {3, "tetrahedron"}, {3, "hexahedron"}})
-    for (const char *degree : {"mesh.degree=1", "mesh.degree=2"}) {
-      SCOPED_TRACE(cell + degree);
-      const bool solid = dimension == 3;
-      const RunCase run = run_text(
-          linear(dimension, cell,
-                 fmt::format(
-                     "probe = [ {{ name = 'inside', at = {} }}, {{ name = 'corner', at = {} }} ]",
-                     solid ? "[0.123, 0.0456, 0.07]" : "[0.123, 0.0456]",
-                     solid ? "[0.2, 0.1, 0]" : "[0.2, 0.1]")),
-          {degree});
-      for (const auto &[name, x, y] : std::vector<std::tuple<std::string, double, double>>{
-               {"inside", 0.123, 0.0456}, {"corner", 0.2, 0.1}}) {
-        const Table table = probe(run, name);
-        ASSERT_EQ(table.numbers("time"), (std::vector{0.5, 1.}));
-        EXPECT_EQ(table.numbers("x")[0], x);
-        for (std::size_t n = 0; n < 2; ++n) {
-          const double t = table.numbers("time")[n];
-          EXPECT_NEAR(table.numbers("u_x")[n], 1e-6 * (x + 2 * y) * t, 1e-19);
-          EXPECT_NEAR(table.numbers("u_y")[n], -1e-6 * x * t, 1e-19);
-          EXPECT_NEAR(table.numbers("potential")[n], 3 * x - y * t, 1e-13);
-          EXPECT_NEAR(table.numbers("temperature")[n], 5 * y * t, 1e-13);
-        }
-      }
-    }
-}
-
-TEST(Probes, ALineHasItsPointsInEveryStep) {
-  const RunCase run = run_text(linear(
-      2, "triangle", "probe = [ { name = 'cut', from = [0, 0.1], to = [0.2, 0], points = 5 } ]"));
-  const Table table = probe(run, "cut");
-  const std::vector<double> s = table.numbers("s"), x = table.numbers("x"),
-                            theta = table.numbers("temperature");
-  ASSERT_EQ(s.size(), 10u);
-  for (std::size_t i = 0; i < 10; ++i) {
-    EXPECT_NEAR(s[i], std::hypot(0.2, 0.1) * static_cast<double>(i % 5) / 4, 1e-15);
-    EXPECT_NEAR(x[i], 0.05 * static_cast<double>(i % 5), 1e-16);
-    EXPECT_NEAR(theta[i], 5 * (0.1 - 0.025 * static_cast<double>(i % 5)) * (i < 5 ? 0.5 : 1),
-                1e-14);
+void expect_linear(const Table &table) {
+  const std::vector<double> t = table.numbers("time"), x = table.numbers("x"),
+                            potential = table.numbers("potential"),
+                            temperature = table.numbers("temperature");
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    EXPECT_NEAR(potential[i], 600 * t[i] * x[i] / 0.3, 1e-9);
+    EXPECT_NEAR(temperature[i], 1 + 3 * x[i] / 0.3, 1e-11);
   }
 }
 
-TEST(Probes, ASweepReadsTheirColumns) {
-  const std::string text = linear(2, "triangle", "probe = [ { name = 'tip', at = [0.1, 0.05] } ]");
-  const casefile::Case asked = casefile::read_text(text, "case.toml", {});
-  const auto outputs =
-      sweep::chosen_outputs({"tip.u_y", "max:tip.potential", "tip.temperature@0.5"}, {asked});
-  const std::vector<double> values = sweep::read_outputs(run_text(text).folder(), outputs);
-  EXPECT_NEAR(values[0], -1e-7, 1e-19);
-  EXPECT_NEAR(values[1], 0.275, 1e-14);
-  EXPECT_NEAR(values[2], 0.125, 1e-14);
-  EXPECT_EQ(outputs[1].unit, "V");
+TEST(AProbeAtAPlace, TellsLinearFieldsExactlyOnEveryCell) {
+  for (const int degree : {1, 2}) {
+    for (const char *cell : {"triangle", "quadrilateral"}) {
+      const Table table = probe(
+          run_text(plane_plate(cell, degree) + "probe = [{ name = 'p', at = [0.1234, 0.0567] }]"),
+          "p");
+      ASSERT_EQ(table.n_rows(), 3u);
+      EXPECT_EQ(table.numbers("step"), (std::vector{1., 2., 3.}));
+      expect_linear(table);
+    }
+    for (const char *cell : {"tetrahedron", "hexahedron"})
+      expect_linear(probe(run_text(solid_plate(cell, degree) +
+                                   "probe = [{ name = 'p', at = [0.1234, 0.0567, 0.0891] }]"),
+                          "p"));
+  }
 }
 
-TEST(Probes, WhatIsNoProbeIsRefused) {
-  const auto complaint = [](const std::string &probes) {
-    try {
-      run_text(linear(2, "quadrilateral", "probe = [" + probes + "]"));
-    } catch (const CaseError &error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
-  using ::testing::HasSubstr;
-  EXPECT_THAT(complaint("{ name = 'a', at = [0.3, 0.05] }"),
-              HasSubstr("(0.3, 0.05) m is outside of the body; its nearest node is at (0.2, "));
-  EXPECT_THAT(complaint("{ name = 'a', at = [0.1, 0.05] }, { name = 'a', at = [0.1, 0.06] }"),
-              HasSubstr("has this name already"));
-  EXPECT_THAT(complaint("{ name = '../a', at = [0.1, 0.05] }"), HasSubstr("letters, digits"));
-  EXPECT_THAT(complaint("{ name = 'a' }"), HasSubstr("give either `at`"));
-  EXPECT_THAT(complaint("{ name = 'a', from = [0, 0] }"), HasSubstr("two ends"));
-  EXPECT_THAT(complaint("{ name = 'a', at = [0.1, 0.05, 0] }"), HasSubstr("one for each axis"));
+TEST(AProbeAlongALine, HasARowForEachOfItsPlacesInEveryStep) {
+  const Table table = probe(run_text(plane_plate("triangle", 1) + R"(
+probe = [{ name = 'p', from = [0.3, 0], to = [0, 0.1], points = 5 }])"),
+                            "p");
+  ASSERT_EQ(table.n_rows(), 15u);
+  expect_linear(table);
+  const std::vector<double> s = table.numbers("s"), y = table.numbers("y");
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    EXPECT_NEAR(s[i], std::hypot(0.3, 0.1) * static_cast<double>(i % 5) / 4, 1e-15);
+    EXPECT_NEAR(y[i], 0.1 * static_cast<double>(i % 5) / 4, 1e-16);
+  }
+}
+
+// Of fields that vary in every direction.
+TEST(AProbeAtANode, TellsWhatNodesCsvSays) {
+  const RunCase run("cases/ouafik-2020/conductive.toml",
+                    {"mesh.box.cells=[8,8]", "time.steps=2", "output.report=false",
+                     "probe=[{name='node', at=[0.05, 0.0875]}]"});
+  const Table table = probe(run, "node"), nodes = run.nodes();
+  const std::vector<double> x = nodes.numbers("x"), y = nodes.numbers("y");
+  std::size_t node = 0;
+  while (std::abs(x[node] - 0.05) + std::abs(y[node] - 0.0875) > 1e-12)
+    ++node;
+  for (const char *column : {"u_x", "u_y", "potential", "temperature"})
+    EXPECT_NEAR(table.numbers(column).back(), nodes.numbers(column)[node],
+                1e-13 * largest(nodes, column));
+}
+
+TEST(AProbeOutsideOfTheBody, IsRefusedWithTheNearestPlace) {
+  const std::string asked = plane_plate("triangle", 1);
+  EXPECT_THAT([&] { run_text(asked + "probe = [{ name = 'p', at = [0.2, 0.11] }]"); },
+              ThrowsMessage<CaseError>(HasSubstr(
+                  "at = [0.2, 0.11]: this place lies outside of the body; the nearest place in it "
+                  "is [0.2, 0.1], 0.01 m away")));
+  EXPECT_THAT(
+      [&] {
+        run_text(asked + "probe = [{ name = 'p', from = [0, 0], to = [0.6, 0], points = 4 }]");
+      },
+      ThrowsMessage<CaseError>(
+          HasSubstr("place 3 of the 4 on this line, [0.4, 0], lies outside of the body")));
+}
+
+// The circles of a ring lie outside of its cells, which have straight edges.
+TEST(AProbeOnACircle, IsToldWhereTheBodyEnds) {
+  const std::string ring = plate + R"(
+mesh.annulus = { inner = 0.1, outer = 0.2, cells = [2, 16] }
+boundary = [{ on = "inner", displacement = [0, 0], potential = 0, temperature = 0 }]
+)";
+  const double angle = 0.19635, r = 0.2 * std::cos(angle);  // amid two nodes
+  const std::string on_circle =
+      std::to_string(0.2 * std::cos(angle)) + ", " + std::to_string(0.2 * std::sin(angle));
+  std::string nearest;
+  try {
+    run_text(ring + "probe = [{ name = 'p', at = [" + on_circle + "] }]");
+  } catch (const CaseError &error) {
+    nearest = error.what();
+  }
+  const std::size_t begin = nearest.find("in it is ") + 9;
+  ASSERT_LT(begin, nearest.size()) << nearest;
+  nearest = nearest.substr(begin, nearest.find(']', begin) + 1 - begin);
+  const Table table = probe(run_text(ring + "probe = [{ name = 'p', at = " + nearest + " }]"), "p");
+  EXPECT_NEAR(std::hypot(table.numbers("x")[0], table.numbers("y")[0]), r, 1e-6);
 }
 
 }  // namespace

@@ -69,6 +69,24 @@ friction = { law = "tresca", bound = 15 }
                                HasSubstr("strains reach"), HasSubstr("(step 40,")));
 }
 
+TEST_F(Interrupted, ProbesGoOn) {
+  std::ofstream(here() / "probed.toml") << R"toml(
+mesh.box = { min = [0, 0], max = [0.1, 0.1], cells = [12, 12] }
+material.library = "BaTiO3-Liu2014"
+time = { end = 1, steps = 400 }
+output.every = 70
+boundary = [ { on = "right", displacement = [0, 0], potential = 0, temperature = 0 },
+             { on = "top", traction = [0, "-50*t - 200*t*t"] } ]
+contact = { on = "left", friction = { law = "tresca", bound = 0.5 } }
+probe = [ { name = "tip", at = [0, 0.1] },
+          { name = "line", from = [0, 0], to = [0.1, 0.1], points = 3 },
+          { name = "rubbed", on = "left" } ]
+)toml";
+  expect_to_go_on("probed.toml", "150steps");
+  for (const char *name : {"tip", "line", "rubbed"})
+    EXPECT_TRUE(fs::exists(here() / "other/results" / ("probe-" + std::string(name) + ".csv")));
+}
+
 TEST_F(Interrupted, TheMonolithicRouteGoesOn) {
   expect_to_go_on(paper + " --set solver.method=monolithic --set contact.friction.bound=0.02");
 }

@@ -115,14 +115,15 @@ TEST_F(Results, TheSameRunLeavesTheSameBytes) {
 }
 
 TEST_F(Results, AnEarlierRunsFilesAreRemovedAndNoOthers) {
-  const Names ours{
-      "result_0001.vtu", "result_12345.vtu", "result.pvd",           "nodes.csv",
-      "contact.csv",     "history.csv",      "summary.json",         "resolved.toml",
-      "report.html",     "history.csv.part", "result_0007.vtu.part", "checkpoint.bin",
-      "contact.pvd",     "contact_0001.vtu", "contact_12345.vtu",    "contact.pvd.part"};
-  const Names others{"result_mine.vtu",    "result_01.vtu",   "notes.csv", "old_nodes.csv",
-                     "thesis.tex.part",    "result.pvd.bak",  "Nodes.csv", "contact_1.vtu",
-                     "contact_0001_0.vtu", "contact_mine.vtu"};
+  const Names ours{"result_0001.vtu",  "result_12345.vtu",     "result.pvd",
+                   "nodes.csv",        "contact.csv",          "history.csv",
+                   "summary.json",     "resolved.toml",        "report.html",
+                   "history.csv.part", "result_0007.vtu.part", "checkpoint.bin",
+                   "contact.pvd",      "contact_0001.vtu",     "contact_12345.vtu",
+                   "contact.pvd.part", "probe-tip.csv",        "probe-a.b.csv.part"};
+  const Names others{"result_mine.vtu",    "result_01.vtu",    "notes.csv", "old_nodes.csv",
+                     "thesis.tex.part",    "result.pvd.bak",   "Nodes.csv", "contact_1.vtu",
+                     "contact_0001_0.vtu", "contact_mine.vtu", "probe.csv", "probe-tip.txt"};
   std::filesystem::create_directories(directory / "history.csv.d");
   for (const Names &names : {ours, others})
     for (const std::string &name : names)
@@ -195,6 +196,34 @@ TEST_F(Results, AFileOfTheContactOnWhichACheckpointCountsIsMissed) {
   std::filesystem::remove(directory / "contact_0002.vtu");
   EXPECT_THAT([&] { require_position(directory, position); },
               ThrowsMessage<MachineError>(HasSubstr("contact_0002.vtu")));
+}
+
+TEST_F(Results, BehindACheckpointProbesGoOnAsWell) {
+  const auto rows = [](const char *name, double value) {
+    return ProbeRows{name, {"u_x"}, {{value}, {value + 1}}};
+  };
+  Checkpoint checkpoint;
+  {
+    ResultFolder results(directory, 2);
+    results.put_probe(1, 0.1, rows("tip", 3));
+    results.put_checkpoint(behind(1));
+    results.put_probe(2, 0.2, rows("tip", 7));
+    results.put_probe(2, 0.2, rows("later", 7));
+    checkpoint = read_checkpoint(directory / "checkpoint.bin");
+  }
+  {
+    ResultFolder results(directory, 2, {}, checkpoint);
+    results.put_probe(2, 0.2, rows("tip", 5));
+    results.finish();
+  }
+  EXPECT_EQ(content_of(directory / "probe-tip.csv"),
+            "step,time,u_x\n1,0.10000000000000001,3\n1,0.10000000000000001,4\n"
+            "2,0.20000000000000001,5\n2,0.20000000000000001,6\n");
+  EXPECT_EQ(file_sizes(directory).at("probe-tip.csv"),
+            std::filesystem::file_size(directory / "probe-tip.csv"));
+  std::ofstream(directory / "probe-tip.csv") << "step,time,u_x\n1,0.1,3\n";
+  EXPECT_THAT([&] { require_position(directory, checkpoint.position); },
+              ThrowsMessage<MachineError>(HasSubstr("probe-tip.csv")));
 }
 
 TEST_F(Results, TheSummaryHasTheBytesOfBothSeriesApart) {

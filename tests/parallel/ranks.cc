@@ -120,6 +120,63 @@ TEST_P(Ranks, RegionsOfAMeshFileAndElectrodesOnItsCurvesAreTheSame) {
   expect_same_device(one_, several_, "lower", "upper");
 }
 
+// Each place belongs to the cells of one rank, those on edges between cells to one of several.
+TEST_P(Ranks, ProbesAreTheSame) {
+  ASSERT_NO_FATAL_FAILURE(run_twice(file_of(slipping_block) +
+                                    " --set 'probe=[{name=\"p\",at=[0.031,0.047,0.053]},"
+                                    "{name=\"l\",from=[0,0,0],to=[0.1,0.1,0.1],points=9}]'"));
+  for (const char *file : {"probe-p.csv", "probe-l.csv"}) {
+    const Table one = read_table(folder_ / "one" / file),
+                several = read_table(folder_ / "several" / file);
+    for (const char *column : {"x", "y", "z"})
+      EXPECT_EQ(several.columns.at(column), one.columns.at(column));
+    expect_equal_quantities(several, one, {{"u_x", "u_y", "u_z"}, {"potential"}, {"temperature"}});
+  }
+}
+
+// Of loads by place and time, whose shares stay with the ranks, too.
+TEST_P(Ranks, ProbesOfBoundariesAreTheSame) {
+  const std::vector<std::string> sides{"left", "right", "front", "back", "bottom", "top"};
+  std::string probes;
+  for (const std::string &side : sides)
+    probes += "\n[[probe]]\nname = '" + side + "'\non = '" + side + "'";
+  ASSERT_NO_FATAL_FAILURE(run_twice(file_of(slipping_block + probes) +
+                                    " --set 'contact.heat.coefficient=\"1+10*y\"'"
+                                    " --set 'contact.heat.foundation_temperature=\"-27+y*t\"'"));
+  const auto tables = [&](const char *run, const std::string &side) {
+    return read_table(folder_ / run / ("probe-" + side + ".csv"));
+  };
+  const double force = largest(tables("one", "right"), "force_x"), size = 0.1;
+  EXPECT_GT(force, 0);
+  for (const std::string &side : sides) {
+    const Table one = tables("one", side), several = tables("several", side);
+    for (const std::string axis : {"x", "y", "z"}) {
+      EXPECT_LE(difference(several, one, "force_" + axis, force), 1e-9);
+      EXPECT_LE(difference(several, one, "moment_" + axis, size * force), 1e-9);
+    }
+    EXPECT_LE(difference(several, one, "area", size * size), 1e-14);
+    EXPECT_LE(difference(several, one, "heat"), 1e-9);
+  }
+}
+
+TEST_P(Ranks, ProbesOfRegionsAreTheSame) {
+  ASSERT_NO_FATAL_FAILURE(run_twice(file_of(laminate) +
+                                    " --set 'region[0].name=\"layer\"'"
+                                    " --set 'probe=[{name=\"p\",region=\"layer\"}]'"));
+  const Table one = read_table(folder_ / "one" / "probe-p.csv"),
+              several = read_table(folder_ / "several" / "probe-p.csv");
+  expect_equal_quantities(several, one,
+                          {{"volume"},
+                           {"elastic_energy", "electric_energy", "thermal_energy"},
+                           {"mean_u_x", "mean_u_y", "min_u_x", "max_u_y"},
+                           {"mean_potential", "min_potential", "max_potential"}});
+}
+
+TEST_P(Ranks, AProbeOutsideIsToldOnce) {
+  expect_told_once(paper_ + "--set 'probe=[{name=\"p\",at=[0.05,0.2]}]'", 2,
+                   "the nearest place in it is [0.05, 0.1]");
+}
+
 TEST_P(Ranks, AWrongCaseIsToldOnce) {
   expect_told_once(paper_ + "--set time.stps=3", 2, "stps");
 }

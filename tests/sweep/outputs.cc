@@ -180,6 +180,56 @@ TEST(ChosenOutputs, LastIsWhatANameAloneSays) {
       ThrowsMessage<CaseError>(HasSubstr("asked for twice")));
 }
 
+// Of a place, `{name = "max.a"}`, in the paper's body.
+std::vector<casefile::Case> probed() {
+  return {shipped("ouafik-2020/insulated.toml",
+                  {"mesh.box.cells=[8,8]", "time.steps=2",
+                   "probe=[{name=\"max.a\",at=[0.03,0.1]},"
+                   "{name=\"l\",from=[0,0],to=[0.1,0],points=3},{name=\"clamp\",on=\"right\"}]"})};
+}
+
+TEST(ChosenOutputs, AProbeHasItsColumnsBehindAPoint) {
+  const auto chosen =
+      chosen_outputs({"max.a.u_y", "min:max.a.potential", "max.a.temperature@0.1"}, probed());
+  EXPECT_EQ(chosen[0].unit, "m");
+  EXPECT_EQ(chosen[1].unit, "V");
+  EXPECT_EQ(chosen[1].column, "max.a.potential");
+  EXPECT_EQ(chosen[2].reduction.time, 0.1);
+  EXPECT_THAT([] { chosen_outputs({"max.a.u_z"}, probed()); },
+              ThrowsMessage<CaseError>(HasSubstr("did you mean \"max.a.u_")));
+  EXPECT_THAT([] { chosen_outputs({"l.u_x"}, probed()); },  // which has many rows in each step
+              ThrowsMessage<CaseError>(HasSubstr("no column")));
+}
+
+TEST(ChosenOutputs, AProbeOfABoundaryHasAllColumnsOfItsTable) {
+  const output::TemporaryFolder folder;
+  run::simulate(probed().front(), folder.path(), {.quiet = true});
+  for (const std::string name : {"clamp", "max.a"})
+    for (const std::string &column : report::read_table(folder / ("probe-" + name + ".csv")).names)
+      if (column != "step" && column != "time") {
+        EXPECT_NO_THROW(chosen_outputs({name + "." + column}, probed())) << column;
+      }
+  EXPECT_EQ(chosen_outputs({"clamp.moment_z"}, probed()).front().unit, "N m/m");
+}
+
+TEST(ReadOutputs, OfAProbeAreTakenFromItsTable) {
+  const output::TemporaryFolder folder;
+  run::simulate(probed().front(), folder.path(), {.quiet = true});
+  const report::Table table = report::read_table(folder / "probe-max.a.csv");
+  const auto values = read_outputs(
+      folder.path(), chosen_outputs({"max.a.u_y", "max.a.u_y@0.1", "max.a.x"}, probed()));
+  EXPECT_EQ(values[0], table.find("u_y")->back());
+  EXPECT_EQ(values[1], table.find("u_y")->front());
+  EXPECT_EQ(values[2], 0.03);
+}
+
+TEST(ReadOutputs, OfAProbeThatTheRunDoesNotHaveAreNoNumbers) {
+  const output::TemporaryFolder folder;
+  run::simulate(shipped("ouafik-2020/insulated.toml", {"mesh.box.cells=[8,8]", "time.steps=2"}),
+                folder.path(), {.quiet = true});
+  EXPECT_TRUE(std::isnan(read_outputs(folder.path(), {{"max.a.u_y", "m"}}).front()));
+}
+
 TEST(ReadOutputs, ADamagedSummaryIsToldByItsName) {
   const output::TemporaryFolder folder;
   std::ofstream(folder / "history.csv") << "step,time,slip\n1,0.5,3\n";

@@ -6,7 +6,7 @@ import { shown } from './numbers';
 import { Result, Table } from './results';
 import { Timeline } from './timeline';
 
-interface Group {
+export interface Group {
   title: string;
   unit: string;
   columns: [name: string, label: string][];
@@ -75,14 +75,12 @@ function groups(history: Table, perDepth: boolean): Group[] {
 /** Up to so many steps are a table: a curve through them would be hardly more than a mark. */
 const mostStepsInTable = 3;
 
-export class History {
+/** Curves of a table that has a row for each step. */
+export class Curves {
   readonly content: HTMLElement;
 
-  constructor(result: Result, private readonly timeline: Timeline, private readonly sync: string) {
-    const history = result.history!;
+  constructor(history: Table, all: Group[], private readonly timeline: Timeline, private readonly sync: string) {
     const time = [...(history.column('time') ?? [])];
-    const all = groups(history, result.perDepth)
-      .filter((g) => !g.bars || !!result.contact?.rows || !g.columns.every(([n]) => greatest(history, n) === 0));
     const parts = all.map((group) => ({ group, curves: curvesOf(group, history) })).filter(({ curves }) => curves.length > 0);
     const silent = all.filter((g) => g.columns.some(([n]) => isRoundOff(g, history, n)) && !parts.some((p) => p.group === g));
     const notes = silent.length > 0 && element('p', { class: 'note' }, `Below round-off: ${silent.map((g) => g.title).join(', ')}.`);
@@ -93,6 +91,15 @@ export class History {
   private chart(group: Group, curves: Curve[], time: number[]): HTMLElement {
     return new Chart({ title: group.title, xLabel: 't [s]', unit: group.unit, sync: 'time' + this.sync,
       least: 0, mark: () => this.timeline.time }, time, curves).box;
+  }
+}
+
+export class History extends Curves {
+  constructor(result: Result, timeline: Timeline, sync: string) {
+    const history = result.history!;
+    super(history, groups(history, result.perDepth)
+      .filter((g) => !g.bars || !!result.contact?.rows || !g.columns.every(([n]) => greatest(history, n) === 0)),
+      timeline, sync);
   }
 }
 

@@ -9,6 +9,7 @@ import { ContactFace } from './contact_face';
 import { element } from './dom';
 import { Explorer } from './explorer';
 import { History } from './history';
+import { probes } from './probes';
 import { Overview } from './overview';
 import { load, Result } from './results';
 import { inBrief, runSection, warnings } from './run';
@@ -85,6 +86,11 @@ if (results.some((r) => r.history)) {
   page.append(section('history', 'Over time', beside((r) => !!r.history &&
     new History(r, timeline, String(results.indexOf(r))).content)));
   timeline.onChange(redrawMarks);
+}
+if (results.some((r) => r.probes.length > 0)) {
+  page.append(section('probes', 'Probes', beside((r) => r.probes.length > 0 &&
+    probes(r, timeline, String(results.indexOf(r))))));
+  if (!results.some((r) => r.history)) timeline.onChange(redrawMarks);
 }
 page.append(section('run', 'The run', beside((r) => runSection(r))));
 if (timeline.times.length > 1) document.body.append(timeline.bar);

@@ -24,6 +24,7 @@ interface PackedResult {
   grid?: Record<'points' | 'nodes' | 'cells' | 'triangles' | 'triangleCells' | 'edges', Packed>;
   history?: PackedTable;
   contact?: PackedTable;
+  probes?: { name: string; table: PackedTable }[];
   /** names of several contacts, by the numbers of the column `contact` */
   contacts?: string[];
   frictionBound?: Packed;
@@ -168,6 +169,8 @@ export class Result {
   readonly poling?: Float32Array;
   readonly history?: Table;
   readonly contact?: Table;
+  /** what each probe told in every step */
+  readonly probes: { name: string; table: Table }[];
   /** S at each row of `contact` [N/m²] */
   readonly frictionBound?: Float32Array;
 
@@ -188,6 +191,7 @@ export class Result {
     if (packed.poling) this.poling = unpack(packed.poling);
     if (packed.history) this.history = new Table(packed.history);
     if (packed.contact) this.contact = new Table(packed.contact);
+    this.probes = (packed.probes ?? []).map((p) => ({ name: p.name, table: new Table(p.table) }));
     if (packed.frictionBound) this.frictionBound = unpack(packed.frictionBound);
     else {
       const bound = this.contact?.column('friction_bound');

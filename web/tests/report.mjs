@@ -731,6 +731,30 @@ await inBrowser(desktop, async (context) => {
   });
 });
 
+await test('probes have their curves under their names, those along lines none', async () => {
+  const out = runText('probed', `${plate('"bottom"')}
+[[probe]]
+name = "tip"
+at = [0.02, 0.01]
+[[probe]]
+name = "clamp"
+on = "left"
+[[probe]]
+name = "line"
+from = [0, 0]
+to = [0.02, 0]
+points = 3
+`);
+  await inBrowser(desktop, async (context) => {
+    const { tab, complaints } = await open(context, join(out, 'report.html'));
+    assert.deepEqual(await tab.locator('#probes h3').allTextContents(), ['tip', 'clamp']);
+    const titles = await tab.locator('#probes figcaption').allTextContents();
+    for (const title of ['Displacement', 'Potential', 'Force on the body']) assert.ok(titles.includes(title), title);
+    assert.equal(await tab.locator('#probes canvas').count(), titles.length);
+    assert.deepEqual(complaints, []);
+  });
+});
+
 await test('two runs of one title are told apart, also in folders of one name', async () => {
   const title = 'The same case';
   for (const [one, other, names] of [['twins/a', 'twins/b', ['a', 'b']], ['twins/x/run', 'twins/y/run', ['x/run', 'y/run']]]) {

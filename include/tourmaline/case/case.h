@@ -78,10 +78,10 @@ struct Case {
   std::vector<ContactCase> contacts;  ///< no boundary in two of them
   ModelCase model;
   SolverCase solver;
+  std::vector<ProbeCase> probes;
   OutputCase output;
   LoadCase load;
   InitialCase initial;
-  std::vector<ProbeCase> probes;
 
   int dimension = 2;  ///< 2 or 3, from the mesh
 

@@ -50,6 +50,7 @@ struct MaterialCase {
 /// One [[region]] entry: a part of the body, by the names in a mesh file or by a condition on the
 /// centres of the cells, and what it is made of.
 struct RegionCase {
+  std::optional<std::string> name;  ///< by which probes know it; of no other one
   std::vector<std::string> on;
   std::optional<Formula> inside;  ///< `where` in the case file: a cell belongs to it where not zero
   std::string place;              ///< file and line of the entry, for error texts

@@ -1,0 +1,348 @@
+#include "run/start_state.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "body/interpolation.h"
+#include "case/place_of_key.h"
+#include "case/toml_text.h"
+#include "mesh/distribute.h"
+#include "mesh/mesh.h"
+#include "parallel/ranks.h"
+#include "report/field_file.h"
+#include "report/recorded_mesh.h"
+#include "report/table.h"
+#include "tourmaline/case/case.h"
+#include "tourmaline/error.h"
+#include "tourmaline/mesh/gmsh.h"
+
+namespace tourmaline::run {
+
+namespace fs = std::filesystem;
+using body::Fields;
+using body::unknown;
+using casefile::InitialCase;
+
+namespace {
+
+// How far apart two numbers of one coordinate are at most, and how far a place may lie outside of
+// the other mesh, where both approximate one curved boundary; of the body's size.
+constexpr double same_place = 1e-12, near_boundary = 1e-2;
+
+[[noreturn]] void fail(const InitialCase &initial, const std::string &reason) {
+  throw CaseError(fmt::format("{} = {}: {}", casefile::place_of_key(initial.places, "", "from"),
+                              casefile::toml_text(*initial.from), reason));
+}
+
+// A run's state as its files have it, by node.
+struct Recorded {
+  std::vector<Vector3> points;
+  std::vector<double> unknowns;
+};
+
+template <int dim>
+Recorded of_nodes(const fs::path &file) {
+  const report::Table table = report::read_table(file);
+  Recorded found;
+  found.points.resize(table.n_rows());
+  found.unknowns.resize(table.n_rows() * Fields<dim>::count);
+  const auto column = [&](const std::string &name) -> const std::vector<double> & {
+    const std::vector<double> *values = table.find(name);
+    if (!values)
+      throw CaseError(fmt::format("{} has no column {} and is of no body of {} dimensions",
+                                  file.string(), name, dim));
+    return *values;
+  };
+  for (std::size_t i = 0; i < table.n_rows(); ++i) {
+    for (int c = 0; c < dim; ++c)
+      found.points[i][static_cast<std::size_t>(c)] = column(std::string(1, "xyz"[c]))[i];
+    for (int c = 0; c < Fields<dim>::count; ++c)
+      found.unknowns[unknown<dim>(static_cast<body::Node>(i), c)] =
+          column(body::column_of<dim>(c))[i];
+  }
+  return found;
+}
+
+template <int dim>
+Recorded of_fields(const fs::path &file) {
+  const report::FieldFile fields = report::read_field_file(file);
+  Recorded found{fields.grid.points,
+                 std::vector<double>(fields.grid.points.size() * Fields<dim>::count, 0.)};
+  const auto put = [&](const report::FieldArray &array, int first, int count) {
+    for (std::size_t i = 0; i < found.points.size(); ++i)
+      for (int c = 0; c < count; ++c)
+        found.unknowns[unknown<dim>(static_cast<body::Node>(i), first + c)] =
+            array.values[i * array.components + static_cast<std::size_t>(c)];
+  };
+  for (const report::FieldArray &array : fields.arrays) {
+    if (!array.on_points)
+      continue;
+    if (array.name == "displacement")
+      put(array, 0, dim);
+    if (array.name == "potential")
+      put(array, Fields<dim>::potential, 1);
+    if (array.name == "temperature")
+      put(array, Fields<dim>::temperature, 1);
+  }
+  return found;
+}
+
+bool is_file(const fs::path &file) {
+  std::error_code ignored;
+  return fs::is_regular_file(file, ignored);
+}
+
+fs::path file_of(const InitialCase &initial) {
+  const fs::path folder = *initial.from;
+  if (!initial.step)
+    return folder / "nodes.csv";
+  for (const char *ending : {"vtu", "pvtu"})
+    if (const fs::path file = folder / fmt::format("result_{:04}.{}", *initial.step, ending);
+        is_file(file))
+      return file;
+  return folder / fmt::format("result_{:04}.vtu", *initial.step);
+}
+
+void require_files(const InitialCase &initial) {
+  std::error_code ignored;
+  if (!fs::is_directory(*initial.from, ignored))
+    fail(initial, "there is no such folder");
+  if (!is_file(fs::path(*initial.from) / "resolved.toml"))
+    fail(initial, "holds no run: it has no resolved.toml");
+  if (const fs::path file = file_of(initial); !is_file(file))
+    fail(initial, initial.step
+                      ? fmt::format("has no fields of step {} ({}); see its result.pvd for the "
+                                    "steps that it has",
+                                    *initial.step, file.filename().string())
+                      : "has no nodes.csv, as that run has not been completed; name one of its "
+                        "steps by initial.step");
+}
+
+template <int dim>
+Recorded recorded(const InitialCase &initial) {
+  const fs::path file = file_of(initial);
+  try {
+    Recorded found = initial.step ? of_fields<dim>(file) : of_nodes<dim>(file);
+    if (!std::ranges::all_of(found.unknowns, [](double value) { return std::isfinite(value); }))
+      throw CaseError(file.string() + " holds what is no number");
+    return found;
+  } catch (const CaseError &error) {
+    fail(initial, error.what());
+  }
+}
+
+// Of the other run; the mesh as its folder tells of it.
+casefile::Case case_of(const InitialCase &initial) {
+  const fs::path folder = *initial.from;
+  try {
+    return casefile::read_file(folder / "resolved.toml", {}, [&](const casefile::MeshCase &) {
+      return report::recorded_mesh(folder);
+    });
+  } catch (const CaseError &error) {
+    fail(initial, fmt::format("its case cannot be read again: {}", error.what()));
+  }
+}
+
+template <int dim>
+double size_of(const std::vector<Vector3> &points) {
+  double size = 0;
+  for (int axis = 0; axis < dim; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    const auto [low, high] =
+        std::minmax_element(points.begin(), points.end(),
+                            [&](const Vector3 &a, const Vector3 &b) { return a[i] < b[i]; });
+    size = std::max(size, (*high)[i] - (*low)[i]);
+  }
+  return size;
+}
+
+double distance(const Vector3 &a, const Vector3 &b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+template <int dim>
+bool are_same(const std::vector<Vector3> &some, const std::vector<Vector3> &others) {
+  const double apart = same_place * size_of<dim>(some);
+  return some.size() == others.size() &&
+         std::equal(some.begin(), some.end(), others.begin(),
+                    [&](const Vector3 &a, const Vector3 &b) { return distance(a, b) <= apart; });
+}
+
+template <int dim>
+body::Discretisation<dim> mesh_of(const InitialCase &initial, const Recorded &from) {
+  try {
+    const casefile::Case other =
+        casefile::read_file(fs::path(*initial.from) / "resolved.toml", {}, mesh::read_mesh_file);
+    mesh::Mesh<dim> mesh = mesh::build<dim>(other);
+    mesh::distribute(mesh);
+    body::Discretisation<dim> body(std::move(mesh), other.mesh.degree, body::geometry_of(other));
+    if (are_same<dim>(body.points(), from.points))
+      return body;
+  } catch (const CaseError &error) {
+    fail(initial, fmt::format("its mesh, from which the state is interpolated onto the one of this "
+                              "case, cannot be made again: {}",
+                              error.what()));
+  }
+  fail(initial,
+       "the mesh that its case names is another one now than the run had; the state can be "
+       "interpolated from that one only");
+}
+
+template <int dim>
+[[noreturn]] void fail_outside(const InitialCase &initial, const Vector3 &place, double away) {
+  std::string words = fmt::format("{:g}, {:g}", place[0], place[1]);
+  if (dim == 3)
+    words += fmt::format(", {:g}", place[2]);
+  fail(initial, fmt::format("the body of that run does not reach [{}] m, a place of this one, by "
+                            "{:.3g} m; both must be one body",
+                            words, away));
+}
+
+// Places a little outside of the other mesh have the values of the nearest ones in it.
+template <int dim>
+std::vector<double> interpolated(const InitialCase &initial, const Recorded &from,
+                                 const std::vector<Vector3> &points) {
+  const body::Discretisation<dim> other = mesh_of<dim>(initial, from);
+  std::vector<Vector3> places = points;
+  std::vector<body::Interpolation> found = body::nearest_places(other, places);
+  const double far = near_boundary * size_of<dim>(from.points);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (found[i].distance > far)
+      fail_outside<dim>(initial, places[i], found[i].distance);
+    places[i] = found[i].place;
+  }
+  found = body::nearest_places(other, places);
+  std::vector<double> state(points.size() * Fields<dim>::count);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (int c = 0; c < Fields<dim>::count; ++c)
+      state[unknown<dim>(static_cast<body::Node>(i), c)] =
+          found[i].template value<dim>(from.unknowns, c);
+  return state;
+}
+
+template <int dim>
+double largest(const std::vector<double> &state, int component) {
+  double most = 0;
+  for (std::size_t i = static_cast<std::size_t>(component); i < state.size();
+       i += Fields<dim>::count)
+    most = std::max(most, std::abs(state[i]));
+  return most;
+}
+
+// What the files of a run do not have.
+template <int dim>
+void require_recorded(const solve::Model<dim> &model, const casefile::Case &other) {
+  const InitialCase &initial = model.asked.initial;
+  if (model.laws.remembers_slip())
+    fail(initial,
+         "is not available with friction that weakens with the accumulated slip, which the "
+         "files of a run do not have for another one; have both in one run");
+  if (model.laws.remembers_charge())
+    fail(initial,
+         "is not available with a contact through which charge leaks, as what has crossed "
+         "before would be forgotten; have both in one run");
+  for (const casefile::ContactCase &contact : model.asked.contacts)
+    if (contact.electric.circuit)
+      fail(initial,
+           "is not available with a foundation that conducts (contact.electric.circuit), "
+           "as its charge would be forgotten; have both in one run");
+  if (other.time.is_dynamic() && model.asked.time.is_dynamic() && initial.velocity.empty())
+    fail(initial,
+         "that run was dynamic, and files have no velocities; give initial.velocity, "
+         "[0, ...] where it had come to rest");
+}
+
+template <int dim>
+void require_one_theory(const solve::Model<dim> &model, const casefile::Case &other) {
+  const InitialCase &initial = model.asked.initial;
+  const casefile::Case &asked = model.asked;
+  if (other.model.plane != asked.model.plane && dim == 2)
+    fail(initial, fmt::format("that run has model.plane = \"{}\", this one \"{}\"",
+                              other.model.plane, asked.model.plane));
+  const double there = material::Composition<dim>(other).reference_temperature(),
+               here = model.composition.reference_temperature();
+  if (other.model.thermal && asked.model.thermal && there != here)
+    fail(initial,
+         fmt::format("its temperatures are differences to {} K, those of this case to {} K", there,
+                     here));
+}
+
+template <int dim>
+void require_unknowns(const casefile::Case &asked, const std::vector<double> &state) {
+  const double volts = largest<dim>(state, Fields<dim>::potential),
+               warmth = largest<dim>(state, Fields<dim>::temperature);
+  if (!asked.model.electric && volts > 0)
+    fail(asked.initial, fmt::format("that run has potentials of up to {:g} V, and this case has "
+                                    "model.electric = false",
+                                    volts));
+  if (!asked.model.thermal && warmth > 0)
+    fail(asked.initial, fmt::format("that run has temperatures of up to {:g} K, and this case has "
+                                    "model.thermal = false",
+                                    warmth));
+  if (asked.time.is_static() && warmth > 0)
+    fail(
+        asked.initial,
+        fmt::format("that run has temperatures of up to {:g} K, and those of a static case are its "
+                    "own steady ones; take time.regime = \"quasistatic\"",
+                    warmth));
+}
+
+template <int dim>
+std::vector<double> state_of_other(const solve::Model<dim> &model) {
+  const InitialCase &initial = model.asked.initial;
+  require_files(initial);
+  const casefile::Case other = case_of(initial);
+  if (other.dimension != dim)
+    fail(initial, fmt::format("that run has {} dimensions, this case {}", other.dimension, dim));
+  require_recorded(model, other);
+  require_one_theory(model, other);
+  const Recorded from = recorded<dim>(initial);
+  std::vector<double> state = are_same<dim>(model.body.points(), from.points)
+                                  ? from.unknowns
+                                  : interpolated<dim>(initial, from, model.body.points());
+  require_unknowns<dim>(model.asked, state);
+  return state;
+}
+
+}  // namespace
+
+template <int dim>
+std::vector<double> start_state(solve::Model<dim> &model) {
+  InitialCase &initial = model.asked.initial;
+  if (initial.from && !initial.state)
+    initial.state = std::make_shared<std::vector<double>>(state_of_other(model));
+  return body::initial_state(model.body, initial);
+}
+
+std::vector<fs::path> start_files(const InitialCase &initial) {
+  if (!initial.from)
+    return {};
+  require_files(initial);
+  std::vector<fs::path> files{file_of(initial)};
+  if (files.front().extension() != ".pvtu")
+    return files;
+  const std::string piece = files.front().stem().string() + "_";
+  std::error_code ignored;
+  for (fs::directory_iterator entry(*initial.from, ignored), end; !ignored && entry != end;
+       entry.increment(ignored))
+    if (entry->path().filename().string().starts_with(piece))
+      files.push_back(entry->path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+void require_other_folder(const InitialCase &initial, const fs::path &results) {
+  std::error_code ignored;
+  if (initial.from && fs::equivalent(*initial.from, results, ignored))
+    fail(initial,
+         "is where the results of this run are for, and would be removed at its start; "
+         "name another folder with -o");
+}
+
+template std::vector<double> start_state<2>(solve::Model<2> &);
+template std::vector<double> start_state<3>(solve::Model<3> &);
+
+}  // namespace tourmaline::run
