@@ -15,6 +15,7 @@
 #include "output/result_folder.h"
 #include "parallel/ranks.h"
 #include "run/schedule.h"
+#include "run/start_state.h"
 #include "run/versions.h"
 #include "tourmaline/error.h"
 

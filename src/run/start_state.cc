@@ -16,6 +16,7 @@
 #include "report/recorded_mesh.h"
 #include "report/table.h"
 #include "tourmaline/case/case.h"
+#include "tourmaline/case/reader.h"
 #include "tourmaline/error.h"
 #include "tourmaline/mesh/gmsh.h"
 
