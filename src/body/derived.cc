@@ -35,6 +35,14 @@ output::SymmetricTensor in_file_order(const material::Voigt &v, double shear) {
   return {v[0], v[1], v[2], shear * v[5], shear * v[3], shear * v[4]};
 }
 
+Vector3 principal_stresses(const output::SymmetricTensor &s) {
+  Eigen::Matrix3d stress;
+  stress << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+  const Eigen::Vector3d ascending =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stress, Eigen::EigenvaluesOnly).eigenvalues();
+  return {ascending[2], ascending[1], ascending[0]};
+}
+
 double von_mises(const output::SymmetricTensor &s) {
   const double xy = s[0] - s[1], yz = s[1] - s[2], zx = s[2] - s[0];
   return std::sqrt((xy * xy + yz * yz + zx * zx) / 2 +
@@ -60,6 +68,7 @@ void add_fields(const Gradients &m, const material::Constants &c, output::CellFi
   const material::Voigt strain = strain_of(m);
   fields.strain.push_back(in_file_order(strain, 0.5));
   fields.stress.push_back(in_file_order(stress_of(m, c), 1));
+  fields.principal_stress.push_back(principal_stresses(fields.stress.back()));
   fields.von_mises.push_back(von_mises(fields.stress.back()));
   fields.electric_field.push_back(plain(-m.potential));
   // (2) with E = -grad phi, (3).

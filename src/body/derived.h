@@ -31,6 +31,9 @@ struct LargestStrain {
 template <int dim>
 LargestStrain largest_strain(const Discretisation<dim> &body, std::span<const double> state);
 
+/// The principal stresses, largest first; components as below.
+Vector3 principal_stresses(const output::SymmetricTensor &stress);
+
 /// sqrt(3/2 s:s) of the deviator s; components xx, yy, zz, xy, yz, xz.
 double von_mises(const output::SymmetricTensor &stress);
 

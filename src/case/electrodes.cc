@@ -85,6 +85,23 @@ void check_to(const ElectrodeCase &electrode, const std::vector<ElectrodeCase> &
     fail(electrode, "to", to, "names an electrode whose charge is given and cannot flow");
 }
 
+// One search for potentials at a time.
+void check_searches(const Case &asked) {
+  const bool searches = asked.solver.method == "monolithic" || asked.solver.body == "iterative";
+  const auto free = std::find_if(asked.electrodes.begin(), asked.electrodes.end(),
+                                 [](const ElectrodeCase &one) { return !one.is_driven(); });
+  if (!searches || free == asked.electrodes.end())
+    return;
+  for (const ContactCase &contact : asked.contacts)
+    if (contact.electric.circuit)
+      fail(*free,
+           fmt::format("electrodes whose voltage is not given are not available with {} where a "
+                       "foundation has a circuit, too; use solver.method = \"condensed\" and "
+                       "solver.body = \"direct\"",
+                       asked.solver.method == "monolithic" ? "solver.method = \"monolithic\""
+                                                           : "solver.body = \"iterative\""));
+}
+
 }  // namespace
 
 void check_electrodes(const Case &asked) {
@@ -105,24 +122,12 @@ void check_electrodes(const Case &asked) {
         fail(electrode, "on", toml_text(boundary),
              "there is an electrode already, by " + first->second);
   }
-  if (asked.solver.method == "monolithic")
-    require_given_voltages(asked, "solver.method = \"monolithic\"");
-  if (asked.solver.body == "iterative")
-    require_given_voltages(asked, "solver.body = \"iterative\"");
+  check_searches(asked);
 }
 
 bool all_voltages_given(const Case &asked) {
   return std::all_of(asked.electrodes.begin(), asked.electrodes.end(),
                      [](const ElectrodeCase &electrode) { return electrode.is_driven(); });
-}
-
-void require_given_voltages(const Case &asked, const std::string &solver) {
-  for (const ElectrodeCase &electrode : asked.electrodes)
-    if (!electrode.is_driven())
-      fail(electrode,
-           fmt::format("electrodes whose voltage is not given are not available with {}; use "
-                       "solver.method = \"condensed\" and solver.body = \"direct\"",
-                       solver));
 }
 
 }  // namespace tourmaline::casefile

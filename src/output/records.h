@@ -57,13 +57,15 @@ struct PointFields {
   std::vector<double> potential;      // V
   std::vector<double> temperature;    // K
   // Recovered at the nodes inside each region; empty where only the unknowns are wanted.
-  std::vector<SymmetricTensor> stress;  // Pa
-  std::vector<double> von_mises;        // Pa, of that stress
+  std::vector<SymmetricTensor> stress;    // Pa
+  std::vector<Vector3> principal_stress;  // Pa, of that stress, largest first
+  std::vector<double> von_mises;          // Pa, of that stress
 };
 
 /// Means over each cell, by the constitutive law (1)-(3).
 struct CellFields {
   std::vector<SymmetricTensor> stress;         // Pa
+  std::vector<Vector3> principal_stress;       // Pa, of that stress, largest first
   std::vector<double> von_mises;               // Pa
   std::vector<SymmetricTensor> strain;         // 1
   std::vector<Vector3> electric_field;         // E = -grad phi, V/m

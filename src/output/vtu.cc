@@ -53,10 +53,12 @@ void VtuWriter::write(const std::filesystem::path &path, double time, const Poin
   file.append(field("temperature", points.temperature, n_points_));
   if (!points.stress.empty()) {
     file.append(field("recovered_stress", points.stress, n_points_));
+    file.append(principal_field("recovered_principal_stress", points.principal_stress, n_points_));
     file.append(field("recovered_von_mises", points.von_mises, n_points_));
   }
   file.append("</PointData>\n<CellData>\n");
   file.append(field("stress", cells.stress, n_cells_));
+  file.append(principal_field("principal_stress", cells.principal_stress, n_cells_));
   file.append(field("von_mises", cells.von_mises, n_cells_));
   file.append(field("strain", cells.strain, n_cells_));
   file.append(field("electric_field", cells.electric_field, n_cells_));
@@ -96,10 +98,12 @@ std::string pvtu_text(double time, std::span<const std::string> pieces,
   text += declared("displacement", vector_components) + declared("potential", "") +
           declared("temperature", "");
   if (optional.recovered)
-    text += declared("recovered_stress", tensor_components) + declared("recovered_von_mises", "");
+    text += declared("recovered_stress", tensor_components) +
+            declared("recovered_principal_stress", principal_components) +
+            declared("recovered_von_mises", "");
   text += "</PPointData>\n<PCellData>\n" + declared("stress", tensor_components) +
-          declared("von_mises", "") + declared("strain", tensor_components) +
-          declared("electric_field", vector_components) +
+          declared("principal_stress", principal_components) + declared("von_mises", "") +
+          declared("strain", tensor_components) + declared("electric_field", vector_components) +
           declared("electric_displacement", vector_components) +
           declared("heat_flux", vector_components);
   if (optional.region)

@@ -67,6 +67,12 @@ std::string field(const std::string &name, const std::vector<Vector3> &values,
   return data_array(name, vector_components, flat(values));
 }
 
+std::string principal_field(const std::string &name, const std::vector<Vector3> &values,
+                            std::size_t expected) {
+  check_size(name, values.size(), expected);
+  return data_array(name, principal_components, flat(values));
+}
+
 std::string field(const std::string &name, const std::vector<SymmetricTensor> &values,
                   std::size_t expected) {
   check_size(name, values.size(), expected);

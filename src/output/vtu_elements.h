@@ -19,6 +19,10 @@ constexpr std::string_view tensor_components =
     R"( NumberOfComponents="6" ComponentName0="XX" ComponentName1="YY" ComponentName2="ZZ")"
     R"( ComponentName3="XY" ComponentName4="YZ" ComponentName5="XZ")";
 
+/// Of principal values, which are no vector.
+constexpr std::string_view principal_components =
+    R"( NumberOfComponents="3" ComponentName0="1" ComponentName1="2" ComponentName2="3")";
+
 /// The array of a field with a value for each of `expected` places; throws std::invalid_argument
 /// when it has another number of them.
 std::string field(const std::string &name, const std::vector<double> &values, std::size_t expected);
@@ -30,6 +34,8 @@ std::string field(const std::string &name, const std::vector<Vector3> &values,
                   std::size_t expected);
 std::string field(const std::string &name, const std::vector<SymmetricTensor> &values,
                   std::size_t expected);
+std::string principal_field(const std::string &name, const std::vector<Vector3> &values,
+                            std::size_t expected);
 
 /// <Points>
 std::string points_element(const std::vector<Vector3> &points);

@@ -63,8 +63,8 @@ class Set {
       return "von Mises stress";
     if (name == "potential")
       return "Electric potential";
-    if (name == "recovered_stress")
-      name = "stress";
+    if (name.starts_with("recovered_"))
+      name = name.substr(std::string_view("recovered_").size());
     std::replace(name.begin(), name.end(), '_', ' ');
     name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
     return name;

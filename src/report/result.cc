@@ -181,7 +181,7 @@ void drop_means_of_recovered(FieldFile &file) {
     return std::any_of(file.arrays.begin(), file.arrays.end(),
                        [&](const FieldArray &array) { return array.name == name; });
   };
-  for (const char *name : {"stress", "von_mises"})
+  for (const char *name : {"stress", "principal_stress", "von_mises"})
     if (has(recovered + std::string(name)))
       std::erase_if(file.arrays, [&](const FieldArray &array) { return array.name == name; });
 }
@@ -210,10 +210,10 @@ std::vector<State> thinned(const std::vector<State> &series, std::size_t most) {
   return kept;
 }
 
-std::vector<std::string> component_names(std::size_t n) {
+std::vector<std::string> component_names(const std::string &field, std::size_t n) {
   if (n == 1)
     return {""};
-  if (n == 3)
+  if (n == 3 && !field.ends_with("principal_stress"))
     return {"x", "y", "z"};
   if (n == 6)
     return {"xx", "yy", "zz", "xy", "yz", "xz"};
@@ -228,8 +228,10 @@ std::string unit_of(const std::string &field) {
                                                         {"potential", "V"},
                                                         {"temperature", "K"},
                                                         {"stress", "Pa"},
+                                                        {"principal_stress", "Pa"},
                                                         {"von_mises", "Pa"},
                                                         {"recovered_stress", "Pa"},
+                                                        {"recovered_principal_stress", "Pa"},
                                                         {"recovered_von_mises", "Pa"},
                                                         {"electric_field", "V/m"},
                                                         {"electric_displacement", "C/m²"},
@@ -247,7 +249,7 @@ void begin_fields(Result &result, const FieldFile &file) {
     result.points.push_back(file.grid.points[node]);
   for (const FieldArray &array : file.arrays)
     result.fields.push_back({array.name, unit_of(array.name), array.on_points,
-                             component_names(array.components),
+                             component_names(array.name, array.components),
                              std::vector<std::vector<float>>(array.components)});
 }
 

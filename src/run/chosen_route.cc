@@ -22,10 +22,8 @@ template <int dim>
 std::unique_ptr<solve::Route> make_route(const solve::Model<dim> &model, bool iterative) {
   if (model.asked.solver.method == "monolithic")
     return solve::monolithic_route(model);
-  if (iterative) {
-    casefile::require_given_voltages(model.asked, "the iterative solver");
+  if (iterative)
     return solve::iterative_route(model);
-  }
   return solve::condensed_route(model);
 }
 

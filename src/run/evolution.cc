@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "body/prescribed.h"
+#include "case/electrodes.h"
 #include "run/start_state.h"
 #include "run/step_check.h"
 #include "solve/settling.h"
@@ -23,6 +24,9 @@ void Evolution<dim>::make_ready(bool iterative, output::Progress &progress, int 
   if (model_.asked.time.is_static() && model_.asked.model.thermal)
     steady_heat_.emplace(model_, iterative);
   route_.emplace(model_, iterative, progress, first);
+  const bool eliminates_them = !iterative && model_.asked.solver.method == "condensed";
+  if (!eliminates_them && !casefile::all_voltages_given(model_.asked))
+    electrodes_.emplace(model_);
 }
 
 template <int dim>
@@ -31,6 +35,8 @@ void Evolution<dim>::begin() {
   if (motion_.is_inertial()) {
     solve::settle(model_, foundations_, state_);
     route_->route().begin(state_);
+    if (electrodes_)
+      electrodes_->begin(state_);
   }
   motion_.begin(state_);
 }
@@ -39,6 +45,8 @@ template <int dim>
 void Evolution<dim>::prescribe(double time, std::vector<double> &state) {
   for (const body::Prescribed &p : model_.prescribed)
     state[p.unknown] = p.value.value(p.point, time);
+  if (electrodes_)
+    electrodes_->prescribe(state);
   if (steady_heat_)
     steady_heat_->fill(time, state);
 }
@@ -58,7 +66,8 @@ void Evolution<dim>::sum_right_side(TakenStep &step) {
   motion_.add_history(time, state_, step.state, step.right_side);
 }
 
-// Again with other potentials of foundations, until they have the charges that their circuits say.
+// Again with other potentials of foundations or electrodes, until they have the charges that their
+// circuits say. A case that looks for both has one of them eliminated (`check_electrodes`).
 template <int dim>
 void Evolution<dim>::advance(TakenStep &step) {
   const double time = model_.time(step.n);
@@ -67,7 +76,8 @@ void Evolution<dim>::advance(TakenStep &step) {
     prescribe(time, step.state);
     sum_right_side(step);
     step.outcome = route_->advance(step.n, step.right_side, state_, step.state);
-    if (foundations_.settle(time, step.state, step.outcome))
+    if (foundations_.settle(time, step.state, step.outcome) &&
+        (!electrodes_ || electrodes_->settle(time, step.right_side, step.state, step.outcome)))
       return;
     route_->route().take_back();
   }
@@ -94,6 +104,8 @@ template <int dim>
 typename Evolution<dim>::Point Evolution<dim>::point() const {
   Point point{state_, {}, route_->memory()};
   leaked_.save(point.rest);
+  if (electrodes_)
+    electrodes_->save(point.rest);
   foundations_.save(point.rest);
   motion_.save(point.rest);
   return point;
@@ -103,6 +115,8 @@ template <int dim>
 void Evolution<dim>::go_back(const Point &point, int n) {
   state_ = point.state;
   leaked_.restore(point.rest);
+  if (electrodes_)
+    electrodes_->restore(point.rest);
   foundations_.restore(point.rest);
   motion_.restore(point.rest);
   route_->begin_step(n, point.route);
@@ -112,6 +126,8 @@ template <int dim>
 void Evolution<dim>::save(output::SavedNumbers &numbers) const {
   numbers.put("state", state_);
   leaked_.save(numbers);
+  if (electrodes_)
+    electrodes_->save(numbers);
   foundations_.save(numbers);
   motion_.save(numbers);
   route_->save(numbers);
@@ -121,6 +137,8 @@ template <int dim>
 void Evolution<dim>::restore(const output::SavedNumbers &numbers) {
   numbers.fill("state", state_);
   leaked_.restore(numbers);
+  if (electrodes_)
+    electrodes_->restore(numbers);
   foundations_.restore(numbers);
   motion_.restore(numbers);
   route_->restore(numbers);

@@ -8,6 +8,7 @@
 #include "output/checkpoint.h"
 #include "output/progress.h"
 #include "run/chosen_route.h"
+#include "solve/electrode_search.h"
 #include "solve/foundation_circuits.h"
 #include "solve/leaked_charge.h"
 #include "solve/model.h"
@@ -73,6 +74,7 @@ class Evolution {
   std::vector<double> state_;
   std::optional<solve::SteadyHeat<dim>> steady_heat_;  // of a static case with temperatures
   std::optional<ChosenRoute<dim>> route_;
+  std::optional<solve::ElectrodeSearch<dim>> electrodes_;  // where the route does not find them
 };
 
 }  // namespace tourmaline::run

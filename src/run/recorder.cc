@@ -196,6 +196,7 @@ void Recorder<dim>::put_fields(int n, std::span<const double> state,
     output::PointFields points = point_fields(state, nodes);
     for (const std::uint32_t number : nodes_) {
       points.stress.push_back(stress[number]);
+      points.principal_stress.push_back(body::principal_stresses(stress[number]));
       points.von_mises.push_back(body::von_mises(stress[number]));
     }
     folder_.put_fields(n, model_.time(n), grid_, points, cells);

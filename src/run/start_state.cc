@@ -31,7 +31,7 @@ namespace {
 
 // How far apart two numbers of one coordinate are at most, and how far a place may lie outside of
 // the other mesh, where both approximate one curved boundary; of the body's size.
-constexpr double same_place = 1e-12, near_boundary = 1e-2;
+constexpr double same_place = 1e-12, near_boundary = 1e-3;
 
 [[noreturn]] void fail(const InitialCase &initial, const std::string &reason) {
   throw CaseError(fmt::format("{} = {}: {}", casefile::place_of_key(initial.places, "", "from"),
@@ -164,11 +164,12 @@ double distance(const Vector3 &a, const Vector3 &b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
+// Behind the nodes a field file has further points where regions meet.
 template <int dim>
-bool are_same(const std::vector<Vector3> &some, const std::vector<Vector3> &others) {
-  const double apart = same_place * size_of<dim>(some);
-  return some.size() == others.size() &&
-         std::equal(some.begin(), some.end(), others.begin(),
+bool are_nodes_of(const Recorded &from, const std::vector<Vector3> &nodes) {
+  const double apart = same_place * size_of<dim>(nodes);
+  return nodes.size() <= from.points.size() &&
+         std::equal(nodes.begin(), nodes.end(), from.points.begin(),
                     [&](const Vector3 &a, const Vector3 &b) { return distance(a, b) <= apart; });
 }
 
@@ -180,7 +181,7 @@ body::Discretisation<dim> mesh_of(const InitialCase &initial, const Recorded &fr
     mesh::Mesh<dim> mesh = mesh::build<dim>(other);
     mesh::distribute(mesh);
     body::Discretisation<dim> body(std::move(mesh), other.mesh.degree, body::geometry_of(other));
-    if (are_same<dim>(body.points(), from.points))
+    if (are_nodes_of<dim>(from, body.points()))
       return body;
   } catch (const CaseError &error) {
     fail(initial, fmt::format("its mesh, from which the state is interpolated onto the one of this "
@@ -300,12 +301,12 @@ std::vector<double> state_of_other(const solve::Model<dim> &model) {
     fail(initial, fmt::format("that run has {} dimensions, this case {}", other.dimension, dim));
   require_recorded(model, other);
   require_one_theory(model, other);
-  const Recorded from = recorded<dim>(initial);
-  std::vector<double> state = are_same<dim>(model.body.points(), from.points)
-                                  ? from.unknowns
-                                  : interpolated<dim>(initial, from, model.body.points());
-  require_unknowns<dim>(model.asked, state);
-  return state;
+  Recorded from = recorded<dim>(initial);
+  if (!are_nodes_of<dim>(from, model.body.points()))
+    from.unknowns = interpolated<dim>(initial, from, model.body.points());
+  from.unknowns.resize(model.n_unknowns());
+  require_unknowns<dim>(model.asked, from.unknowns);
+  return std::move(from.unknowns);
 }
 
 }  // namespace

@@ -95,6 +95,7 @@ void StepCheck::fields(const output::Grid &grid, const output::CellFields &field
   const std::tuple<const char *, std::span<const double>, std::size_t> all[] = {
       {"the strain", flat(fields.strain), 6},
       {"the stress", flat(fields.stress), 6},
+      {"the principal stress", flat(fields.principal_stress), 3},
       {"the von Mises stress", fields.von_mises, 1},
       {"the electric displacement", flat(fields.electric_displacement), 3},
       {"the heat flux", flat(fields.heat_flux), 3}};

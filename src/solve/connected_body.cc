@@ -1,7 +1,5 @@
 #include "solve/connected_body.h"
 
-#include <utility>
-
 #include "parallel/ranks.h"
 #include "solve/electrodes.h"
 #include "tourmaline/error.h"
@@ -28,7 +26,8 @@ ConnectedBody<dim>::ConnectedBody(const Model<dim> &model)
     : model_(model),
       contact_(contact_unknowns(model, exchange_sites(model))),
       body_(model.op, model.step, model.prescribed, contact_, model.asked.solver.threads),
-      circuit_(model.asked.electrodes, model.step) {
+      circuit_(model.asked.electrodes, model.step),
+      history_(model) {
   if (circuit_.free().empty())
     return;
   std::vector<bool> in_contact(model.n_unknowns(), false);
@@ -37,27 +36,12 @@ ConnectedBody<dim>::ConnectedBody(const Model<dim> &model)
   for (const body::Prescribed &p : model.prescribed)
     if (!in_contact[p.unknown])
       lifted_.push_back(p.unknown);
-  const std::vector<double> initial = body::initial_state(model.body, model.asked.initial);
-  voltages_ = electrode_voltages(model, initial);
-  charges_ = initial_charges(model, initial)(circuit_.free());
-  voltages_before_ = voltages_;
-  charges_before_ = charges_;
   add_responses();
 }
 
-// What comes in at once is exact, as reactions of the settled state are not: an open electrode
-// keeps its charge to the last bit.
 template <int dim>
 void ConnectedBody<dim>::begin(std::span<const double> settled) {
-  if (circuit_.free().empty())
-    return;
-  const Circuit at_once(model_.asked.electrodes, 0);
-  const VectorXd now = electrode_voltages(model_, settled);
-  charges_ = at_once.right_side(std::nullopt, 0, charges_, voltages_, now) -
-             at_once.admittance() * now(circuit_.free());
-  voltages_ = now;
-  voltages_before_ = voltages_;
-  charges_before_ = charges_;
+  history_.begin(settled);
 }
 
 template <int dim>
@@ -133,8 +117,7 @@ VectorXd ConnectedBody<dim>::reduce(double time, std::span<const double> right_s
   VectorXd s = body_.reduce(right_side, state);
   if (circuit_.free().empty())
     return s;
-  supplied_ = circuit_.right_side(sources_before(model_, time), time, charges_, voltages_,
-                                  electrode_voltages(model_, state));
+  supplied_ = history_.supplied(circuit_, time, state);
   released_ = supplied_ - charges_at_rest(right_side, state);
   if (s.size() > 0)
     s += coupling_ * admittance_.solve(released_);
@@ -153,20 +136,17 @@ void ConnectedBody<dim>::expand(const VectorXd &c, std::span<double> state) {
   for (std::size_t e = 0; e < response_.size(); ++e)
     x += v[static_cast<Index>(e)] *
          Eigen::Map<const VectorXd>(response_[e].data(), static_cast<Index>(state.size()));
-  charges_before_ = std::exchange(charges_, supplied_ - circuit_.admittance() * v);
-  voltages_before_ = std::exchange(voltages_, electrode_voltages(model_, state));
+  history_.end_step(circuit_, supplied_, state);
 }
 
 template <int dim>
 void ConnectedBody<dim>::save(output::SavedNumbers &numbers) const {
-  numbers.put("free electrodes' charges", charges_);
-  numbers.put("electrodes' voltages", voltages_);
+  history_.save(numbers);
 }
 
 template <int dim>
 void ConnectedBody<dim>::restore(const output::SavedNumbers &numbers) {
-  numbers.fill("free electrodes' charges", charges_);
-  numbers.fill("electrodes' voltages", voltages_);
+  history_.restore(numbers);
 }
 
 template class ConnectedBody<2>;

@@ -7,6 +7,7 @@
 #include "condensation/condensed_body.h"
 #include "output/checkpoint.h"
 #include "solve/circuit.h"
+#include "solve/electrode_history.h"
 #include "solve/exchange_nodes.h"
 #include "solve/model.h"
 
@@ -43,10 +44,7 @@ class ConnectedBody {
   void expand(const Eigen::VectorXd &c, std::span<double> state);
 
   /// The step that was ended is to be solved again.
-  void take_back() {
-    charges_ = charges_before_;
-    voltages_ = voltages_before_;
-  }
+  void take_back() { history_.take_back(); }
 
   /// As of `CondensedBody`; the step at hand is to be solved again, from `reduce` on.
   void refine();
@@ -68,13 +66,12 @@ class ConnectedBody {
   std::vector<std::size_t> contact_;  // the unknowns c
   condensation::CondensedBody<dim> body_;
   Circuit circuit_;
+  ElectrodeHistory<dim> history_;
   std::vector<std::size_t> lifted_;                       // prescribed unknowns that are not in c
   std::vector<std::vector<double>> response_, reaction_;  // psi and K psi, by free electrode
   Eigen::MatrixXd coupling_;                              // G [C/m]
   Eigen::LLT<Eigen::MatrixXd> admittance_;                // C + Y [F]
   Eigen::MatrixXd stiffness_;
-  Eigen::VectorXd charges_, voltages_;  // of the last step: of the free electrodes, of all
-  Eigen::VectorXd charges_before_, voltages_before_;  // of the step before it
   Eigen::VectorXd supplied_, released_;  // of this step: j, and what is left of it for V [C]
 };
 

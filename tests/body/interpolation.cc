@@ -29,9 +29,9 @@ class Places : public testing::TestWithParam<Cells> {
 // Cells of a ring or tube are no parallelograms, so their maps are not affine.
 template <int dim>
 Discretisation<dim> ring(const Cells &cells) {
+  const std::vector<int> counts = dim == 2 ? std::vector{2, 12} : std::vector{2, 12, 2};
   casefile::MeshCase mesh;
-  mesh.annulus = casefile::Annulus{0.1, 0.2, dim == 3 ? 0.3 : 0, {}, cells.shape};
-  mesh.annulus->cells = dim == 2 ? std::vector{2, 12} : std::vector{2, 12, 2};
+  mesh.annulus.emplace(casefile::Annulus{0.1, 0.2, dim == 3 ? 0.3 : 0, counts, cells.shape});
   return {mesh::build<dim>(mesh), cells.degree};
 }
 

@@ -239,6 +239,22 @@ TEST(DerivedFields, VonMisesOfUniaxialStressIsThatStressAndOfPressureZero) {
   EXPECT_DOUBLE_EQ(von_mises({0, 0, 0, 0, 2, 0}), 2 * std::sqrt(3.));
 }
 
+// A tension along (1, 1, 1) under a pressure, and Mohr's circle in each plane.
+TEST(DerivedFields, PrincipalStressesAreThoseOfTheirOwnAxes) {
+  const Vector3 tension = principal_stresses({0, 0, 0, 1, 1, 1});
+  EXPECT_NEAR(tension[0], 2, 1e-15);
+  EXPECT_NEAR(tension[1], -1, 1e-15);
+  EXPECT_NEAR(tension[2], -1, 1e-15);
+  const Vector3 circles[] = {principal_stresses({1, 7, 20, 4, 0, 0}),
+                             principal_stresses({20, 1, 7, 0, 4, 0}),
+                             principal_stresses({1, 20, 7, 0, 0, 4})};
+  for (const Vector3 &circle : circles) {
+    EXPECT_NEAR(circle[0], 20, 1e-14);
+    EXPECT_NEAR(circle[1], 9, 1e-14);
+    EXPECT_NEAR(circle[2], -1, 1e-14);
+  }
+}
+
 TEST(DerivedFields, HeatFlowsAgainstTheGradientOfTemperature) {
   const auto body = box<2>(CellShape::quadrilateral, 1);
   std::vector<double> x(body.n_nodes() * 4, 0.);

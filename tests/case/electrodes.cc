@@ -92,13 +92,20 @@ TEST(Electrodes, WithoutAPathToAGivenVoltageThePotentialFloats) {
   EXPECT_EQ(error_of("{ name = 'a', on = 'top', resistor = 1 }"), "no error");
 }
 
-TEST(Electrodes, UnknownVoltagesAreRefusedWhereTheSolverCannotFindThem) {
-  const std::string open = ground + ", { name = 'a', on = 'top' }";
-  EXPECT_THAT(error_of(open, {"solver.method=monolithic"}),
-              HasSubstr("not available with solver.method = \"monolithic\""));
-  EXPECT_THAT(error_of(open, {"solver.body=iterative"}),
-              HasSubstr("not available with solver.body = \"iterative\""));
-  EXPECT_EQ(error_of(ground, {"solver.method=monolithic"}), "no error");
+TEST(Electrodes, OneSearchForPotentialsAtATime) {
+  const std::string open = ground + ", { name = 'a', on = 'top' }",
+                    circuit =
+                        "contact={on='left', electric={law='exchange', coefficient=1e-9, "
+                        "circuit={charge=0}}}";
+  for (const std::string route : {"solver.method=\"monolithic\"", "solver.body=\"iterative\""}) {
+    std::string named = route;
+    named.replace(named.find('='), 1, " = ");
+    EXPECT_EQ(error_of(open, {route}), "no error");
+    EXPECT_EQ(error_of(ground, {route, circuit}), "no error");
+    EXPECT_THAT(error_of(open, {route, circuit}),
+                HasSubstr("not available with " + named + " where a foundation has a circuit"));
+  }
+  EXPECT_EQ(error_of(open, {circuit}), "no error");
 }
 
 }  // namespace

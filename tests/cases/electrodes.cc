@@ -300,6 +300,41 @@ TEST(Device, DrivenByTheVoltagesOfTheCircuitTheBodyDoesTheSameInBothRoutes) {
   }
 }
 
+void expect_same_circuit(const RunCase &found, const RunCase &expected, double tolerance) {
+  for (const char *column : {"u_x", "u_y", "potential", "temperature"})
+    EXPECT_LT(difference(found.nodes(), expected.nodes(), column), tolerance) << column;
+  for (const char *electrode : {"electrode_sensor_", "electrode_film_"})
+    for (const char *quantity : {"voltage", "charge", "current"}) {
+      const std::string column = std::string(electrode) + quantity;
+      if (largest(expected.history(), column) > 0)
+        EXPECT_LT(difference(found.history(), expected.history(), column), tolerance) << column;
+    }
+  EXPECT_EQ(found.contact().columns.at("status"), expected.contact().columns.at("status"));
+  for (const char *imbalance : {"energy_imbalance", "charge_imbalance"})
+    EXPECT_LT(largest(found.history(), imbalance), 1e-9) << imbalance;
+}
+
+TEST(Device, EveryRouteFindsTheVoltagesOfTheCircuit) {
+  const RunCase direct(casefile::read_text(device, "device"));
+  for (const char *route :
+       {"solver={method=\"monolithic\"}", "solver={body=\"iterative\", linear_tolerance=1e-13}"}) {
+    SCOPED_TRACE(route);
+    expect_same_circuit(RunCase(casefile::read_text(device, "device", {route})), direct, 1e-8);
+  }
+}
+
+TEST(Device, EveryRouteFindsThemInStepsThatTheProgramChooses) {
+  const std::string chosen = "time.tolerance=0.01";
+  const RunCase direct(casefile::read_text(device, "device", {chosen}));
+  for (const char *route :
+       {"solver={method=\"monolithic\"}", "solver={body=\"iterative\", linear_tolerance=1e-13}"}) {
+    SCOPED_TRACE(route);
+    const RunCase found(casefile::read_text(device, "device", {chosen, route}));
+    ASSERT_EQ(found.history().n_rows(), direct.history().n_rows());
+    expect_same_circuit(found, direct, 1e-7);
+  }
+}
+
 // Two loads on one body, linear without contact: the work that the first would do on the answer to
 // the second is that of the second on the answer to the first.
 Table bent(const std::string &voltage_top, const std::string &voltage_bottom,

@@ -102,6 +102,18 @@ TEST(InnerElectrodes, AreThoseOfEveryRouteWhereTheirVoltageIsGiven) {
   }
 }
 
+TEST(InnerElectrodes, EveryRouteFindsTheVoltageOfAGivenCharge) {
+  const RunCase direct = run_text(stack(4, 2, false, "charge = 1e-6"));
+  for (const char *route : {"solver.method=monolithic", "solver.body=iterative"}) {
+    const RunCase other =
+        run_text(stack(4, 2, false, "charge = 1e-6"), {route, "solver.linear_tolerance=1e-13"});
+    EXPECT_NEAR(last(other, "electrode_signal_voltage") / last(direct, "electrode_signal_voltage"),
+                1, 1e-9);
+    for (const char *column : {"u_x", "u_y", "potential"})
+      EXPECT_LT(difference(other.nodes(), direct.nodes(), column), 1e-9) << route << column;
+  }
+}
+
 // A group of Gmsh's on curves inside says the same as a formula.
 TEST(InnerElectrodes, AGroupOfAMeshFileMayLieInside) {
   const output::TemporaryFolder folder;

@@ -63,7 +63,7 @@ TEST(HistoryTable, TheRowsOwnQuantitiesFollowTheFixedColumns) {
 TEST(NodesTable, TheThirdDirectionAppearsInThreeDimensionsOnly) {
   Grid grid;
   grid.points = {{0.5, 1, 2}};
-  const PointFields fields{{{-0.25, -0., 4}}, {8}, {-16}, {}, {}};
+  const PointFields fields{{{-0.25, -0., 4}}, {8}, {-16}, {}, {}, {}};
   EXPECT_EQ(nodes_table(2, grid.points, fields),
             "x,y,u_x,u_y,potential,temperature\n0.5,1,-0.25,0,8,-16\n");
   EXPECT_EQ(nodes_table(3, grid.points, fields),
@@ -93,14 +93,15 @@ TEST(NodesTable, WhatIsNotANumberIsWrittenWithoutSign) {
   const double infinity = std::numeric_limits<double>::infinity();
   Grid grid;
   grid.points = {{0, 0, 0}};
-  EXPECT_EQ(nodes_table(2, grid.points, {{{nan, -nan, 0}}, {infinity}, {-infinity}, {}, {}}),
+  EXPECT_EQ(nodes_table(2, grid.points, {{{nan, -nan, 0}}, {infinity}, {-infinity}, {}, {}, {}}),
             "x,y,u_x,u_y,potential,temperature\n0,0,nan,nan,inf,-inf\n");
 }
 
 TEST(NodesTable, FieldsThatDoNotFitTheGridAreRefused) {
   Grid grid;
   grid.points = {{0, 0, 0}, {1, 0, 0}};
-  EXPECT_THROW(nodes_table(2, grid.points, {{{}, {}}, {0, 0}, {0}, {}, {}}), std::invalid_argument);
+  EXPECT_THROW(nodes_table(2, grid.points, {{{}, {}}, {0, 0}, {0}, {}, {}, {}}),
+               std::invalid_argument);
 }
 
 }  // namespace

@@ -41,6 +41,7 @@ inline CellFields cell_fields(std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {
     fields.stress.push_back(
         {value(i, 10), value(i, 11), value(i, 12), value(i, 13), value(i, 14), value(i, 15)});
+    fields.principal_stress.push_back({value(i, 12), value(i, 10), value(i, 11)});
     fields.von_mises.push_back(std::abs(value(i, 9)));
     fields.strain.push_back({value(i, 1), value(i, 2), 0, value(i, 3), 0, -0.});
     fields.electric_field.push_back({value(i, 3), value(i, 4), 0});

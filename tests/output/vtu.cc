@@ -46,6 +46,7 @@ TEST_F(Vtu, TheDecodedFileHoldsTheNumbersThatWerePutIn) {
   EXPECT_EQ(array_in<double>(text, "temperature"), points.temperature);
   EXPECT_EQ(array_in<double>(text, "stress"), flat(cells.stress));
   EXPECT_EQ(array_in<double>(text, "von_mises"), cells.von_mises);
+  EXPECT_EQ(array_in<double>(text, "principal_stress"), flat(cells.principal_stress));
   EXPECT_EQ(array_in<double>(text, "strain"), flat(cells.strain));
   EXPECT_EQ(array_in<double>(text, "electric_displacement"), flat(cells.electric_displacement));
   EXPECT_EQ(array_in<double>(text, "heat_flux"), flat(cells.heat_flux));

@@ -76,6 +76,7 @@ struct Half {
         grid.connectivity.push_back(entry->second);
       }
       cells.stress.push_back(all_cells.stress[c]);
+      cells.principal_stress.push_back(all_cells.principal_stress[c]);
       cells.von_mises.push_back(all_cells.von_mises[c]);
       cells.strain.push_back(all_cells.strain[c]);
       cells.electric_field.push_back(all_cells.electric_field[c]);

@@ -48,6 +48,7 @@ export function fieldTitle(name: string): string {
     displacement: 'Displacement', potential: 'Electric potential', temperature: 'Temperature',
     von_mises: 'von Mises stress', stress: 'Stress',
     recovered_von_mises: 'von Mises stress', recovered_stress: 'Stress',
+    principal_stress: 'Principal stress', recovered_principal_stress: 'Principal stress',
     strain: 'Strain',
     electric_displacement: 'Electric displacement', electric_field: 'Electric field', heat_flux: 'Heat flux',
   };
@@ -57,6 +58,7 @@ export function fieldTitle(name: string): string {
 
 export const symbols: Record<string, string> = {
   displacement: 'u', potential: 'φ', temperature: 'θ', von_mises: 'σ_vM', stress: 'σ',
-  recovered_von_mises: 'σ_vM', recovered_stress: 'σ', strain: 'ε',
+  recovered_von_mises: 'σ_vM', recovered_stress: 'σ', principal_stress: 'σ', recovered_principal_stress: 'σ',
+  strain: 'ε',
   electric_displacement: 'D', electric_field: 'E', heat_flux: 'q',
 };
