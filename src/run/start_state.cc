@@ -292,6 +292,28 @@ void require_unknowns(const casefile::Case &asked, const std::vector<double> &st
                     warmth));
 }
 
+// An electrode has one potential, which interpolation keeps but for round-off.
+template <int dim>
+void level_electrodes(const solve::Model<dim> &model, std::vector<double> &state) {
+  constexpr double round_off = 1e-9;
+  const double size = largest<dim>(state, Fields<dim>::potential);
+  for (std::size_t e = 0; e < model.electrodes.size(); ++e) {
+    const std::vector<body::Node> &nodes = model.electrodes[e];
+    const double voltage = state[unknown<dim>(nodes.front(), Fields<dim>::potential)];
+    for (const body::Node node : nodes) {
+      double &potential = state[unknown<dim>(node, Fields<dim>::potential)];
+      if (std::abs(potential - voltage) > round_off * size)
+        fail(model.asked.initial,
+             fmt::format(
+                 "electrode \"{}\" has one potential, and the places it covers had {:g} V "
+                 "and {:g} V in that run; both must have the same electrodes, and on another "
+                 "mesh none that touches another",
+                 model.asked.electrodes[e].name, voltage, potential));
+      potential = voltage;
+    }
+  }
+}
+
 template <int dim>
 std::vector<double> state_of_other(const solve::Model<dim> &model) {
   const InitialCase &initial = model.asked.initial;
@@ -306,6 +328,7 @@ std::vector<double> state_of_other(const solve::Model<dim> &model) {
     from.unknowns = interpolated<dim>(initial, from, model.body.points());
   from.unknowns.resize(model.n_unknowns());
   require_unknowns<dim>(model.asked, from.unknowns);
+  level_electrodes(model, from.unknowns);
   return std::move(from.unknowns);
 }
 

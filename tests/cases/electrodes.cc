@@ -306,8 +306,8 @@ void expect_same_circuit(const RunCase &found, const RunCase &expected, double t
   for (const char *electrode : {"electrode_sensor_", "electrode_film_"})
     for (const char *quantity : {"voltage", "charge", "current"}) {
       const std::string column = std::string(electrode) + quantity;
-      if (largest(expected.history(), column) > 0)
-        EXPECT_LT(difference(found.history(), expected.history(), column), tolerance) << column;
+      EXPECT_GT(largest(expected.history(), column), 0) << column;
+      EXPECT_LT(difference(found.history(), expected.history(), column), tolerance) << column;
     }
   EXPECT_EQ(found.contact().columns.at("status"), expected.contact().columns.at("status"));
   for (const char *imbalance : {"energy_imbalance", "charge_imbalance"})
