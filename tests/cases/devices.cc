@@ -363,5 +363,78 @@ TEST(StickSlipActuator, ATriangleOfVoltageMovesItNowhere) {
   EXPECT_LE(std::abs(feet[3] - feet[2]), 0.01 * 8.66e-8);
 }
 
+constexpr double pi = std::numbers::pi, eps0 = 8.8541878128e-12;
+
+// Constants of PZT-5A and PZT-4 (Jaffe, Cook, Jaffe 1971).
+struct Ceramic {
+  double s11, s12, s13, s33, d31, d33, eps33;
+};
+constexpr Ceramic pzt_5a{1.64e-11,  -5.74e-12, -7.22e-12,  1.88e-11,
+                         -1.71e-10, 3.74e-10,  1700 * eps0};
+constexpr Ceramic pzt_4{1.23e-11, -4.05e-12, -5.31e-12, 1.55e-11, -1.23e-10, 2.89e-10, 1300 * eps0};
+
+TEST(DiscTransducer, WithoutFrictionItIsInAUniformState) {
+  const RunCase run = device("disc-transducer", {"contact.friction=\"none\""});
+  constexpr double radius = 10e-3, height = 1e-3, pressure = 1e6, field = -200 / height;
+  const Table contact = run.contact(), history = run.history();
+  const std::size_t step = 50, nodes = 41;  // 1.25 s
+  EXPECT_NEAR(contact.numbers("slip_x")[step * nodes - 1],
+              radius * (pzt_5a.s13 * -pressure + pzt_5a.d31 * field), 1e-18);
+  const double charge = -pi * radius * radius * (pzt_5a.eps33 * field - pzt_5a.d33 * pressure);
+  EXPECT_NEAR(history.numbers("electrode_upper_charge")[step - 1] / charge, 1, 1e-11);
+}
+
+TEST(DiscTransducer, FrictionNarrowsItAsAThinDisc) {
+  const RunCase run = device("disc-transducer", {"probe=[{name=\"rim\",at=[0.01,0.0005]}]"});
+  constexpr double radius = 10e-3, height = 1e-3, pressure = 1e6, field = -200 / height;
+  const double free = radius * (pzt_5a.s13 * -pressure + pzt_5a.d31 * field),
+               rubbed = 0.2 * pressure * radius * radius * (pzt_5a.s11 + pzt_5a.s12) / (3 * height);
+  const double found = read_table(run.folder() / "probe-rim.csv").numbers("u_x")[49];
+  EXPECT_NEAR(found, free - rubbed, 0.005 * found);
+  expect_closed_balances(run.history());
+}
+
+TEST(ShaftClamp, HasThePressureOfLamesRingWithTheStrainOfTheVoltage) {
+  const RunCase run = device("shaft-clamp");
+  constexpr double a = 5e-3, b = 10e-3, height = 4e-3, interference = 2e-6;
+  const Table history = run.history(), rim = read_table(run.folder() / "probe-rim.csv");
+  for (std::size_t n = 0; n < 4; ++n) {
+    const double field = -500. * static_cast<double>(n + 1) / height;
+    const double c =
+        (interference / a - pzt_4.d31 * field) /
+        (pzt_4.s11 * (1 / (a * a) + 1 / (b * b)) + pzt_4.s12 * (1 / (b * b) - 1 / (a * a)));
+    const double force = c * (1 / (a * a) - 1 / (b * b)) * 2 * pi * a * height;
+    EXPECT_NEAR(history.numbers("contact_force_x")[n] / force, 1, 5e-7);
+    EXPECT_NEAR(rim.numbers("u_x")[n] / (b * (2 * pzt_4.s11 * c / (b * b) + pzt_4.d31 * field)), 1,
+                1e-7);
+  }
+}
+
+TEST(StackActuator, WorksAgainstItsSpringAsOneDimensionalTheorySays) {
+  const RunCase run = device("stack-actuator");
+  constexpr double layer = 1e-4, layers = 20, radius = 2.5e-3, pressed = 2e-7;
+  const double area = pi * radius * radius, stack = area / (pzt_5a.s33 * layers * layer),
+               spring = 2e12 * area;
+  const Table history = run.history();
+  for (std::size_t n = 0; n < 4; ++n) {
+    const double volts = 25. * static_cast<double>(n + 1);
+    const double end =
+        (layers * pzt_5a.d33 * volts - pressed * spring / stack) / (1 + spring / stack);
+    const double force = spring * (end + pressed);
+    EXPECT_NEAR(history.numbers("contact_force_y")[n] / -force, 1, 1e-10);
+    EXPECT_NEAR(history.numbers("electrode_drive_charge")[n] /
+                    (layers * (area * pzt_5a.eps33 * volts / layer - pzt_5a.d33 * force)),
+                1, 1e-10);
+  }
+}
+
+// 3 d31 V L^2 / (2 h^2) without what bending adds to the field.
+TEST(BimorphInPlaneStress, BendsByTheClosedFormWithoutCoupling) {
+  const RunCase run = device("bimorph-plane-stress");
+  const double tip = read_table(run.folder() / "probe-tip.csv").numbers("u_y").back();
+  EXPECT_NEAR(tip, 3.29e-5, 0.003 * 3.29e-5);
+  EXPECT_NEAR(tip, 1.5 * 2.2e-11 * 100 * 0.1 * 0.1 / 1e-6, 0.005 * tip);
+}
+
 }  // namespace
 }  // namespace tourmaline::testing
