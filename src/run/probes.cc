@@ -12,7 +12,7 @@ namespace tourmaline::run {
 
 namespace {
 
-constexpr const char *axes[] = {"x", "y", "z"};
+constexpr const char *directions[] = {"x", "y", "z"};
 
 Vector3 in_space(const std::vector<double> &place) {
   Vector3 all{};
@@ -115,7 +115,7 @@ output::ProbeRows Probes<dim>::rows_of(const Places &probe, std::span<const doub
   output::ProbeRows rows{probe.name, {}, {}};
   if (probe.is_line)
     rows.columns.emplace_back("s");
-  rows.columns.insert(rows.columns.end(), axes, axes + dim);
+  rows.columns.insert(rows.columns.end(), directions, directions + dim);
   std::vector<int> components;
   for (int c = 0; c < body::Fields<dim>::count; ++c)
     if (const std::string column = body::column_of<dim>(c); model_.asked.model.has(column)) {
@@ -142,10 +142,10 @@ output::ProbeRows Probes<dim>::rows_of(const Boundaries &probe,
     rows.rows[0].push_back(value);
   };
   for (int c = 0; c < dim; ++c)
-    put(std::string("force_") + axes[c], flow.force[c]);
+    put(std::string("force_") + directions[c], flow.force[c]);
   const casefile::ModelCase &model = model_.asked.model;
   for (int c = dim == 2 ? 2 : 0; c < 3 && !model.is_axisymmetric(); ++c)
-    put(std::string("moment_") + axes[c], flow.moment[c]);
+    put(std::string("moment_") + directions[c], flow.moment[c]);
   if (model.electric)
     put("charge", flow.charge);
   if (model.thermal)
