@@ -81,6 +81,9 @@ class Cell {
     }
   }
 
+  double low(std::size_t axis) const { return low_[static_cast<Eigen::Index>(axis)]; }
+  double high(std::size_t axis) const { return high_[static_cast<Eigen::Index>(axis)]; }
+
   /// Whether the box around the cell, so much larger, holds the place.
   bool may_hold(const Vector<dim> &place, double tolerance) const {
     for (int axis = 0; axis < dim; ++axis)
@@ -159,16 +162,49 @@ class Cell {
   Vector<dim> low_, high_;
 };
 
-double extent(const std::vector<Vector3> &points) {
-  double most = 0;
+/// The axis along which points are farthest apart, and by how much [m].
+struct Extent {
+  std::size_t axis = 0;
+  double length = 0;
+};
+
+Extent extent(const std::vector<Vector3> &points) {
+  Extent most;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto [low, high] =
         std::minmax_element(points.begin(), points.end(),
                             [axis](const auto &a, const auto &b) { return a[axis] < b[axis]; });
-    most = std::max(most, (*high)[axis] - (*low)[axis]);
+    if (const double length = (*high)[axis] - (*low)[axis]; length > most.length)
+      most = {axis, length};
   }
   return most;
 }
+
+/// Places by their coordinate along one axis, as a cell is far from most of them.
+class Along {
+ public:
+  Along(const std::vector<Vector3> &places, std::size_t axis) : axis_(axis), order_(places.size()) {
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    std::sort(order_.begin(), order_.end(),
+              [&](std::size_t a, std::size_t b) { return places[a][axis] < places[b][axis]; });
+    for (const std::size_t i : order_)
+      coordinates_.push_back(places[i][axis]);
+  }
+
+  std::size_t axis() const { return axis_; }
+  /// Numbers of the places between.
+  std::span<const std::size_t> between(double low, double high) const {
+    const auto begin = std::lower_bound(coordinates_.begin(), coordinates_.end(), low),
+               end = std::upper_bound(begin, coordinates_.end(), high);
+    return std::span(order_).subspan(static_cast<std::size_t>(begin - coordinates_.begin()),
+                                     static_cast<std::size_t>(end - begin));
+  }
+
+ private:
+  std::size_t axis_;
+  std::vector<std::size_t> order_;
+  std::vector<double> coordinates_;
+};
 
 template <int dim>
 Vector3 in_space(const Vector<dim> &v) {
@@ -205,16 +241,20 @@ template <int dim>
 std::vector<Interpolation> on_this_rank(const Discretisation<dim> &body,
                                         const std::vector<Vector3> &places, bool inside) {
   const std::size_t n_corners = body.has_simplices() ? dim + 1 : std::size_t{1} << dim;
-  const double tolerance = 1e-9 * extent(body.points());
+  const Extent size = extent(body.points());
+  const double tolerance = 1e-9 * size.length;
+  const Along sorted(places, size.axis);
   constexpr double nowhere = std::numeric_limits<double>::infinity();
   std::vector<Interpolation> found(places.size(), Interpolation{{}, {}, {}, nowhere});
   Cell<dim> cell(body, n_corners);
   body.for_each_cell_nodes([&](std::span<const Node> nodes) {
     cell.set(nodes);
-    for (std::size_t i = 0; i < places.size(); ++i)
-      if (inside)
+    if (inside)
+      for (const std::size_t i : sorted.between(cell.low(sorted.axis()) - tolerance,
+                                                cell.high(sorted.axis()) + tolerance))
         look_inside(body, cell, nodes, vector<dim>(places[i]), tolerance, found[i]);
-      else
+    else
+      for (std::size_t i = 0; i < places.size(); ++i)
         look_nearby(cell, vector<dim>(places[i]), tolerance, found[i]);
   });
   return found;

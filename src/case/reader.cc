@@ -143,6 +143,8 @@ class Reader : public Visitor {
     const toml::node *node = table_.get(name);
     if (!node)
       return;
+    if (file.empty())
+      fail(item(*node, {.name = name, .description = ""}), "names nothing");
     file = std::filesystem::absolute(context_.folder / file).lexically_normal().string();
     if (!is_utf8(file))
       fail(item(*node, {.name = name, .description = ""}),

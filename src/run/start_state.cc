@@ -208,15 +208,20 @@ template <int dim>
 std::vector<double> interpolated(const InitialCase &initial, const Recorded &from,
                                  const std::vector<Vector3> &points) {
   const body::Discretisation<dim> other = mesh_of<dim>(initial, from);
-  std::vector<Vector3> places = points;
-  std::vector<body::Interpolation> found = body::nearest_places(other, places);
+  std::vector<body::Interpolation> found = body::nearest_places(other, points);
   const double far = near_boundary * size_of<dim>(from.points);
-  for (std::size_t i = 0; i < places.size(); ++i) {
+  std::vector<Vector3> nearby;
+  for (std::size_t i = 0; i < points.size(); ++i) {
     if (found[i].distance > far)
-      fail_outside<dim>(initial, places[i], found[i].distance);
-    places[i] = found[i].place;
+      fail_outside<dim>(initial, points[i], found[i].distance);
+    if (found[i].distance > 0)
+      nearby.push_back(found[i].place);
   }
-  found = body::nearest_places(other, places);
+  const std::vector<body::Interpolation> instead = body::nearest_places(other, nearby);
+  auto next = instead.begin();
+  for (body::Interpolation &one : found)
+    if (one.distance > 0)
+      one = *next++;
   std::vector<double> state(points.size() * Fields<dim>::count);
   for (std::size_t i = 0; i < points.size(); ++i)
     for (int c = 0; c < Fields<dim>::count; ++c)

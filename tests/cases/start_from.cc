@@ -179,6 +179,7 @@ class StartFromComplaint : public ::testing::Test {
 TEST_F(StartFromComplaint, NamesWhatIsNotThere) {
   using ::testing::HasSubstr;
   EXPECT_THAT(complaint({"initial.from=\"nowhere\""}), HasSubstr("there is no such folder"));
+  EXPECT_THAT(complaint({"initial.from=\"\""}), HasSubstr("names nothing"));
   EXPECT_THAT(complaint({"initial.from=\"/\""}), HasSubstr("holds no run"));
   EXPECT_THAT(complaint({}, "step = 1"), HasSubstr("has no fields of step 1 (result_0001.vtu)"));
   std::filesystem::remove(first_.folder() / "nodes.csv");

@@ -12,6 +12,9 @@ with done(program, page.read_text()) as folder:
     assert sorted(file.name for file in (folder / "block/figures").iterdir()) == ["displacement_y.pdf", "von_mises.pdf"]
     assert sorted(texts(folder / "study/sweep.csv", "member")) == [
         "bound=15_steps=10", "bound=15_steps=5", "bound=5_steps=10", "bound=5_steps=5"]
+    # Twice the time, twice the load, and slip that has gone on.
+    ends = [column(folder / name / "history.csv", "max_displacement")[-1] for name in ("block", "further")]
+    assert 1.9 < ends[1] / ends[0] < 4, ends
     assert texts(folder / "study/sweep.csv", "status") == ["done"] * 4
     # Twice the bound, less slip; and the bound bounds.
     assert max(column(folder / "rough/history.csv", "slip")) < max(column(folder / "block/history.csv", "slip"))
