@@ -13,7 +13,7 @@ namespace tourmaline::run {
 
 template <int dim>
 void rehearse(const solve::Model<dim> &model, int n_steps) {
-  Probes<dim>{model};  // refuses places outside of the body
+  const Probes<dim> refuses_places_outside(model);
   const std::vector<double> before = body::initial_state(model.body, model.asked.initial);
   std::vector<double> state = before, loads;
   if (model.asked.time.is_dynamic())

@@ -101,7 +101,7 @@ fs::path file_of(const InitialCase &initial) {
   if (!initial.step)
     return folder / "nodes.csv";
   for (const char *ending : {"vtu", "pvtu"})
-    if (const fs::path file = folder / fmt::format("result_{:04}.{}", *initial.step, ending);
+    if (fs::path file = folder / fmt::format("result_{:04}.{}", *initial.step, ending);
         is_file(file))
       return file;
   return folder / fmt::format("result_{:04}.vtu", *initial.step);
