@@ -13,12 +13,12 @@ namespace tourmaline::report {
 namespace {
 
 // All lengths in points.
-constexpr double frame_width = 210, frame_height = 140, left_margin = 46, right_margin = 14,
-                 top_margin = 24, axis_room = 34, legend_line = 12, edge = 8;
-constexpr double panel_width = left_margin + frame_width + right_margin,
-                 panel_height = top_margin + frame_height + axis_room;
+constexpr double frame_width = 210, frame_height = 140, panel_left = 46, panel_right = 14,
+                 panel_top = 24, panel_axes = 34, legend_line = 12, edge = 8;
+constexpr double panel_width = panel_left + frame_width + panel_right,
+                 panel_height = panel_top + frame_height + panel_axes;
 
-constexpr Colour grey{120, 126, 134}, light{226, 229, 233};
+constexpr Colour axis_grey{120, 126, 134}, light{226, 229, 233};
 
 /// Okabe and Ito's, which people with any colour vision tell apart; of many lines viridis.
 Colour line_colour(std::size_t line, std::size_t n) {
@@ -119,8 +119,8 @@ class Drawing {
   void draw() {
     for (std::size_t i = 0; i < plot_.panels.size(); ++i) {
       const std::size_t row = i / 2;
-      panel(plot_.panels[i], {left_margin + panel_width * static_cast<double>(i % 2),
-                              top_margin + panel_height * static_cast<double>(row)});
+      panel(plot_.panels[i], {panel_left + panel_width * static_cast<double>(i % 2),
+                              panel_top + panel_height * static_cast<double>(row)});
     }
     if (legend_rows_ > 0)
       legend();
@@ -183,7 +183,7 @@ class Drawing {
       frame.push_back({{at, foot}, {at, foot + 3}});
       canvas_.text(text, {at, foot + 11}, Canvas::Align::middle, 7);
     }
-    canvas_.lines(frame, grey, 0.6);
+    canvas_.lines(frame, axis_grey, 0.6);
     const std::string unit = plot_.abscissa_unit.empty() ? "" : " [" + plot_.abscissa_unit + "]";
     canvas_.text(plot_.abscissa_name + unit, {corner[0] + frame_width / 2, foot + 22},
                  Canvas::Align::middle, 7.5);
@@ -219,7 +219,7 @@ class Drawing {
     for (const std::string &name : plot_.line_names)
       longest = std::max(longest, name.size());
     const double width = 30 + 4.2 * static_cast<double>(longest);
-    const double room = panel_width * static_cast<double>(columns_) - left_margin;
+    const double room = panel_width * static_cast<double>(columns_) - panel_left;
     const auto each = std::max<std::size_t>(1, static_cast<std::size_t>(room / width));
     return {width, (plot_.line_names.size() + each - 1) / each};
   }
@@ -229,7 +229,7 @@ class Drawing {
     const std::size_t n = plot_.line_names.size(), each = (n + legend_rows_ - 1) / legend_rows_;
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t row = i / each;
-      const Point at{left_margin + width * static_cast<double>(i % each),
+      const Point at{panel_left + width * static_cast<double>(i % each),
                      panel_height * static_cast<double>(rows_) +
                          legend_line * (static_cast<double>(row) + 0.5)};
       canvas_.lines({{at, {at[0] + 14, at[1]}}}, line_colour(i, n), 1.1);
