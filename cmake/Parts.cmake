@@ -52,6 +52,12 @@ find_library(METIS_LIBRARY metis REQUIRED)
 add_library(part::metis INTERFACE IMPORTED)
 target_link_libraries(part::metis INTERFACE ${METIS_LIBRARY})
 
+find_path(UDUNITS_INCLUDE udunits2.h REQUIRED)
+find_library(UDUNITS_LIBRARY udunits2 REQUIRED)
+add_library(part::udunits INTERFACE IMPORTED)
+target_include_directories(part::udunits SYSTEM INTERFACE ${UDUNITS_INCLUDE})
+target_link_libraries(part::udunits INTERFACE ${UDUNITS_LIBRARY})
+
 find_library(OPENBLAS_LIBRARY openblas REQUIRED)
 add_library(part::openblas INTERFACE IMPORTED)
 target_link_libraries(part::openblas INTERFACE ${OPENBLAS_LIBRARY})

@@ -36,11 +36,20 @@ Json list_of(const Json &entry, const std::vector<int> &counts) {
   return schema;
 }
 
+// Of a text, "5 kPa".
+constexpr const char *number_with_unit =
+    R"(^[ \t]*[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?([ \t]+1/|[ \t]*[^0-9 \t.+*/^()-]))";
+
 /// What TOML may hold for the key.
 struct Values {
   const Key &key;
 
-  Json number() const { return limited("number", key.range); }
+  Json number() const {
+    const Json plain_number = limited("number", key.range);
+    if (key.unit.empty())
+      return plain_number;
+    return {{"anyOf", {plain_number, {{"type", "string"}, {"pattern", number_with_unit}}}}};
+  }
   Json integer() const {
     Json schema = limited("integer", key.range);
     if (!schema.contains("maximum"))
@@ -54,7 +63,7 @@ struct Values {
     return schema;
   }
   Json formula() const {
-    Json any{number(), {{"type", "string"}, {"minLength", 1}}};
+    Json any{limited("number", key.range), {{"type", "string"}, {"minLength", 1}}};
     if (!key.constant_in_time)
       any.push_back({{"$ref", std::string("#/$defs/") + values_over_time}});
     return {{"anyOf", any}};

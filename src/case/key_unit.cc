@@ -17,9 +17,12 @@ class UnitOf : public Visitor {
 
   void key(const Key &key, Value) override {
     if (path_ + key.name == wanted_)
-      unit = key.unit;
+      unit = key.actual_unit();
   }
-  bool given(const Key &, bool) override { return true; }
+  bool given(const Key &key, bool present) override {
+    const std::string path = path_ + key.name;
+    return present || wanted_ == path || wanted_.starts_with(path + ".");
+  }
   void table(const Key &key, const Body &body) override {
     const std::string outside = path_;
     if (!key.sole.empty() && path_ + key.name == wanted_)
@@ -35,23 +38,14 @@ class UnitOf : public Visitor {
   std::string wanted_, path_;
 };
 
-// "ohm (plane bodies: ohm m)" is the one or the other.
-std::string unit_in(int dimension, const std::string &unit) {
-  static const std::regex both(R"((.+) \(plane bodies: (.+)\))");
-  std::smatch found;
-  if (!std::regex_match(unit, found, both))
-    return unit;
-  return found[dimension == 2 ? 2 : 1];
-}
-
 }  // namespace
 
-std::string unit_of_key(const std::string &path, int dimension) {
+std::string unit_of_key(const std::string &path, const Case &asked) {
   static const std::regex index(R"(\[[0-9]+\]|\.[0-9]+(?=\.|$))");
   UnitOf search(std::regex_replace(path, index, ""));
-  Case any;
-  declare(search, any);
-  return unit_in(dimension, search.unit);
+  Case copy = asked;
+  declare(search, copy);
+  return search.unit;
 }
 
 }  // namespace tourmaline::casefile

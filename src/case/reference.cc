@@ -21,7 +21,9 @@ A case file says what is simulated. It is [TOML](https://toml.io); `cases/` hold
 printed by `tourmaline reference` from the declarations that the program reads with
 (`src/case/schema*.cc`).
 
-All values are SI. Temperatures are differences to the reference temperature. Unknown keys, wrong types
+All values are SI. Where a key has a unit, a text may give its number with another unit of the same kind:
+`"5 kPa"`, `"0.5 mm"`, `"120 V"`, `"3 N/mm^2"`, `"27 degC"` as in [Units](#units). Temperatures are differences to the
+reference temperature. Unknown keys, wrong types
 and impossible values are errors that say the place and what is allowed. "At most ... in size" and "from ... to ... in
 size" hold for numbers other than 0 without their sign; they are orders of magnitude beyond materials and devices, so that
 what lies outside is a slip. `tourmaline check CASE.toml`
@@ -52,6 +54,19 @@ std::string code_list(const std::vector<std::string> &names) {
     all += (all.empty() ? "`" : ", `") + name + "`";
   return all;
 }
+
+constexpr const char *units = R"(
+## Units
+
+A text of a number and a unit stands for a number wherever the tables below have a unit, in lists and in points over t
+too: `traction = [0, "-5 kPa"]`, `end = "20 ms"`, `--set "boundary[0].potential=1.5 kV"`. The names of units are those
+of UDUNITS: SI's symbols and prefixes (`um` or `µm`, `ohm` or `Ω`), `min`, `h`, `bar`, `psi`, `in`, `degC` and many
+more; products with a space or `.`, quotients with `/`, powers as `m^2`, `m2` or `m²`. `tourmaline check` and
+resolved.toml have the numbers in SI. A unit of another kind is a mistake, and so is `degC` for a temperature other than
+`reference_temperature`: all others are differences, in K. `mesh.size` without a unit is in that of the mesh's file; in a
+plane body an electrode's charge, resistance and capacitance are in `C/m`, `ohm m` and `F/m`. In a formula numbers have
+no units.
+)";
 
 constexpr const char *tables = R"(
 Where a formula may depend on t, a table of values over t may stand instead, as of what was measured:
@@ -214,7 +229,8 @@ std::string reference_page() {
   Case defaults;
   Page page("");
   declare(page, defaults);
-  return std::string(introduction) + formulas() + "\n## Keys outside of tables\n\n" + page.text();
+  return std::string(introduction) + formulas() + units + "\n## Keys outside of tables\n\n" +
+         page.text();
 }
 
 }  // namespace tourmaline::casefile

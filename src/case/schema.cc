@@ -330,18 +330,18 @@ void declare(Visitor &v, Case &c) {
   v.table({.name = "mesh", .description = "The body's shape and its cells", .required = true},
           [&](Visitor &inner) { declare(inner, c.mesh); });
   c.dimension = dimension_of(c.mesh);
+  v.table({.name = "model", .description = "Which equations are solved"},
+          [&](Visitor &inner) { declare(inner, c.model, c.dimension); });
   declare_composition(v, c);
   v.table({.name = "time", .description = "The simulated time", .required = true},
           [&](Visitor &inner) { declare(inner, c.time); });
   declare_boundaries(v, c.boundaries, c.mesh, c.dimension);
-  declare_electrodes(v, c.electrodes, c.mesh);
-  declare_contacts(v, c.contacts, c.mesh, c.dimension);
+  declare_electrodes(v, c.electrodes, c.mesh, c.is_per_depth());
+  declare_contacts(v, c.contacts, c.mesh, c.dimension, c.is_per_depth());
   v.table({.name = "load", .description = "Loads on the volume"},
           [&](Visitor &inner) { declare(inner, c.load, c.dimension); });
   v.table({.name = "initial", .description = "The state at the time 0"},
           [&](Visitor &inner) { declare(inner, c.initial, c.time, c.dimension); });
-  v.table({.name = "model", .description = "Which equations are solved"},
-          [&](Visitor &inner) { declare(inner, c.model, c.dimension); });
   v.table({.name = "solver", .description = "How the equations are solved"},
           [&](Visitor &inner) { declare(inner, c.solver, c.contacts); });
   declare_probes(v, c.probes, c.mesh, c.dimension, c.model.is_axisymmetric());

@@ -40,6 +40,13 @@ std::string inside_complaint(const std::vector<std::string> &on, const MeshCase 
   return "";
 }
 
+Key of_whole_body(Key key, bool is_per_depth) {
+  const std::string plane = key.unit == "ohm" ? "ohm m" : key.unit + "/m";
+  key.unit_here = is_per_depth ? plane : key.unit;
+  key.unit += " (plane bodies: " + plane + ")";
+  return key;
+}
+
 namespace {
 
 void declare_mechanics(Visitor &v, BoundaryCase &boundary, int dimension) {
@@ -87,7 +94,7 @@ void declare(Visitor &v, BoundaryCase &boundary, const MeshCase &mesh, int dimen
              boundary.heat_flux);
 }
 
-void declare(Visitor &v, ElectrodeCase &electrode, const MeshCase &mesh) {
+void declare(Visitor &v, ElectrodeCase &electrode, const MeshCase &mesh, bool is_per_depth) {
   v.place(electrode.where);
   v.places(electrode.places);
   v.key({.name = "name",
@@ -118,22 +125,29 @@ void declare(Visitor &v, ElectrodeCase &electrode, const MeshCase &mesh) {
               .unit = "V",
               .range = any(sense::potential)},
              electrode.voltage);
-  v.optional({.name = "charge",
-              .description = "total charge on the electrode over time, -integral of D.nu; its "
-                             "potential follows",
-              .unit = "C (plane bodies: C/m)",
-              .range = any(sense::charge)},
+  v.optional(of_whole_body(
+                 {.name = "charge",
+                  .description = "total charge on the electrode over time, -integral of D.nu; its "
+                                 "potential follows",
+                  .unit = "C",
+                  .range = any(sense::charge)},
+                 is_per_depth),
              electrode.charge);
-  v.optional({.name = "resistor",
-              .description = "resistance between the electrode and ground, or `voltage`, or `to`",
-              .unit = "ohm (plane bodies: ohm m)",
-              .range = positive(sense::resistance)},
-             electrode.resistor);
-  v.optional({.name = "capacitor",
-              .description = "capacitance between the same two, parallel to the resistor",
-              .unit = "F (plane bodies: F/m)",
-              .range = positive(sense::capacitance)},
-             electrode.capacitor);
+  v.optional(
+      of_whole_body(
+          {.name = "resistor",
+           .description = "resistance between the electrode and ground, or `voltage`, or `to`",
+           .unit = "ohm",
+           .range = positive(sense::resistance)},
+          is_per_depth),
+      electrode.resistor);
+  v.optional(
+      of_whole_body({.name = "capacitor",
+                     .description = "capacitance between the same two, parallel to the resistor",
+                     .unit = "F",
+                     .range = positive(sense::capacitance)},
+                    is_per_depth),
+      electrode.capacitor);
   v.optional({.name = "to",
               .description = "name of the electrode that resistor and capacitor lead to, instead "
                              "of ground"},
@@ -154,7 +168,8 @@ void declare_boundaries(Visitor &v, std::vector<BoundaryCase> &boundaries, const
   });
 }
 
-void declare_electrodes(Visitor &v, std::vector<ElectrodeCase> &electrodes, const MeshCase &mesh) {
+void declare_electrodes(Visitor &v, std::vector<ElectrodeCase> &electrodes, const MeshCase &mesh,
+                        bool is_per_depth) {
   const Key key = {
       .name = "electrode",
       .description =
@@ -165,8 +180,9 @@ void declare_electrodes(Visitor &v, std::vector<ElectrodeCase> &electrodes, cons
           "voltage or to another electrode; with nothing it is open and keeps its "
           "charge at the time 0. Of plane bodies charges, resistances and capacitances are "
           "those of one metre of thickness"};
-  v.entries(key, electrodes,
-            [&](Visitor &inner, ElectrodeCase &electrode) { declare(inner, electrode, mesh); });
+  v.entries(key, electrodes, [&](Visitor &inner, ElectrodeCase &electrode) {
+    declare(inner, electrode, mesh, is_per_depth);
+  });
 }
 
 }  // namespace tourmaline::casefile

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "schema_parts.h"
 #include "sense.h"
 #include "tourmaline/case/contact_case.h"
@@ -10,10 +12,17 @@ namespace tourmaline::casefile {
 namespace {
 
 // The unit of c in the law; where there is none yet, in both.
-std::string unit_of_response(const std::string &law) {
+std::string words_of_unit(const std::string &law) {
   if (law == "compliance")
     return "N/m^(2+m)";
   return law == "damped" ? "N s/m^3" : "N/m^(2+m) or N s/m^3";
+}
+
+// Of m = 1.5 there is no unit that a text could give.
+std::string unit_of_response(const NormalCase &normal) {
+  if (normal.law != "compliance" || normal.exponent != std::floor(normal.exponent))
+    return words_of_unit(normal.law);
+  return fmt::format("N/m^{:.0f}", 2 + normal.exponent);
 }
 
 void declare(Visitor &v, NormalCase &normal) {
@@ -30,21 +39,22 @@ void declare(Visitor &v, NormalCase &normal) {
                           {"normal_compliance", "compliance"},
                           {"damped_response", "damped"}}},
         &normal.law);
-  v.key({.name = "coefficient",
-         .description = "c of the law: of compliance in N/m^(2+m), of damped in N s/m^3",
-         .unit = unit_of_response(normal.law),
-         .required = true,
-         .range = positive(sense::contact_compliance),
-         .constant_in_time = true,
-         .used = with("law", normal.law, {"compliance", "damped"}),
-         .also = {"c", "c_nu", "stiffness"}},
-        &normal.coefficient);
   v.key({.name = "exponent",
          .description = "m of compliance",
          .range = {.low = 1, .sense = sense::contact_exponent},
          .used = with("law", normal.law, {"compliance"}),
          .also = {"m", "m_nu"}},
         &normal.exponent);
+  v.key({.name = "coefficient",
+         .description = "c of the law: of compliance in N/m^(2+m), of damped in N s/m^3",
+         .unit = words_of_unit(normal.law),
+         .required = true,
+         .range = positive(sense::contact_compliance),
+         .constant_in_time = true,
+         .used = with("law", normal.law, {"compliance", "damped"}),
+         .also = {"c", "c_nu", "stiffness"},
+         .unit_here = unit_of_response(normal)},
+        &normal.coefficient);
 }
 
 const std::string forms_of_coefficient =
@@ -258,22 +268,26 @@ std::string complaint_about(const FoundationCircuitCase &circuit) {
   return "";
 }
 
-void declare(Visitor &v, FoundationCircuitCase &circuit) {
-  v.optional({.name = "charge",
-              .description = "charge on the foundation over time, -integral of D.nu",
-              .unit = "C (plane bodies: C/m)",
-              .range = any(sense::charge)},
+void declare(Visitor &v, FoundationCircuitCase &circuit, bool is_per_depth) {
+  v.optional(of_whole_body({.name = "charge",
+                            .description = "charge on the foundation over time, -integral of D.nu",
+                            .unit = "C",
+                            .range = any(sense::charge)},
+                           is_per_depth),
              circuit.charge);
-  v.optional({.name = "resistor",
-              .description = "resistance between the foundation and `voltage`",
-              .unit = "ohm (plane bodies: ohm m)",
-              .range = positive(sense::resistance)},
+  v.optional(of_whole_body({.name = "resistor",
+                            .description = "resistance between the foundation and `voltage`",
+                            .unit = "ohm",
+                            .range = positive(sense::resistance)},
+                           is_per_depth),
              circuit.resistor);
-  v.optional({.name = "capacitor",
-              .description = "capacitance between the same two, parallel to the resistor",
-              .unit = "F (plane bodies: F/m)",
-              .range = positive(sense::capacitance)},
-             circuit.capacitor);
+  v.optional(
+      of_whole_body({.name = "capacitor",
+                     .description = "capacitance between the same two, parallel to the resistor",
+                     .unit = "F",
+                     .range = positive(sense::capacitance)},
+                    is_per_depth),
+      circuit.capacitor);
   v.key({.name = "voltage",
          .description = "voltage of the other end of resistor and capacitor over time",
          .unit = "V",
@@ -292,7 +306,7 @@ std::string potential_complaint(const ChargeExchangeCase &electric) {
   return "";
 }
 
-void declare(Visitor &v, ChargeExchangeCase &electric) {
+void declare(Visitor &v, ChargeExchangeCase &electric, bool is_per_depth) {
   v.key({.name = "law",
          .description = "insulated: no charge crosses; exchange: a capacitor, D.nu = c (phi - "
                         "phi_f); leak: a conductor, d(D.nu)/dt = c (phi - phi_f), D.nu being 0 at "
@@ -320,8 +334,9 @@ void declare(Visitor &v, ChargeExchangeCase &electric) {
            "resistances and capacitances are those of one metre of thickness",
        .used = crosses,
        .also = {"floating", "free"}},
-      electric.circuit,
-      [](Visitor &inner, FoundationCircuitCase &circuit) { declare(inner, circuit); });
+      electric.circuit, [&](Visitor &inner, FoundationCircuitCase &circuit) {
+        declare(inner, circuit, is_per_depth);
+      });
   v.optional({.name = "foundation_potential",
               .description = "potential phi_f of the foundation; it or `circuit` is given",
               .unit = "V",
@@ -341,7 +356,8 @@ std::string weight_complaint(const MeshCase &mesh) {
          "no weight in the contact; give mesh.degree = 1, or hexahedra";
 }
 
-void declare(Visitor &v, ContactCase &contact, const MeshCase &mesh, int dimension) {
+void declare(Visitor &v, ContactCase &contact, const MeshCase &mesh, int dimension,
+             bool is_per_depth) {
   v.place(contact.where);
   v.places(contact.places);
   v.optional(
@@ -390,7 +406,7 @@ void declare(Visitor &v, ContactCase &contact, const MeshCase &mesh, int dimensi
            .description = "The charge that crosses between body and foundation. None may be given "
                           "as a text: electric = \"insulated\"",
            .sole = "law"},
-          [&](Visitor &inner) { declare(inner, contact.electric); });
+          [&](Visitor &inner) { declare(inner, contact.electric, is_per_depth); });
 }
 
 }  // namespace
@@ -432,15 +448,16 @@ std::string multiplier_complaint(const std::vector<ContactCase> &contacts,
 }
 
 void declare_contacts(Visitor &v, std::vector<ContactCase> &contacts, const MeshCase &mesh,
-                      int dimension) {
+                      int dimension, bool is_per_depth) {
   const Key key = {.name = "contact",
                    .description =
                        "Contact with a foundation that does not deform. Without this table "
                        "there is no contact; several contacts, each under [[contact]], have "
                        "boundaries and laws of their own",
                    .may_be_table = true};
-  v.entries(key, contacts,
-            [&](Visitor &inner, ContactCase &value) { declare(inner, value, mesh, dimension); });
+  v.entries(key, contacts, [&](Visitor &inner, ContactCase &value) {
+    declare(inner, value, mesh, dimension, is_per_depth);
+  });
 }
 
 }  // namespace tourmaline::casefile

@@ -116,10 +116,12 @@ std::vector<Key> make_constants() {
                    "J/(kg K)", false, positive(sense::specific_heat)},
                   {"c_v", "cv", "c_p", "cp", "heat_capacity"}));
   all.push_back(
-      also_called({"reference_temperature",
-                   "theta_ref, the absolute temperature that all others are differences to", "K",
-                   false, positive(sense::absolute_temperature)},
-                  {"theta_ref", "T_ref", "T0", "T_0"}));
+      {.name = "reference_temperature",
+       .description = "theta_ref, the absolute temperature that all others are differences to",
+       .unit = "K",
+       .range = positive(sense::absolute_temperature),
+       .also = {"theta_ref", "T_ref", "T0", "T_0"},
+       .is_absolute_temperature = true});
   return all;
 }
 

@@ -208,15 +208,6 @@ void declare_file(Visitor &v, MeshCase &mesh) {
            "\"volume 1\", ... (`tourmaline check` lists them with their places)"},
       mesh.file);
   const Use file = with("mesh.file", mesh.file.has_value());
-  v.optional(
-      {.name = "size",
-       .description = "size of the largest cells of a geometry, in the unit of its file, which "
-                      "is `scale`; required for .step, .iges and .brep. A size that changes "
-                      "nothing is a mistake",
-       .unit = "scale",
-       .range = positive(sense::length),
-       .used = file},
-      mesh.size);
   v.key({.name = "scale",
          .description = "the unit of length of the file, 1e-3 when it is in millimetres; .step and "
                         ".iges know theirs and come in metres",
@@ -224,6 +215,16 @@ void declare_file(Visitor &v, MeshCase &mesh) {
          .range = positive(sense::length),
          .used = file},
         &mesh.scale);
+  v.optional(
+      {.name = "size",
+       .description = "size of the largest cells of a geometry, in the unit of its file, which "
+                      "is `scale`; required for .step, .iges and .brep. A size that changes "
+                      "nothing is a mistake",
+       .unit = "scale",
+       .range = positive(sense::length),
+       .used = file,
+       .unit_here = fmt::format("{} m", mesh.scale)},
+      mesh.size);
   v.key({.name = "unnamed",
          .description = "what facets of the boundary without a name are; error: a mistake; "
                         "natural: free of traction, charge and heat flow",

@@ -11,6 +11,7 @@
 #include "case/nearest.h"
 #include "case/table_file.h"
 #include "case/toml_text.h"
+#include "case/units.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::casefile {
@@ -148,12 +149,28 @@ void read_into(const Item &item, int &value) {
   value = static_cast<int>(*given);
 }
 
+// Nothing where the value is no text of a number and a unit. `hint` follows on what is wrong.
+std::optional<double> number_with_unit(const Item &item, const char *hint = "") {
+  const auto text = item.node.value_exact<std::string>();
+  const std::optional<Quantity> quantity = text ? quantity_in(*text) : std::nullopt;
+  if (!quantity)
+    return std::nullopt;
+  const Key &key = item.key;
+  const Converted number = converted(*quantity, key.actual_unit(), key.is_absolute_temperature);
+  if (!number.complaint.empty())
+    fail(item, number.complaint + hint);
+  return number.value;
+}
+
 double number_in(const Item &item, const std::string &wanted) {
   if (const auto integer = item.node.value_exact<std::int64_t>())
     return static_cast<double>(*integer);
   if (const auto number = item.node.value_exact<double>())
     return *number;
-  fail_type(item, wanted);
+  if (const auto number = number_with_unit(item))
+    return *number;
+  const std::string &unit = item.key.unit;
+  fail_type(item, wanted + (unit.empty() ? "" : " [" + unit + "]"));
 }
 
 void read_into(const Item &item, double &value) {
@@ -214,16 +231,16 @@ LoadTable::Points points_given(const Item &item, const toml::node &points) {
   if (!rows)
     fail(item,
          fmt::format("`points` is {}, but must be a list; {}", type_of(points), forms_of_table));
+  const Key time{.name = "t", .description = "time", .unit = "s"};
   LoadTable::Points all;
   for (std::size_t i = 0; i < rows->size(); ++i) {
     const toml::array *row = rows->get(i)->as_array();
-    const auto number = [&](std::size_t k) {
-      return number_in({*row->get(k), item.key, fmt::format("{} points[{}]", item.name, i)},
-                       "a number");
+    const auto number = [&](std::size_t k, const Key &key) {
+      return number_in({*row->get(k), key, fmt::format("{} points[{}]", item.name, i)}, "a number");
     };
     if (!row || row->size() != 2)
       fail(item, fmt::format("points[{}] is {}, but must be [t, value]", i, quoted(*rows->get(i))));
-    all.emplace_back(number(0), number(1));
+    all.emplace_back(number(0, time), number(1, item.key));
   }
   return all;
 }
@@ -255,6 +272,9 @@ Formula table_in(const Item &item, const toml::table &given) {
 void read_into(const Item &item, Formula &value) {
   if (const toml::table *given = item.node.as_table())
     value = table_in(item, *given);
+  else if (const auto with_unit =
+               number_with_unit(item, "; factors of a formula have * between them"))
+    value = Formula(*with_unit, item.where());
   else if (const auto text = item.node.value_exact<std::string>())
     value = Formula(*text, item.where(), item.key.range, item.key.unit);
   else if (const double number =

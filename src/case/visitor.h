@@ -40,7 +40,7 @@ Use with(const std::string &name, bool is_given);
 struct Key {
   std::string name;
   std::string description;  ///< a phrase without capital and full stop; of a table a sentence
-  std::string unit = {};
+  std::string unit = {};    ///< of its numbers, as documents say it
   bool required = false;
   Range range = {};                       ///< of a number, and of a formula that is one
   std::vector<std::string> choices = {};  ///< the texts that are allowed; empty: any
@@ -61,6 +61,12 @@ struct Key {
   /// Of an array of tables: a single entry may stand as a table, [contact], with no number in its
   /// path.
   bool may_be_table = false;
+  /// The unit in the case at hand, where that decides and `unit` has the words for it. It is also
+  /// what a number with a unit of its own is converted to.
+  std::string unit_here = {};
+  bool is_absolute_temperature = false;  ///< others are differences, which degC is no unit of
+
+  const std::string &actual_unit() const { return unit_here.empty() ? unit : unit_here; }
 };
 
 /// One entry for each component; empty where the component is free.

@@ -7,8 +7,6 @@
 #include <limits>
 #include <optional>
 
-#include "case/key_unit.h"
-
 namespace tourmaline::sweep {
 
 namespace {
@@ -80,7 +78,7 @@ std::string table_text(const Results &results) {
 report::Plot plot_of(const Results &results) {
   const Variation &first = results.variations.front();
   report::Plot plot{.abscissa_name = first.key,
-                    .abscissa_unit = casefile::unit_of_key(first.key, results.dimension),
+                    .abscissa_unit = results.key_unit,
                     .abscissae = {},
                     .logarithmic = first.logarithmic,
                     .line_names = {},

@@ -21,7 +21,7 @@ struct Results {
   std::vector<Member> members;
   std::vector<Output> outputs;
   std::vector<Row> rows;
-  int dimension = 2;  ///< of the first member's body
+  std::string key_unit;  ///< of the first variation's key
 };
 
 /// sweep.csv: member,KEY...,status,OUTPUT...; a value that holds commas stands in quotes.

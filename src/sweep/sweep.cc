@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "case/key_unit.h"
 #include "output/atomic_file.h"
 #include "output/folder_lock.h"
 #include "output/status_line.h"
@@ -269,7 +270,7 @@ Outcome run(const Request &request) {
   results.outputs = chosen_outputs(request.outputs, asked);
   const std::vector<double> none(results.outputs.size(), std::numeric_limits<double>::quiet_NaN());
   if (!asked.empty())
-    results.dimension = asked.front().dimension;
+    results.key_unit = casefile::unit_of_key(results.variations.front().key, asked.front());
   results.rows.assign(results.members.size(), {"stopped", none});
   const output::FolderLock lock(request.folder);  // before anything there is looked at
   Outcome outcome = Study(request, results, cases).run();

@@ -39,7 +39,7 @@ struct MeshCase {
   std::optional<Box> box;
   std::optional<Annulus> annulus;
   std::optional<std::string> file;          ///< Gmsh's or CAD's, absolute once it is read
-  std::optional<double> size;               ///< of the largest cells of a geometry [m]
+  std::optional<double> size;               ///< of the largest cells of a geometry [scale]
   double scale = 1;                         ///< the file's unit of length [m]
   std::string unnamed = "error";            ///< error | natural: boundary facets without a name
   int degree = 1;                           ///< of the finite elements, 1 or 2
