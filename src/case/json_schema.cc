@@ -424,7 +424,8 @@ std::string json_schema(const Declaration &declaration) {
        "`tourmaline schema`. What a case must satisfy beyond this schema, `tourmaline check` "
        "says."}};
   schema.update(complete(declaration));
-  schema["$defs"] = {{values_over_time, schema_of_values_over_time()}};
+  schema["$defs"] = {{values_over_time, schema_of_values_over_time()},
+                     {number_with_unit, schema_of_number_with_unit()}};
   return schema.dump(2) + "\n";
 }
 

@@ -36,10 +36,6 @@ Json list_of(const Json &entry, const std::vector<int> &counts) {
   return schema;
 }
 
-// Of a text, "5 kPa".
-constexpr const char *number_with_unit =
-    R"(^[ \t]*[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?([ \t]+1/|[ \t]*[^0-9 \t.+*/^()-]))";
-
 /// What TOML may hold for the key.
 struct Values {
   const Key &key;
@@ -48,7 +44,7 @@ struct Values {
     const Json plain_number = limited("number", key.range);
     if (key.unit.empty())
       return plain_number;
-    return {{"anyOf", {plain_number, {{"type", "string"}, {"pattern", number_with_unit}}}}};
+    return {{"anyOf", {plain_number, {{"$ref", std::string("#/$defs/") + number_with_unit}}}}};
   }
   Json integer() const {
     Json schema = limited("integer", key.range);
@@ -134,8 +130,9 @@ std::string description_of(const Key &key, const Value &value) {
 // Of a file, or points.
 Json schema_of_values_over_time() {
   const Json name{{"type", "string"}, {"minLength", 1}};
-  const Json point{
-      {"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 2}};
+  const Json number{
+      {"anyOf", {{{"type", "number"}}, {{"$ref", std::string("#/$defs/") + number_with_unit}}}}};
+  const Json point{{"type", "array"}, {"items", number}, {"minItems", 2}, {"maxItems", 2}};
   const Json points{{"type", "array"}, {"items", point}, {"minItems", 1}};
   const Json of_file{{"type", "object"},
                      {"properties", {{"table", name}, {"column", name}}},
@@ -147,6 +144,14 @@ Json schema_of_values_over_time() {
                        {"additionalProperties", false}};
   return {{"description", "values over the time t, linear between their points"},
           {"anyOf", {of_file, of_points}}};
+}
+
+Json schema_of_number_with_unit() {
+  return {{"description", "a number and its unit, as in \"5 kPa\""},
+          {"type", "string"},
+          {"pattern",
+           "^[ \\t]*[+-]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)?"
+           "([ \\t]+1/|[ \\t]*[^0-9 \\t.+*/^()-])"}};
 }
 
 Json schema_of_key(const Key &key, const Value &value) {

@@ -149,8 +149,18 @@ void read_into(const Item &item, int &value) {
   value = static_cast<int>(*given);
 }
 
-// Nothing where the value is no text of a number and a unit. `hint` follows on what is wrong.
-std::optional<double> number_with_unit(const Item &item, const char *hint = "") {
+// "2 t" may be a product with the time that has no sign.
+std::string hint_at_product(const std::string &unit) {
+  const FormulaNames &names = formula_names();
+  const std::string word = unit.substr(0, unit.find_first_of("*/+- ("));
+  for (const auto *known : {&names.variables, &names.functions, &names.constants})
+    if (std::find(known->begin(), known->end(), word) != known->end())
+      return "; in a formula * stands before " + word;
+  return "";
+}
+
+// Nothing where the value is no text of a number and a unit.
+std::optional<double> number_with_unit(const Item &item) {
   const auto text = item.node.value_exact<std::string>();
   const std::optional<Quantity> quantity = text ? quantity_in(*text) : std::nullopt;
   if (!quantity)
@@ -158,7 +168,7 @@ std::optional<double> number_with_unit(const Item &item, const char *hint = "") 
   const Key &key = item.key;
   const Converted number = converted(*quantity, key.actual_unit(), key.is_absolute_temperature);
   if (!number.complaint.empty())
-    fail(item, number.complaint + hint);
+    fail(item, number.complaint + hint_at_product(quantity->unit));
   return number.value;
 }
 
@@ -272,8 +282,7 @@ Formula table_in(const Item &item, const toml::table &given) {
 void read_into(const Item &item, Formula &value) {
   if (const toml::table *given = item.node.as_table())
     value = table_in(item, *given);
-  else if (const auto with_unit =
-               number_with_unit(item, "; factors of a formula have * between them"))
+  else if (const auto with_unit = number_with_unit(item))
     value = Formula(*with_unit, item.where());
   else if (const auto text = item.node.value_exact<std::string>())
     value = Formula(*text, item.where(), item.key.range, item.key.unit);

@@ -224,12 +224,12 @@ def random_value(rng, schema):
     """A value for a key, from what its declaration says."""
     if "anyOf" in schema:
         return random_value(rng, rng.choice(schema["anyOf"]))
+    if schema.get("$ref", "").endswith("number_with_unit"):
+        return rng.choice(["2 mm", "5 kPa", "1e3 V", "-.5 N/mm2", "27 degC", "3 apples", "4e", "5*t"])
     if "$ref" in schema:  # values over time
         return {"points": [[0, rng.choice([0, 1, -1e6])], [rng.choice([0, 1, 2]), 1]]}
     if "enum" in schema:
         return rng.choice(schema["enum"]) if rng.random() < 0.9 else rng.choice([1, "no such choice"])
-    if "pattern" in schema:  # a number with its unit
-        return rng.choice(["2 mm", "5 kPa", "1e3 V", "-.5 N/mm2", "27 degC", "3 apples", "4e", "5*t"])
     kind = schema["type"]
     if kind == "array":
         least = schema.get("minItems", 1)
