@@ -54,12 +54,13 @@ void history_product(benchmark::State &state) {
 void factorise_and_condense(benchmark::State &state) {
   const auto &m = model(static_cast<int>(state.range(0)));
   for (auto _ : state)
-    condensation::CondensedBody<2>(m.op, m.step, m.prescribed, contact_nodes(m), 1);
+    condensation::CondensedBody<2>(m.body, m.op, m.step, m.prescribed, contact_nodes(m), {});
 }
 
 void reduce_and_expand(benchmark::State &state) {
   const auto &m = model(static_cast<int>(state.range(0)));
-  condensation::CondensedBody<2> condensed(m.op, m.step, m.prescribed, contact_nodes(m), 1);
+  condensation::CondensedBody<2> condensed(m.body, m.op, m.step, m.prescribed, contact_nodes(m),
+                                           {});
   const std::vector<double> b(m.n_unknowns(), 1e-6);
   std::vector<double> x(m.n_unknowns(), 0.);
   for (auto _ : state)

@@ -16,11 +16,11 @@
 #include "case/snapping.h"
 #include "material/description.h"
 #include "output/folder_lock.h"
+#include "parallel/available_memory.h"
 #include "parallel/ranks.h"
 #include "printable_output.h"
 #include "report/figures.h"
 #include "report/page.h"
-#include "run/available_memory.h"
 #include "run/process.h"
 #include "run/survey.h"
 #include "sweep_command.h"
@@ -278,7 +278,7 @@ int report(int status, const std::string &text) {
 // OpenBLAS, started halfway, would wait for its threads for ever at an ordered end.
 void require_room_or_end() {
   try {
-    tourmaline::run::require_room_to_start();
+    tourmaline::parallel::require_room_to_start();
   } catch (const tourmaline::MachineError &error) {
     std::_Exit(report(machine_failed, error.what()));
   }

@@ -275,6 +275,14 @@ void declare(Visitor &v, SolverCase &solver, const std::vector<ContactCase> &con
          .choices = {"automatic", "direct", "iterative"},
          .used = with("method", solver.method, {"condensed"})},
         &solver.body);
+  v.key({.name = "factorisation",
+         .description =
+             "who factorises the body's matrix. own: without pivoting, on one rank, with "
+             "solver.threads; mumps: MUMPS; automatic: own on one rank, MUMPS on several or where "
+             "round-off leaves a pivot without a digit",
+         .choices = {"automatic", "own", "mumps"},
+         .used = with("method", solver.method, {"condensed"})},
+        &solver.factorisation);
   v.key(
       {.name = "linear_tolerance",
        .description = "at which the iterative solution of the body's equations stops: norm of the "

@@ -1,11 +1,16 @@
 #include "condensation/condensed_body.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "body/backward_error.h"
+#include "condensation/multifrontal.h"
+#include "condensation/mumps_factorisation.h"
 #include "condensation/ordering.h"
+#include "condensation/step_matrix.h"
 #include "gmres.h"
 #include "larger.h"
 #include "parallel/ranks.h"
@@ -20,21 +25,19 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 template <int dim>
-CondensedBody<dim>::CondensedBody(const body::Operator<dim> &op, double step,
+CondensedBody<dim>::CondensedBody(const body::Discretisation<dim> &body,
+                                  const body::Operator<dim> &op, double step,
                                   const std::vector<body::Prescribed> &prescribed,
-                                  const std::vector<std::size_t> &contact, int threads)
+                                  const std::vector<std::size_t> &contact,
+                                  const FactorisationChoice &choice)
     : operator_(op), step_(step), scale_(op.scales(step)) {
   number(prescribed, contact);
-  std::vector<double> scales;
-  for (const std::size_t i : unknown_of_)
-    scales.push_back(scale(i));
   // MUMPS on two ranks waits for ever where nothing is eliminated.
   if (parallel::n_ranks() > 1 && contact_variables_.size() == unknown_of_.size())
     throw CaseError(
         "[mesh] no unknown of the body is free beside those of its contact: such a mesh is not "
         "available on several MPI ranks; start the program without mpirun, or take finer cells");
-  factorisation_.emplace(scaled_matrix(op, step, variable_of_, scales), elimination_order(),
-                         contact_variables_, threads);
+  factorise(body, choice);
   const auto n =
       static_cast<Eigen::Index>(parallel::is_first() ? contact_variables_.size() : std::size_t{0});
   stiffness_ = Eigen::Map<const Eigen::MatrixXd>(factorisation_->schur_complement().data(), n, n);
@@ -71,9 +74,46 @@ void CondensedBody<dim>::number(const std::vector<body::Prescribed> &prescribed,
     is_contact_variable_[v] = true;
 }
 
-// Nodes in the order of nested dissection, each with its unknowns; those of the contact last.
 template <int dim>
-std::vector<int> CondensedBody<dim>::elimination_order() const {
+void CondensedBody<dim>::factorise(const body::Discretisation<dim> &body,
+                                   const FactorisationChoice &choice) {
+  std::vector<double> scales;
+  for (const std::size_t i : unknown_of_)
+    scales.push_back(scale(i));
+  const std::vector<Node> node_at = nodes_in_order();
+  std::string reason;
+  if (choice.by != Factoriser::mumps && parallel::n_ranks() == 1)
+    try {
+      factorisation_ = std::make_unique<Multifrontal>(
+          step_matrix(operator_, step_, node_at, unknown_of_, scales, is_contact_variable_),
+          contact_variables_, choice.threads);
+      return;
+    } catch (const WeakPivot &weak) {
+      reason = weak_pivot_in_words(body, weak.variable);
+      if (choice.by == Factoriser::own)
+        throw SolveError("the body's equations have no factorisation without pivoting: " + reason +
+                         "; solver.factorisation = \"automatic\" goes on with MUMPS");
+    }
+  auto by_mumps = std::make_unique<MumpsFactorisation>(
+      scaled_matrix(operator_, step_, variable_of_, scales), elimination_order(node_at),
+      contact_variables_, choice.threads);
+  by_mumps->set_reason(std::move(reason));
+  factorisation_ = std::move(by_mumps);
+}
+
+template <int dim>
+std::string CondensedBody<dim>::weak_pivot_in_words(const body::Discretisation<dim> &body,
+                                                    int variable) const {
+  const std::size_t i = unknown_of_[variable];
+  const Vector3 &p = body.points()[i / Fields<dim>::count];
+  return fmt::format("round-off leaves no pivot of the right sign for {} at ({:g}, {:g}, {:g})",
+                     body::column_of<dim>(static_cast<int>(i % Fields<dim>::count)), p[0], p[1],
+                     p[2]);
+}
+
+// Nested dissection.
+template <int dim>
+std::vector<Node> CondensedBody<dim>::nodes_in_order() const {
   const std::size_t n_nodes = operator_.graph().n_nodes();
   std::vector<int> unknowns(n_nodes, 0);
   for (std::size_t v = 0; v < unknown_of_.size(); ++v)
@@ -83,7 +123,12 @@ std::vector<int> CondensedBody<dim>::elimination_order() const {
   std::vector<Node> node_at(n_nodes);
   for (Node i = 0; i < n_nodes; ++i)
     node_at[node_position[i]] = i;
+  return node_at;
+}
 
+// Node by node, each with its unknowns; those of the contact last.
+template <int dim>
+std::vector<int> CondensedBody<dim>::elimination_order(const std::vector<Node> &node_at) const {
   std::vector<int> position(unknown_of_.size());
   int next = 0;
   for (const Node node : node_at)

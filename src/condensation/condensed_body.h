@@ -2,8 +2,9 @@
 
 #include <Eigen/Dense>
 #include <array>
-#include <optional>
+#include <memory>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "body/operator.h"
 #include "body/prescribed.h"
 #include "condensation/factorisation.h"
+#include "condensation/factorisation_choice.h"
 
 namespace tourmaline::condensation {
 
@@ -27,9 +29,9 @@ class CondensedBody {
  public:
   /// `prescribed` unknowns are taken out of the matrix, but for those among `contact`, the unknowns
   /// c: these stay in c and the interface prescribes them.
-  CondensedBody(const body::Operator<dim> &op, double step,
+  CondensedBody(const body::Discretisation<dim> &body, const body::Operator<dim> &op, double step,
                 const std::vector<body::Prescribed> &prescribed,
-                const std::vector<std::size_t> &contact, int threads);
+                const std::vector<std::size_t> &contact, const FactorisationChoice &choice);
 
   /// In the order of `contact`. Only on the first rank; empty on the others.
   const Eigen::MatrixXd &stiffness() const { return stiffness_; }
@@ -75,7 +77,10 @@ class CondensedBody {
  private:
   void number(const std::vector<body::Prescribed> &prescribed,
               const std::vector<std::size_t> &contact);
-  std::vector<int> elimination_order() const;
+  std::vector<body::Node> nodes_in_order() const;
+  std::vector<int> elimination_order(const std::vector<body::Node> &node_at) const;
+  void factorise(const body::Discretisation<dim> &body, const FactorisationChoice &choice);
+  std::string weak_pivot_in_words(const body::Discretisation<dim> &body, int variable) const;
   bool is_contact_variable(std::size_t v) const { return is_contact_variable_[v]; }
   Eigen::VectorXd residual_inside(const body::CellProducts<dim> &cells,
                                   std::span<const double> right_side,
@@ -100,7 +105,7 @@ class CondensedBody {
   std::vector<bool> is_contact_variable_;
   std::array<double, body::Fields<dim>::count> scale_;
   std::size_t n_electric_and_thermal_ = 0, n_electric_and_thermal_inside_ = 0;
-  std::optional<Factorisation> factorisation_;
+  std::unique_ptr<Factorisation> factorisation_;
   Eigen::MatrixXd stiffness_;
   const body::CellProducts<dim> *cells_ = nullptr;  // once refined
   std::vector<double> given_, inside_;              // of the refined step: b; x at c = 0

@@ -1,53 +1,44 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <span>
+#include <string>
 #include <vector>
-
-#include "condensation/symmetric_matrix.h"
 
 namespace tourmaline::condensation {
 
-/// What MUMPS tells about a factorisation.
+/// What is known of a factorisation.
 struct FactorisationStatistics {
   double analyse_seconds = 0, factorise_seconds = 0;
   long long factor_entries = 0;  ///< doubles in L, the Schur complement apart
   int negative_pivots = 0;
   double flops = 0;
+  std::string solver;  ///< "own" or "mumps"
+  std::string reason;  ///< why that one, where another was asked first
 };
 
-/// L D L^T without pivoting (MUMPS, SYM = 1) of a symmetric quasi-definite matrix K, with the Schur
-/// complement S of its last-eliminated variables c:
+/// L D L^T without pivoting of a symmetric quasi-definite matrix K, with the Schur complement S of
+/// its last-eliminated variables c:
 ///
 ///     K = [K_ii K_ic; K_ci K_cc],   S = K_cc - K_ci K_ii^-1 K_ic
 ///
 /// `reduce` is the forward substitution, s = b_c - K_ci K_ii^-1 b_i; `expand` the backward one, x_i
-/// from x_c. Every `expand` belongs to the `reduce` before it. Needs MPI to be initialised; on
-/// several ranks the factor is distributed, right-hand sides and solutions are whole on every rank.
+/// from x_c. Every `expand` belongs to the `reduce` before it.
 class Factorisation {
  public:
-  /// `position[v]`: place of variable v (from 0) in the order of elimination; the variables `schur`
-  /// (from 0) must come last, in this order. Throws SolveError when a pivot vanishes, MachineError
-  /// when the memory does not suffice.
-  Factorisation(SymmetricMatrix matrix, const std::vector<int> &position,
-                const std::vector<int> &schur, int threads);
-  ~Factorisation();
+  Factorisation() = default;
+  virtual ~Factorisation() = default;
   Factorisation(const Factorisation &) = delete;
   Factorisation &operator=(const Factorisation &) = delete;
 
-  /// Column-major, symmetric, both triangles filled; schur.size() squared, on the first rank.
-  const std::vector<double> &schur_complement() const;
-  const FactorisationStatistics &statistics() const;
+  /// Column-major, symmetric, both triangles filled, on the first rank.
+  virtual const std::vector<double> &schur_complement() const = 0;
+  virtual const FactorisationStatistics &statistics() const = 0;
 
   /// `right_side` is overwritten (by the solution, after `expand`); returns s.
-  std::vector<double> reduce(std::vector<double> &right_side);
+  virtual std::vector<double> reduce(std::vector<double> &right_side) = 0;
   /// `interface` holds x_c; fills `right_side` of the last `reduce` with the solution.
-  void expand(std::span<const double> interface);
-
- private:
-  struct Instance;
-  std::unique_ptr<Instance> instance_;
+  virtual void expand(std::span<const double> interface) = 0;
 };
 
 }  // namespace tourmaline::condensation

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "condensation/factorisation.h"
+#include "condensation/symmetric_matrix.h"
 
 namespace tourmaline::condensation {
 

@@ -21,6 +21,7 @@ SaddleFactorisation::SaddleFactorisation(SymmetricMatrix matrix, const std::vect
                                          int threads)
     : instance_(std::make_unique<Instance>(std::move(matrix), position, threads)) {
   instance_->mumps.analyse();
+  instance_->mumps.statistics.solver = "mumps";
 }
 
 SaddleFactorisation::~SaddleFactorisation() = default;

@@ -85,6 +85,10 @@ std::string summary_text(int dimension, const Summary &summary) {
   json["sizes"] = summary.sizes;
   json["iterations"] = summary.iterations;
   json["factorisations"] = summary.factorisations;
+  if (!summary.factorised_by.empty())
+    json["factorised_by"] = summary.factorised_by;
+  if (!summary.instead_of_own.empty())
+    json["not_factorised_by_own"] = summary.instead_of_own;
   json["negative_pivots"] =
       summary.negative_pivots ? Json(*summary.negative_pivots) : Json(nullptr);
   json["backward_error"] = number(summary.backward_error);

@@ -54,10 +54,12 @@ struct Summary {
   std::map<std::string, std::int64_t> sizes;   // nodes, cells, unknowns, contact_nodes, steps, ...
   std::map<std::string, std::int64_t> iterations;  // newton_total, newton_max, ...
   std::int64_t factorisations = 0;                 // of the body's operator
-  std::optional<std::int64_t> negative_pivots;     // where the factorisation counts them
-  double backward_error = Seconds::none;           // largest of the run's linear solves, relative
-  double forward_error = Seconds::none;            // estimate of the largest, relative
-  bool is_refined = false;                         // whether the solutions were refined
+  std::string factorised_by;                       // own or mumps; empty: nothing was
+  std::string instead_of_own;  // why MUMPS, where the own factorisation was tried first
+  std::optional<std::int64_t> negative_pivots;  // where the factorisation counts them
+  double backward_error = Seconds::none;        // largest of the run's linear solves, relative
+  double forward_error = Seconds::none;         // estimate of the largest, relative
+  bool is_refined = false;                      // whether the solutions were refined
   std::vector<Extreme> extremes;
   Seconds seconds;
   std::vector<MaterialRecord> materials;

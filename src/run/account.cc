@@ -37,6 +37,8 @@ void Account::step(int n, const solve::StepOutcome &outcome, double seconds) {
 void Account::put(const solve::RouteReport &report, int steps, output::Summary &summary) const {
   put_iterations(report, summary);
   summary.factorisations = report.factorisations;
+  summary.factorised_by = report.factorised_by;
+  summary.instead_of_own = report.instead_of_own;
   if (report.negative_pivots >= 0)
     summary.negative_pivots = report.negative_pivots;
   summary.backward_error = report.backward_error;

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "case/electrodes.h"
+#include "parallel/available_memory.h"
 #include "parallel/ranks.h"
-#include "run/available_memory.h"
 #include "run/memory.h"
 #include "solve/condensed_route.h"
 #include "solve/iterative_route.h"
@@ -53,7 +53,7 @@ std::unique_ptr<solve::Route> ChosenRoute<dim>::kept_of(double step) {
 template <int dim>
 void ChosenRoute<dim>::make_room() {
   const auto has_room = [&] {
-    const bool fits = another_factorisation(model_.asked) <= available_memory().bytes;
+    const bool fits = another_factorisation(model_.asked) <= parallel::available_memory().bytes;
     return parallel::from_first(fits) != 0;
   };
   while (!kept_.empty() && !has_room())
@@ -145,7 +145,8 @@ template <int dim>
 void ChosenRoute<dim>::factorise_after_all(int n, const SolveError &error) {
   const Eigen::VectorXd slip = route_->accumulated_slip();
   route_.reset();
-  const double needed = factorised_memory(model_.asked), available = available_memory().bytes;
+  const double needed = factorised_memory(model_.asked),
+               available = parallel::available_memory().bytes;
   if (parallel::from_first(needed > available) != 0)
     throw SolveError(
         fmt::format("{} A factorisation needs about {:.3g} GiB of memory, and {:.3g} "

@@ -8,8 +8,8 @@
 
 #include "case/electrodes.h"
 #include "case/holding.h"
+#include "parallel/available_memory.h"
 #include "parallel/ranks.h"
-#include "run/available_memory.h"
 #include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
@@ -51,14 +51,14 @@ bool solves_iteratively(const casefile::Case &asked) {
     return false;
   const bool too_large = asked.dimension == 3 && casefile::all_voltages_given(asked) &&
                          casefile::left_to_contact(asked).empty() &&
-                         factorised_memory(asked) > available_memory().bytes / 2;
+                         factorised_memory(asked) > parallel::available_memory().bytes / 2;
   return asked.solver.body == "iterative" || parallel::from_first(too_large) != 0;
 }
 
 void require_memory(const casefile::Case &asked) {
   const double needed =
       solves_iteratively(asked) ? iterative_memory(asked) : factorised_memory(asked);
-  const AvailableMemory available = available_memory();
+  const parallel::AvailableMemory available = parallel::available_memory();
   // Of a limited process the program's own part is in use already.
   const double more = available.is_limited ? needed - program : needed;
   if (more <= available.bytes)

@@ -25,7 +25,8 @@ template <int dim>
 ConnectedBody<dim>::ConnectedBody(const Model<dim> &model)
     : model_(model),
       contact_(contact_unknowns(model, exchange_sites(model))),
-      body_(model.op, model.step, model.prescribed, contact_, model.asked.solver.threads),
+      body_(model.body, model.op, model.step, model.prescribed, contact_,
+            condensation::choice_of(model.asked.solver)),
       circuit_(model.asked.electrodes, model.step),
       history_(model) {
   if (circuit_.free().empty())

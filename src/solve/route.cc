@@ -68,6 +68,8 @@ void Route::add_factorisation(const condensation::FactorisationStatistics &stati
   report.factorise_seconds += statistics.factorise_seconds;
   report.factor_entries = statistics.factor_entries;
   report.factor_flops = statistics.flops;
+  report.factorised_by = statistics.solver;
+  report.instead_of_own = statistics.reason;
 }
 
 RouteReport Route::report() const {

@@ -74,7 +74,8 @@ struct RouteReport {
   std::size_t unknowns = 0, electric_and_thermal_unknowns = 0;
   long long factor_entries = 0;
   double factor_flops = 0;
-  int negative_pivots = -1;           ///< -1: not known to this route
+  std::string factorised_by, instead_of_own;  ///< as in `FactorisationStatistics`
+  int negative_pivots = -1;                   ///< -1: not known to this route
   std::size_t krylov_iterations = 0;  ///< over all linear systems; 0: solved by substitution
   int krylov_largest = 0;             ///< of one linear system
   int preconditioners = 0;            ///< made in the run

@@ -162,7 +162,8 @@ class Settling {
     std::vector<std::size_t> exchanged;
     for (const ExchangeSite &site : sites_)
       exchanged.push_back(site.unknown);
-    body_.emplace(model_.op, model_.step, held, exchanged, model_.asked.solver.threads);
+    body_.emplace(model_.body, model_.op, model_.step, held, exchanged,
+                  condensation::choice_of(model_.asked.solver));
   }
 
   // What is free goes to its equilibrium with all else at hand.

@@ -68,7 +68,8 @@ SteadyHeat<dim>::SteadyHeat(const Model<dim> &model, bool iteratively)
     if (!is_free[i])
       prescribed.push_back({i, model.body.points()[i / n], 0., ""});
   factorised_ = std::make_unique<condensation::CondensedBody<dim>>(
-      model.op, step_, prescribed, std::vector<std::size_t>{}, model.asked.solver.threads);
+      model.body, model.op, step_, prescribed, std::vector<std::size_t>{},
+      condensation::choice_of(model.asked.solver));
 }
 
 // What exchanges heat takes some from a body that is equally warm everywhere.

@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "output/checkpoint.h"
-#include "run/available_memory.h"
+#include "parallel/available_memory.h"
 #include "run/memory.h"
 #include "run/resumption.h"
 #include "tourmaline/case/reader.h"
@@ -120,7 +120,7 @@ std::size_t jobs_for(const std::vector<Prepared> &members) {
     memory = std::max(memory, memory_of(member.asked));
   }
   const double by_cores = static_cast<double>(std::thread::hardware_concurrency()) / threads;
-  const double by_memory = run::available_memory().bytes / memory;
+  const double by_memory = parallel::available_memory().bytes / memory;
   return static_cast<std::size_t>(
       std::clamp(std::min(by_cores, by_memory), 1., static_cast<double>(members.size())));
 }

@@ -48,7 +48,8 @@ struct ModelCase {
 struct SolverCase {
   std::string method = "condensed";  ///< condensed | monolithic
   std::string body = "automatic";    ///< automatic | direct | iterative; of the condensed method
-  double linear_tolerance = 1e-11;   ///< of the iterative solution of the body's equations
+  std::string factorisation = "automatic";  ///< automatic | own | mumps; of the direct body
+  double linear_tolerance = 1e-11;          ///< of the iterative solution of the body's equations
   double tolerance =
       1e-12;  ///< of the contact iteration: natural residual over the largest nodal force
   int max_iterations = 100;          ///< Newton iterations in one step

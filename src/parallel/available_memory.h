@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace tourmaline::run {
+namespace tourmaline::parallel {
 
 /// What this process may still take, and what says so: the system, the control group that it runs
 /// in (containers), or its own limit of address space (ulimit -v), whichever leaves least.
@@ -18,4 +18,4 @@ AvailableMemory available_memory();
 /// OpenBLAS take its first buffer of 128 MiB, which it would try for ever; makes it take that one.
 void require_room_to_start();
 
-}  // namespace tourmaline::run
+}  // namespace tourmaline::parallel

@@ -1,4 +1,4 @@
-#include "run/available_memory.h"
+#include "parallel/available_memory.h"
 
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -16,7 +16,7 @@ extern "C" int dgemm_(const char *, const char *, const int *, const int *, cons
                       const double *, const double *, const int *, const double *, const int *,
                       const double *, double *, const int *);
 
-namespace tourmaline::run {
+namespace tourmaline::parallel {
 
 namespace {
 
@@ -101,4 +101,4 @@ void require_room_to_start() {
   dgemm_("N", "N", &n, &n, &n, &one, &one, &n, &one, &n, &one, &product, &n);
 }
 
-}  // namespace tourmaline::run
+}  // namespace tourmaline::parallel

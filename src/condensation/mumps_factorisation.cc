@@ -1,4 +1,4 @@
-#include "condensation/factorisation.h"
+#include "condensation/mumps_factorisation.h"
 
 #include <utility>
 
@@ -7,7 +7,7 @@
 
 namespace tourmaline::condensation {
 
-struct Factorisation::Instance {
+struct MumpsFactorisation::Instance {
   Mumps mumps;
   std::vector<int> schur;
   std::vector<double> schur_complement, reduced;
@@ -20,7 +20,7 @@ struct Factorisation::Instance {
   void mirror_schur();
 };
 
-void Factorisation::Instance::set_schur() {
+void MumpsFactorisation::Instance::set_schur() {
   const int n = static_cast<int>(schur.size());
   if (n == 0)
     return;
@@ -40,15 +40,15 @@ void Factorisation::Instance::set_schur() {
 }
 
 // MUMPS leaves one triangle; which one depends on how its columns are read.
-void Factorisation::Instance::mirror_schur() {
+void MumpsFactorisation::Instance::mirror_schur() {
   const std::size_t n = schur_complement.empty() ? 0 : schur.size();
   for (std::size_t column = 0; column < n; ++column)
     for (std::size_t row = column + 1; row < n; ++row)
       schur_complement[row * n + column] = schur_complement[column * n + row];
 }
 
-Factorisation::Factorisation(SymmetricMatrix matrix, const std::vector<int> &position,
-                             const std::vector<int> &schur, int threads)
+MumpsFactorisation::MumpsFactorisation(SymmetricMatrix matrix, const std::vector<int> &position,
+                                       const std::vector<int> &schur, int threads)
     : instance_(std::make_unique<Instance>(std::move(matrix), position, schur.size(), threads)) {
   Instance &in = *instance_;
   for (const int v : schur)
@@ -57,20 +57,25 @@ Factorisation::Factorisation(SymmetricMatrix matrix, const std::vector<int> &pos
   in.mumps.analyse();
   in.mumps.factorise();
   in.mirror_schur();
+  in.mumps.statistics.solver = "mumps";
   in.mumps.release_entries();
 }
 
-Factorisation::~Factorisation() = default;
+MumpsFactorisation::~MumpsFactorisation() = default;
 
-const std::vector<double> &Factorisation::schur_complement() const {
+const std::vector<double> &MumpsFactorisation::schur_complement() const {
   return instance_->schur_complement;
 }
 
-const FactorisationStatistics &Factorisation::statistics() const {
+void MumpsFactorisation::set_reason(std::string reason) {
+  instance_->mumps.statistics.reason = std::move(reason);
+}
+
+const FactorisationStatistics &MumpsFactorisation::statistics() const {
   return instance_->mumps.statistics;
 }
 
-std::vector<double> Factorisation::reduce(std::vector<double> &right_side) {
+std::vector<double> MumpsFactorisation::reduce(std::vector<double> &right_side) {
   Instance &in = *instance_;
   in.mumps.set_right_side(right_side);
   if (in.schur.empty())
@@ -81,7 +86,7 @@ std::vector<double> Factorisation::reduce(std::vector<double> &right_side) {
   return in.reduced;
 }
 
-void Factorisation::expand(std::span<const double> interface) {
+void MumpsFactorisation::expand(std::span<const double> interface) {
   Instance &in = *instance_;
   std::copy(interface.begin(), interface.end(), in.reduced.begin());
   in.mumps.icntl(26) = in.schur.empty() ? 0 : 2;

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <utility>
+
+namespace tourmaline::condensation {
+
+/// Doubles, zero at first, in memory of their own, in huge pages where the system has them. The
+/// thread that uses a page first gets it near. Throws MachineError where there is not enough.
+class Pages {
+ public:
+  Pages() = default;
+  explicit Pages(std::size_t doubles);
+  ~Pages();
+  Pages(Pages &&other) noexcept
+      : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)) {}
+  Pages &operator=(Pages &&other) noexcept {
+    std::swap(data_, other.data_);
+    std::swap(size_, other.size_);
+    return *this;
+  }
+
+  double *data() const { return data_; }
+  std::size_t size() const { return size_; }
+
+ private:
+  double *data_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+/// What is pushed last is popped first.
+class Stack {
+ public:
+  explicit Stack(std::size_t doubles) : pages_(doubles) {}
+  /// Zeros.
+  double *push(std::size_t doubles);
+  void pop(std::size_t doubles) { used_ -= doubles; }
+
+ private:
+  Pages pages_;
+  std::size_t used_ = 0, touched_ = 0;
+};
+
+}  // namespace tourmaline::condensation

@@ -1,0 +1,173 @@
+#include "condensation/trapezoid.h"
+
+#include <cblas.h>
+
+#include <algorithm>
+#include <vector>
+
+extern "C" void dpotrf_(const char *triangle, const int *n, double *a, const int *leading,
+                        int *info);
+
+namespace tourmaline::condensation {
+
+namespace {
+
+// Columns of one sign in one panel.
+struct Block {
+  int first, last;
+  double sign;
+};
+
+// Rows that one thread takes at a time, whatever their number is.
+constexpr int rows_of_a_product = 512, rows_of_a_vector = 4096;
+
+template <typename Task>
+void in_chunks(int begin, int end, int rows, int threads, const Task &task) {
+  const int chunks = (end - begin + rows - 1) / rows;
+#pragma omp parallel for schedule(dynamic) num_threads(threads) if (threads > 1 && chunks > 1)
+  for (int k = 0; k < chunks; ++k)
+    task(begin + k * rows, std::min(end, begin + (k + 1) * rows));
+}
+
+// target -= L_rows S L_columns^T for rows [r0, r1) and columns [c0, c1) of the front; where both
+// begin at the diagonal its upper half is left alone.
+void subtract(const Trapezoid &l, const Block &by, double *target, int leading, int r0, int r1,
+              int c0, int c1) {
+  const int n = c1 - c0, k = by.last - by.first, l_leading = l.leading(by.first / l.width);
+  if (r0 == c0) {
+    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, n, k, -by.sign, l.at(c0, by.first),
+                l_leading, 1, target, leading);
+    r0 += n;
+    target += n;
+  }
+  if (r1 > r0)
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, r1 - r0, n, k, -by.sign,
+                l.at(r0, by.first), l_leading, l.at(c0, by.first), l_leading, 1, target, leading);
+}
+
+// The columns' own block; true: all pivots have the sign.
+int factorise_diagonal(const Trapezoid &l, const Block &block) {
+  const int n = block.last - block.first, leading = l.leading(block.first / l.width);
+  if (block.sign < 0)
+    for (int j = block.first; j < block.last; ++j)
+      for (int i = j; i < l.height; ++i)
+        *l.at(i, j) *= -1;
+  int info = 0;
+  dpotrf_("L", &n, l.at(block.first, block.first), &leading, &info);
+  return info;
+}
+
+void divide_below(const Trapezoid &l, const Block &block, int r0, int r1) {
+  const int leading = l.leading(block.first / l.width);
+  cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, r1 - r0,
+              block.last - block.first, 1, l.at(block.first, block.first), leading,
+              l.at(r0, block.first), leading);
+}
+
+std::vector<Block> blocks_of(const Trapezoid &l, int panel, int positive) {
+  const int first = l.first(panel), last = l.last(panel);
+  const int change = std::clamp(positive, first, last);
+  std::vector<Block> blocks;
+  if (change > first)
+    blocks.push_back({first, change, 1});
+  if (change < last)
+    blocks.push_back({change, last, -1});
+  return blocks;
+}
+
+// Every panel of `rest` in chunks of rows.
+void subtract_from_rest(const Trapezoid &l, const std::vector<Block> &blocks, const Trapezoid &rest,
+                        int threads) {
+  struct Tile {
+    int panel, begin;
+  };
+  std::vector<Tile> tiles;
+  for (int p = 0; p < rest.panels(); ++p)
+    for (int row = rest.first(p); row < rest.height; row += rows_of_a_product)
+      tiles.push_back({p, row});
+  const int n = static_cast<int>(tiles.size()), k = l.columns;
+#pragma omp parallel for schedule(dynamic) num_threads(threads) if (threads > 1 && n > 1)
+  for (int t = 0; t < n; ++t) {
+    const auto [p, begin] = tiles[t];
+    const int end = std::min(rest.height, begin + rows_of_a_product);
+    for (const Block &by : blocks)
+      subtract(l, by, rest.at(begin, rest.first(p)), rest.leading(p), k + begin, k + end,
+               k + rest.first(p), k + rest.last(p));
+  }
+}
+
+}  // namespace
+
+Trapezoid Trapezoid::at(double *data, int height, int columns) {
+  return {data, height, columns, std::max(1, std::min(columns, height < 1024 ? 64 : 128))};
+}
+
+std::size_t Trapezoid::begin(int panel) const {
+  const auto p = static_cast<std::size_t>(std::max(panel, 0));
+  return p * width * height - std::size_t(width) * width * (p * (p - (p > 0)) / 2);
+}
+
+std::size_t Trapezoid::tail() const {
+  const int p = panels() - 1;
+  return p < 0 ? 0 : std::size_t(last(p) - first(p)) * leading(p);
+}
+
+double *Trapezoid::column_from_row_0(int column) const {
+  const int p = column / width;
+  return data + begin(p) + std::size_t(column - first(p)) * leading(p) - first(p);
+}
+
+int factorise(const Trapezoid &l, const Trapezoid &rest, int positive, int threads) {
+  std::vector<Block> done;
+  for (int p = 0; p < l.panels(); ++p) {
+    const int first = l.first(p), last = l.last(p), leading = l.leading(p);
+    in_chunks(first, l.height, rows_of_a_product, threads, [&](int r0, int r1) {
+      for (const Block &by : done)
+        subtract(l, by, l.at(r0, first), leading, r0, r1, first, last);
+    });
+    for (const Block &block : blocks_of(l, p, positive)) {
+      if (const int wrong = factorise_diagonal(l, block); wrong > 0)
+        return block.first + wrong - 1;
+      in_chunks(block.last, l.height, rows_of_a_product, threads,
+                [&](int r0, int r1) { divide_below(l, block, r0, r1); });
+      if (block.last < last)
+        in_chunks(block.last, l.height, rows_of_a_product, threads, [&](int r0, int r1) {
+          subtract(l, block, l.at(r0, block.last), leading, r0, r1, block.last, last);
+        });
+      done.push_back(block);
+    }
+  }
+  subtract_from_rest(l, done, rest, threads);
+  return -1;
+}
+
+void substitute_forward(const Trapezoid &l, double *x, int threads) {
+  for (int p = 0; p < l.panels(); ++p) {
+    const int first = l.first(p), last = l.last(p), leading = l.leading(p);
+    cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, last - first,
+                l.at(first, first), leading, x + first, 1);
+    in_chunks(last, l.height, rows_of_a_vector, threads, [&](int r0, int r1) {
+      cblas_dgemv(CblasColMajor, CblasNoTrans, r1 - r0, last - first, -1, l.at(r0, first), leading,
+                  x + first, 1, 1, x + r0, 1);
+    });
+  }
+}
+
+void substitute_backward(const Trapezoid &l, double *x, int threads) {
+  std::vector<double> parts;
+  for (int p = l.panels() - 1; p >= 0; --p) {
+    const int first = l.first(p), last = l.last(p), leading = l.leading(p), n = last - first;
+    const int chunks = (l.height - last + rows_of_a_vector - 1) / rows_of_a_vector;
+    parts.assign(std::size_t(chunks) * n, 0.);
+    in_chunks(last, l.height, rows_of_a_vector, threads, [&](int r0, int r1) {
+      cblas_dgemv(CblasColMajor, CblasTrans, r1 - r0, n, 1, l.at(r0, first), leading, x + r0, 1, 0,
+                  parts.data() + std::size_t((r0 - last) / rows_of_a_vector) * n, 1);
+    });
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      x[first + static_cast<int>(i % n)] -= parts[i];
+    cblas_dtrsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, n, l.at(first, first), leading,
+                x + first, 1);
+  }
+}
+
+}  // namespace tourmaline::condensation

@@ -1,0 +1,237 @@
+#include "condensation/multifrontal.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <numeric>
+#include <random>
+#include <set>
+
+namespace tourmaline::condensation {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// A quasi-definite matrix in groups, with its entries at hand.
+struct Example {
+  MatrixXd entries;
+  std::vector<int> group_of;  // by variable; groups in the order of elimination
+  int groups = 0, kept = 0;
+
+  GroupedMatrix matrix() const {
+    GroupedMatrix m;
+    m.kept = kept;
+    for (int g = 0; g < groups; ++g) {
+      for (int v = 0; v < static_cast<int>(group_of.size()); ++v)
+        if (group_of[v] == g)
+          m.variables.push_back(v);
+      m.first.push_back(static_cast<int>(m.variables.size()));
+    }
+    for (int g = 0; g < groups; ++g) {
+      std::set<int> neighbours{g};
+      for (const int i : of(g))
+        for (Index j = 0; j < entries.cols(); ++j)
+          if (entries(i, j) != 0)
+            neighbours.insert(group_of[j]);
+      m.neighbour.insert(m.neighbour.end(), neighbours.begin(), neighbours.end());
+      m.row.push_back(m.neighbour.size());
+    }
+    m.block = [this](const GroupedMatrix &of_groups, int group, std::size_t e, double *values) {
+      for (const int i : of(group))
+        for (const int j : of(of_groups.neighbour[e]))
+          *values++ = entries(i, j);
+    };
+    return m;
+  }
+
+  std::vector<int> of(int group) const {
+    std::vector<int> variables;
+    for (int v = 0; v < static_cast<int>(group_of.size()); ++v)
+      if (group_of[v] == group)
+        variables.push_back(v);
+    return variables;
+  }
+
+  std::vector<int> variables(bool are_kept) const {
+    std::vector<int> some;
+    for (int v = 0; v < static_cast<int>(group_of.size()); ++v)
+      if ((group_of[v] >= groups - kept) == are_kept)
+        some.push_back(v);
+    return some;
+  }
+};
+
+/// Groups of 1 to 5 variables, each of either sign, numbered at random; `links` between two of
+/// them. Entries between variables of different signs may have any size.
+Example random_example(std::mt19937 &random, int groups, int kept, double links) {
+  std::uniform_real_distribution<double> value(-1, 1), chance(0, 1);
+  Example made;
+  made.groups = groups;
+  made.kept = kept;
+  for (int g = 0; g < groups; ++g)
+    made.group_of.insert(made.group_of.end(), std::uniform_int_distribution<int>(1, 5)(random), g);
+  std::shuffle(made.group_of.begin(), made.group_of.end(), random);
+  const auto n = static_cast<Index>(made.group_of.size());
+  std::vector<double> sign(n);
+  for (double &s : sign)
+    s = chance(random) < 0.6 ? 1 : -1;
+  MatrixXd linked = MatrixXd::Identity(groups, groups);
+  for (int g = 0; g < groups; ++g)
+    for (int h = 0; h < g; ++h)
+      linked(g, h) = linked(h, g) = chance(random) < links;
+  made.entries = MatrixXd::Zero(n, n);
+  for (Index i = 0; i < n; ++i) {
+    for (Index j = 0; j < i; ++j)
+      if (linked(made.group_of[i], made.group_of[j]) != 0)
+        made.entries(i, j) = made.entries(j, i) =
+            value(random) * (sign[i] == sign[j] ? 1. / static_cast<double>(n) : 3);
+    made.entries(i, i) = sign[i] * (1 + chance(random));
+  }
+  return made;
+}
+
+MatrixXd part(const MatrixXd &of, const std::vector<int> &rows, const std::vector<int> &columns) {
+  return of(rows, columns);
+}
+
+void expect_solution(const Example &example, int threads = 1) {
+  const std::vector<int> inside = example.variables(false), kept = example.variables(true);
+  Multifrontal factor(example.matrix(), kept, threads);
+  const MatrixXd &k = example.entries;
+  const auto n = static_cast<Index>(kept.size());
+  const MatrixXd eliminated =
+      inside.empty() ? MatrixXd::Zero(n, n)
+                     : MatrixXd(part(k, kept, inside) *
+                                part(k, inside, inside).fullPivLu().solve(part(k, inside, kept)));
+  const MatrixXd schur = part(k, kept, kept) - eliminated;
+  const Eigen::Map<const MatrixXd> found(factor.schur_complement().data(), n, n);
+  if (n > 0) {
+    EXPECT_LT((found - schur).cwiseAbs().maxCoeff(), 1e-11 * schur.cwiseAbs().maxCoeff());
+  }
+
+  const VectorXd c = VectorXd::LinSpaced(n, -1, 2), wanted = VectorXd::Random(k.rows());
+  const VectorXd b = k * wanted;
+  std::vector<double> right_side(b.begin(), b.end());
+  const std::vector<double> reduced = factor.reduce(right_side);
+  VectorXd x_c = VectorXd::Zero(n);
+  for (Index i = 0; i < n; ++i)
+    x_c[i] = wanted[kept[static_cast<std::size_t>(i)]];
+  if (n > 0) {
+    EXPECT_LT((schur * x_c - Eigen::Map<const VectorXd>(reduced.data(), n)).norm(),
+              1e-9 * b.norm());
+  }
+  factor.expand(std::vector<double>(x_c.begin(), x_c.end()));
+  EXPECT_LT((Eigen::Map<const VectorXd>(right_side.data(), k.rows()) - wanted).norm(),
+            1e-9 * wanted.norm());
+}
+
+TEST(Multifrontal, SolvesRandomQuasiDefiniteMatricesOnRandomGraphsAndHasTheirSchurComplement) {
+  std::mt19937 random(1);
+  for (int k = 0; k < 300; ++k) {
+    const int groups = std::uniform_int_distribution<int>(1, 40)(random);
+    const int kept = std::uniform_int_distribution<int>(0, groups)(random);
+    const double links = std::uniform_real_distribution<double>(0, 0.3)(random);
+    SCOPED_TRACE(k);
+    expect_solution(random_example(random, groups, kept, links));
+  }
+}
+
+TEST(Multifrontal, SolvesWhereNothingIsKeptAllIsKeptNothingIsLinkedOrAllIs) {
+  std::mt19937 random(2);
+  for (const int kept : {0, 7, 30})
+    for (const double links : {0., 1.})
+      expect_solution(random_example(random, 30, kept, links));
+  expect_solution(random_example(random, 1, 0, 0));
+  expect_solution(random_example(random, 1, 1, 0));
+}
+
+// A square of nodes with four variables each, one side of which is kept.
+Example square(int n) {
+  Example made;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> value(-1, 1);
+  made.groups = n * n;
+  made.kept = n;
+  for (int g = 0; g < n * n; ++g)
+    made.group_of.insert(made.group_of.end(), 4, g);
+  made.entries = MatrixXd::Zero(4 * n * n, 4 * n * n);
+  for (int g = 0; g < n * n; ++g)
+    for (const int h : {g, g + 1, g + n, g + n + 1})
+      if (h < n * n && (h % n > 0 || h == g || h == g + n))
+        for (int i = 0; i < 4; ++i)
+          for (int j = 0; j < 4; ++j)
+            made.entries(4 * g + i, 4 * h + j) = made.entries(4 * h + j, 4 * g + i) =
+                value(random) * ((i < 2) == (j < 2) ? 0.1 : 1);
+  for (int v = 0; v < 16 * n * n / 4; ++v)
+    made.entries(v, v) = v % 4 < 2 ? 2 : -2;
+  return made;
+}
+
+TEST(Multifrontal, GivesTheSameBitsForAnyNumberOfThreads) {
+  const Example example = square(24);
+  const std::vector<int> kept = example.variables(true);
+  std::vector<std::vector<double>> solutions, complements;
+  for (const int threads : {1, 2, 3, 8}) {
+    Multifrontal factor(example.matrix(), kept, threads);
+    std::vector<double> x(example.entries.rows());
+    std::iota(x.begin(), x.end(), 1.);
+    factor.expand(factor.reduce(x));
+    solutions.push_back(x);
+    complements.push_back(factor.schur_complement());
+  }
+  for (std::size_t i = 1; i < solutions.size(); ++i) {
+    EXPECT_EQ(solutions[i], solutions[0]);
+    EXPECT_EQ(complements[i], complements[0]);
+  }
+  expect_solution(example, 2);
+}
+
+TEST(Multifrontal, CountsTheNegativePivotsAndTheEntriesOfItsFactor) {
+  const Example example = square(12);
+  const Multifrontal factor(example.matrix(), example.variables(true), 1);
+  EXPECT_EQ(factor.statistics().negative_pivots, 12 * 11 * 2);
+  EXPECT_GT(factor.statistics().factor_entries, 12 * 11 * 4 * 5 / 2);
+  EXPECT_LE(factor.statistics().factor_entries, 12 * 11 * 4 * (12 * 12 * 4));
+  EXPECT_GT(factor.statistics().flops, 0);
+}
+
+void expect_weak(Example example, int variable) {
+  try {
+    Multifrontal factor(example.matrix(), example.variables(true), 1);
+    FAIL() << "nothing was found";
+  } catch (const WeakPivot &weak) {
+    EXPECT_EQ(weak.variable, variable);
+  }
+}
+
+TEST(Multifrontal, NamesTheVariableWhosePivotHasTheWrongSignOrNoDigit) {
+  Example pair;
+  pair.group_of = {0, 1};
+  pair.groups = 2;
+  for (const double corner : {0.5, 1., 1 + 1e-16, std::numeric_limits<double>::quiet_NaN()}) {
+    pair.entries = MatrixXd{{1., 1.}, {1., corner}};
+    expect_weak(pair, 1);
+    pair.entries *= -1;
+    expect_weak(pair, 1);
+  }
+  pair.entries = MatrixXd{{0., 0.}, {0., 1.}};
+  expect_weak(pair, 0);
+}
+
+TEST(Trapezoid, HasItsPanelsOneAfterAnotherAndEachEntryOnce) {
+  for (const auto &[height, columns] : {std::pair{5, 3}, {200, 200}, {300, 130}, {1100, 300}}) {
+    const Trapezoid shape = Trapezoid::at(nullptr, height, columns);
+    std::vector<double> room(shape.size(), 0.);
+    const Trapezoid all = Trapezoid::at(room.data(), height, columns);
+    for (int j = 0; j < columns; ++j)
+      for (int i = j; i < height; ++i)
+        ++*all.at(i, j);
+    EXPECT_EQ(*std::max_element(room.begin(), room.end()), 1);
+    EXPECT_EQ(all.at(height - 1, columns - 1), &room.back());
+  }
+}
+
+}  // namespace
+}  // namespace tourmaline::condensation
