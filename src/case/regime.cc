@@ -11,8 +11,8 @@ namespace tourmaline::casefile {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string &place, const std::string &what,
-                         const std::string &instead) {
+[[noreturn]] void refuse_without_time(const std::string &place, const std::string &what,
+                                      const std::string &instead) {
   throw CaseError(
       fmt::format("{}: {} has a rate and is not available with time.regime = \"static\"; {}", place,
                   what, instead));
@@ -23,17 +23,17 @@ constexpr const char *take_time = "take \"quasistatic\"";
 void check(const Case &asked, const ContactCase &contact) {
   const std::string place = asked.source + " [contact]";
   if (contact.normal.law == "damped")
-    refuse(place, "normal = \"damped\"", take_time);
+    refuse_without_time(place, "normal = \"damped\"", take_time);
   if (contact.friction.coefficient.speed)
-    refuse(place, "a coefficient of friction that falls with the slip rate (`speed`)",
-           "take \"quasistatic\", or let it fall with the slip (`distance`)");
+    refuse_without_time(place, "a coefficient of friction that falls with the slip rate (`speed`)",
+                        "take \"quasistatic\", or let it fall with the slip (`distance`)");
   if (contact.heat.friction_share.value_or(0) > 0)
-    refuse(place, "heat of friction (`friction_share`)", take_time);
+    refuse_without_time(place, "heat of friction (`friction_share`)", take_time);
   if (contact.electric.law == "leak")
-    refuse(place, "electric = \"leak\"", take_time);
+    refuse_without_time(place, "electric = \"leak\"", take_time);
   if (contact.electric.circuit && contact.electric.circuit->resistor)
-    refuse(place, "what flows in the resistor of electric.circuit",
-           "take \"quasistatic\", or leave the foundation open");
+    refuse_without_time(place, "what flows in the resistor of electric.circuit",
+                        "take \"quasistatic\", or leave the foundation open");
   if (contact.heat.pressure || contact.heat.ramp)
     throw CaseError(fmt::format(
         "{}: heat that crosses by the contact's state (`{}`) is not available with time.regime = "
@@ -68,8 +68,9 @@ void check_regime(const Case &asked) {
     check(asked, contact);
   for (const ElectrodeCase &electrode : asked.electrodes)
     if (electrode.resistor)
-      refuse(fmt::format("{} \"{}\"", electrode.where, electrode.name), "what flows in a resistor",
-             "take \"quasistatic\", or leave the electrode open");
+      refuse_without_time(fmt::format("{} \"{}\"", electrode.where, electrode.name),
+                          "what flows in a resistor",
+                          "take \"quasistatic\", or leave the electrode open");
   if (!keeps_temperature(asked))
     return;
   if (asked.initial.temperature.depends_on_place())

@@ -281,7 +281,8 @@ void declare(Visitor &v, SolverCase &solver, const std::vector<ContactCase> &con
              "solver.threads; mumps: MUMPS; automatic: own on one rank, MUMPS on several or where "
              "round-off leaves a pivot without a digit",
          .choices = {"automatic", "own", "mumps"},
-         .used = with("method", solver.method, {"condensed"})},
+         .used = {solver.method == "condensed" && solver.body != "iterative",
+                  "method = \"condensed\" and body = \"automatic\" or \"direct\""}},
         &solver.factorisation);
   v.key(
       {.name = "linear_tolerance",
