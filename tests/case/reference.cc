@@ -12,7 +12,7 @@ namespace {
 using testing::HasSubstr;
 
 TEST(ReferencePage, IsTheOneInTheDocumentation) {
-  std::ifstream in(TOURMALINE_SOURCE_DIR "/docs/case-file.md");
+  std::ifstream in(std::string(TOURMALINE_SOURCE_DIR) + "/docs/case-file.md");
   const std::string page{std::istreambuf_iterator<char>(in), {}};
   EXPECT_TRUE(page == reference_page())
       << "docs/case-file.md is out of date: tourmaline reference > docs/case-file.md";
