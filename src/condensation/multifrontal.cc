@@ -1,7 +1,6 @@
 #include "condensation/multifrontal.h"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <array>
@@ -15,6 +14,7 @@
 
 extern "C" void openblas_set_num_threads(int threads);
 extern "C" int openblas_get_num_threads();
+extern "C" int omp_get_thread_num();
 
 namespace tourmaline::condensation {
 
