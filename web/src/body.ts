@@ -56,7 +56,9 @@ export class Body {
   readonly places: Float32Array;
   private readonly material: THREE.ShaderMaterial;
   private readonly maps = { even: colourTexture(false), signed: colourTexture(true) };
-  private readonly triangles = new THREE.BufferGeometry();
+  // Of fields at nodes triangles share their corners; of fields in cells each has corners of its own.
+  private readonly smooth = new THREE.BufferGeometry();
+  private flat?: THREE.BufferGeometry;
   private readonly lines = new THREE.BufferGeometry();
   private readonly lineMaterial = new THREE.LineBasicMaterial({ transparent: true, opacity: 0.35 });
   private readonly lineObject: THREE.LineSegments;
@@ -64,6 +66,7 @@ export class Body {
   private readonly triangleObject: THREE.Mesh;
   private scale?: number;
   private placed = '';
+  private spread = false;
   private coloured = '';
 
   constructor(readonly result: Result) {
@@ -78,12 +81,13 @@ export class Body {
         plain: { value: new THREE.Vector3() }, coloured: { value: 1 },
       },
     });
-    const n = this.grid.triangles.length;
-    this.triangles.setAttribute('position', new THREE.BufferAttribute(new Float32Array(3 * n), 3));
-    this.triangles.setAttribute('level', new THREE.BufferAttribute(new Float32Array(n), 1));
-    this.lines.setAttribute('position',
-      new THREE.BufferAttribute(new Float32Array(3 * this.grid.edges.length), 3));
-    this.triangleObject = new THREE.Mesh(this.triangles, this.material);
+    const corners = new THREE.BufferAttribute(this.places, 3);
+    this.smooth.setAttribute('position', corners);
+    this.smooth.setAttribute('level', new THREE.BufferAttribute(new Float32Array(this.places.length / 3), 1));
+    this.smooth.setIndex(new THREE.BufferAttribute(this.grid.triangles, 1));
+    this.lines.setAttribute('position', corners);
+    this.lines.setIndex(new THREE.BufferAttribute(this.grid.edges, 1));
+    this.triangleObject = new THREE.Mesh(this.smooth, this.material);
     this.lineObject = new THREE.LineSegments(this.lines, this.lineMaterial);
     for (const object of [this.triangleObject, this.lineObject]) object.frustumCulled = false;
     this.scene.add(this.triangleObject, this.lineObject, this.settingObject);
@@ -115,6 +119,7 @@ export class Body {
 
   set(look: Look, ink: string, paper: string) {
     this.place(look.state, look.scale);
+    this.triangleObject.geometry = look.field && !look.field.onPoints ? this.apart() : this.smooth;
     this.colour(look);
     this.lineObject.visible = look.mesh;
     this.lineMaterial.color.set(look.field ? '#000000' : ink);
@@ -149,28 +154,32 @@ export class Body {
     this.placed = key;
     const { points } = this.grid;
     const displacement = this.result.field('displacement');
-    const axes = ['x', 'y', 'z'].map((c) => (displacement?.has(c) ? displacement.values(c) : undefined));
     const n = points.length / 3;
-    for (let i = 0; i < n; ++i)
-      for (let c = 0; c < 3; ++c) {
-        const u = axes[c] ? axes[c]!.data[state * n + i] : 0;
-        this.places[3 * i + c] = (points[3 * i + c] - this.centre[c] + scale * u) / this.size;
-      }
-    this.spread(this.triangles, this.grid.triangles);
-    this.spread(this.lines, this.grid.edges);
+    ['x', 'y', 'z'].forEach((axis, c) => {
+      const u = scale !== 0 && displacement?.has(axis) ? displacement.values(axis).data : undefined;
+      for (let i = 0, k = c, at = state * n; i < n; ++i, k += 3, ++at)
+        this.places[k] = (points[k] - this.centre[c] + (u ? scale * u[at] : 0)) / this.size;
+    });
+    this.smooth.getAttribute('position').needsUpdate = true;
+    this.spread = false;
   }
 
-  // From nodes to the corners of triangles or lines.
-  private spread(geometry: THREE.BufferGeometry, corners: Uint32Array) {
-    const attribute = geometry.getAttribute('position') as THREE.BufferAttribute;
-    const to = attribute.array as Float32Array;
-    for (let i = 0; i < corners.length; ++i) {
-      const node = 3 * corners[i];
-      to[3 * i] = this.places[node];
-      to[3 * i + 1] = this.places[node + 1];
-      to[3 * i + 2] = this.places[node + 2];
+  // The triangles with corners of their own, where the nodes are.
+  private apart(): THREE.BufferGeometry {
+    const { triangles } = this.grid;
+    if (!this.flat) {
+      this.flat = new THREE.BufferGeometry();
+      this.flat.setAttribute('position', new THREE.BufferAttribute(new Float32Array(3 * triangles.length), 3));
+      this.flat.setAttribute('level', new THREE.BufferAttribute(new Float32Array(triangles.length), 1));
     }
+    if (this.spread) return this.flat;
+    this.spread = true;
+    const attribute = this.flat.getAttribute('position') as THREE.BufferAttribute;
+    const to = attribute.array as Float32Array;
+    for (let i = 0; i < triangles.length; ++i)
+      for (let c = 0; c < 3; ++c) to[3 * i + c] = this.places[3 * triangles[i] + c];
     attribute.needsUpdate = true;
+    return this.flat;
   }
 
   private colour(look: Look) {
@@ -179,13 +188,12 @@ export class Body {
     if (key === this.coloured) return;
     this.coloured = key;
     const { data, places } = look.field.values(look.component);
-    const { triangles, triangleCells } = this.grid;
-    const attribute = this.triangles.getAttribute('level') as THREE.BufferAttribute;
+    const attribute = this.triangleObject.geometry.getAttribute('level') as THREE.BufferAttribute;
     const to = attribute.array as Float32Array;
-    const { low, high } = look.range;
-    for (let i = 0; i < triangles.length; ++i) {
-      const place = look.field.onPoints ? triangles[i] : triangleCells[(i / 3) | 0];
-      to[i] = (data[look.state * places + place] - low) / (high - low);
+    const first = look.state * places, { low, high } = look.range;
+    for (let i = 0; i < to.length; ++i) {
+      const place = look.field.onPoints ? i : this.grid.triangleCells[(i / 3) | 0];
+      to[i] = (data[first + place] - low) / (high - low);
     }
     attribute.needsUpdate = true;
   }

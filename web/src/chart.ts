@@ -2,6 +2,7 @@
 import uPlot from 'uplot';
 import { element } from './dom';
 import { shown, thousands, unitWith } from './numbers';
+import { Drawing } from './on_screen';
 import { colour, onTheme } from './theme';
 
 export interface Curve {
@@ -42,35 +43,46 @@ export class Chart {
   private readonly place = element('div', { class: 'plot' });
   private plot?: uPlot;
   private power = 0;
+  private other = false;
+  private readonly drawing: Drawing;
 
   constructor(private readonly options: ChartOptions, private x: number[], private curves: Curve[]) {
     this.box = element('figure', { class: 'chart', 'data-unit': options.unit }, element('figcaption', {}, options.title),
       !!options.note && element('p', { class: 'note' }, options.note), this.place);
     charts.push(this);
-    new ResizeObserver(() => this.resize()).observe(this.place);
+    this.drawing = new Drawing(this.place, () => this.draw());
   }
 
   /** Other values for the same curves. */
   update(curves: Curve[]) {
     this.curves = curves;
-    this.plot?.setData(this.data(), false);
-    this.plot?.redraw(false);
+    this.other = true;
+    this.drawing.ask();
   }
 
-  redraw() { this.plot?.redraw(false); }
+  redraw() { this.drawing.ask(); }
 
-  build() {
+  /** Anew, in other colours. */
+  rebuild() {
     this.plot?.destroy();
+    this.plot = undefined;
+    this.drawing.ask();
+  }
+
+  private draw() {
     const width = this.place.clientWidth;
     if (width === 0) return;
-    this.power = thousands(this.greatestSize());
-    this.plot = new uPlot(this.plotOptions(width), this.data(), this.place);
+    if (!this.plot) return this.build(width);
+    if (Math.abs(width - this.plot.width) > 1) this.plot.setSize({ width, height: this.plot.height });
+    if (this.other) this.plot.setData(this.data(), false);
+    this.other = false;
+    this.plot.redraw(false);
   }
 
-  private resize() {
-    const width = this.place.clientWidth;
-    if (!this.plot) this.build();
-    else if (width > 0 && Math.abs(width - this.plot.width) > 1) this.plot.setSize({ width, height: this.plot.height });
+  private build(width: number) {
+    this.power = thousands(this.greatestSize());
+    this.plot = new uPlot(this.plotOptions(width), this.data(), this.place);
+    this.other = false;
   }
 
   private data(): uPlot.AlignedData {
@@ -139,6 +151,6 @@ export function padded(least: number, greatest: number, factor: number): [number
   return [(least === 0 ? 0 : least - room) * factor, (greatest === 0 ? 0 : greatest + room) * factor];
 }
 
-onTheme(() => { for (const chart of charts) chart.build(); });
+onTheme(() => { for (const chart of charts) chart.rebuild(); });
 
 export function redrawMarks() { for (const chart of charts) chart.redraw(); }

@@ -7,6 +7,7 @@ import { ContactNode, hasDiagrams } from './contact_node';
 import { contactRoundOff } from './contact_round_off';
 import { element } from './dom';
 import { shown } from './numbers';
+import { Drawing } from './on_screen';
 import { Result } from './results';
 import { fitted } from './stage';
 import { statusColours, statusNames, statusTitle } from './status_map';
@@ -81,10 +82,9 @@ export class ContactFace {
       style: `aspect-ratio: ${Math.min(3, Math.max(0.5, this.plan.width / this.plan.height))}` });
     this.charts.push(element('figure', { class: 'chart' }, element('figcaption', {}, title), canvas,
       element('p', { class: 'note' }, `${this.plan.labels[0]} to the right, ${this.plan.labels[1]} up`), below));
-    const paint = () => this.paint(canvas, fill);
-    this.updates.push(paint);
+    const drawing = new Drawing(canvas, () => this.paint(canvas, fill));
+    this.updates.push(() => drawing.ask());
     if (this.node) canvas.addEventListener('click', (event) => this.choose(canvas, event));
-    new ResizeObserver(paint).observe(canvas);
   }
 
   /** How the plan lies in a picture of this size. */

@@ -2,6 +2,7 @@
 import uPlot from 'uplot';
 import { padded } from './chart';
 import { element } from './dom';
+import { Drawing } from './on_screen';
 import { shown, thousands, unitWith } from './numbers';
 import { colour, onTheme } from './theme';
 
@@ -24,27 +25,38 @@ export class Diagram {
   readonly box: HTMLElement;
   private readonly place = element('div', { class: 'plot' });
   private plot?: uPlot;
+  private readonly drawing: Drawing;
 
   /** `at`: the step to be marked, or -1 */
   constructor(private readonly options: DiagramOptions, private paths: Path[], private readonly at: () => number) {
     const key = element('ul', { class: 'legend inline' }, ...paths.map((path) =>
       element('li', {}, element('span', { class: 'swatch', style: `background:${path.colour}` }), path.label)));
     this.box = element('figure', { class: 'chart' }, element('figcaption', {}, options.title), this.place, paths.length > 1 && key);
-    new ResizeObserver(() => {
-      const width = this.place.clientWidth;
-      if (!this.plot) this.build();
-      else if (width > 0 && Math.abs(width - this.plot.width) > 1) this.plot.setSize({ width, height: 230 });
-    }).observe(this.place);
-    onTheme(() => this.build());
+    this.drawing = new Drawing(this.place, () => this.draw());
+    onTheme(() => this.rebuild());
   }
 
   /** Other values of the same paths. */
   update(paths: Path[]) {
     this.paths = paths;
-    this.build();
+    this.rebuild();
   }
 
-  redraw() { this.plot?.redraw(false); }
+  redraw() { this.drawing.ask(); }
+
+  private rebuild() {
+    this.plot?.destroy();
+    this.plot = undefined;
+    this.drawing.ask();
+  }
+
+  private draw() {
+    const width = this.place.clientWidth;
+    if (width === 0) return;
+    if (!this.plot) return this.build(width);
+    if (Math.abs(width - this.plot.width) > 1) this.plot.setSize({ width, height: 230 });
+    this.plot.redraw(false);
+  }
 
   private range(of: 'x' | 'y'): { power: number; ends: [number, number] } {
     // 0 is always seen: where the path begins.
@@ -55,11 +67,7 @@ export class Diagram {
     return { power, ends: padded(least, greatest, 10 ** -power) };
   }
 
-  private build() {
-    this.plot?.destroy();
-    this.plot = undefined;
-    const width = this.place.clientWidth;
-    if (width === 0) return;
+  private build(width: number) {
     const { x, y } = this.options;
     const across = this.range('x'), up = this.range('y');
     const label = (name: string, power: number, unit: string) => `${name} [${unitWith(power, unit)}]`;

@@ -10,6 +10,7 @@ import { colourRange, Range } from './colours';
 import { choice, element, tick } from './dom';
 import { Extremes, peaks, shownRange, wholeRange } from './shown_range';
 import { fieldTitle, shown, shownWithin, symbols, unitWith } from './numbers';
+import { Drawing } from './on_screen';
 import { homeCamera } from './overview';
 import { Timeline } from './timeline';
 
@@ -21,6 +22,7 @@ interface View {
   bar: ColourBar;
   note: HTMLElement;
   readout: HTMLElement;
+  drawing: Drawing;
 }
 
 const nothing = (): Extremes => ({ least: Infinity, greatest: -Infinity });
@@ -47,7 +49,6 @@ export class Explorer {
   private readonly componentChoice: ReturnType<typeof choice>;
   private readonly fieldChoice: ReturnType<typeof choice>;
   private readonly hand: HTMLElement;
-  private waiting = false;
 
   constructor(bodies: Body[], private readonly timeline: Timeline) {
     const first = bodies[0].result;
@@ -77,12 +78,7 @@ export class Explorer {
     this.refresh();
   }
 
-  /** Draws once before the next frame, however often it is asked. */
-  refresh() {
-    if (this.waiting) return;
-    this.waiting = true;
-    requestAnimationFrame(() => { this.waiting = false; this.draw(); });
-  }
+  refresh() { for (const view of this.views) view.drawing.ask(); }
 
   private view(body: Body): View {
     const picture = new Picture(body, this.camera);
@@ -112,6 +108,7 @@ export class Explorer {
     const view: View = {
       result: body.result, body, picture, controls, bar: new ColourBar(),
       note: element('p', { class: 'note' }), readout: element('div', { class: 'readout' }),
+      drawing: new Drawing(canvas, () => this.draw(view)),
     };
     canvas.addEventListener('pointermove', (event) => this.point(view, event));
     canvas.addEventListener('pointerdown', (event) => this.point(view, event));
@@ -174,7 +171,8 @@ export class Explorer {
       const values = field.values(this.component);
       const state = view.result.stateAt(this.timeline.time);
       include(found.all, this.rangeOver === 'step' ? values.of(state) : values);
-      include(found.usual, values.usual(peaks, this.rangeOver === 'step' ? state : undefined));
+      // Nothing is cut off an unknown.
+      include(found.usual, field.isUnknown ? found.all : values.usual(peaks, this.rangeOver === 'step' ? state : undefined));
       found.error = Math.max(found.error, values.error);
     }
     return found;
@@ -200,15 +198,13 @@ export class Explorer {
     };
   }
 
-  draw() {
-    for (const view of this.views) {
-      const look = this.look(view);
-      view.picture.show(look);
-      view.bar.show(look.range, this.fieldOf(view)?.unit ?? '');
-      const { origin } = this.fieldOf(view) ?? { origin: '' };
-      view.note.textContent = (this.stretch === 0 ? 'not deformed' : `displacement × ${shown(look.scale, 2)}`) +
-        (origin ? ` · values: ${origin}` : '');
-    }
+  private draw(view: View) {
+    const look = this.look(view);
+    view.picture.show(look);
+    view.bar.show(look.range, this.fieldOf(view)?.unit ?? '');
+    const { origin } = this.fieldOf(view) ?? { origin: '' };
+    view.note.textContent = (this.stretch === 0 ? 'not deformed' : `displacement × ${shown(look.scale, 2)}`) +
+      (origin ? ` · values: ${origin}` : '');
   }
 
   private home() {

@@ -67,11 +67,8 @@ if (drawn.length > 0 && !obstacle()) {
     several && element('h3', { class: 'whose' }, drawn[i].title), o.box))),
     section('fields', 'Fields', explorer.box));
   const all = () => { for (const overview of overviews) overview.draw(); explorer.refresh(); };
-  timeline.onChange(all);
+  timeline.onChange(() => { for (const overview of overviews) overview.move(); explorer.refresh(); });
   onTheme(all);
-  new ResizeObserver(all).observe(page);
-  all();
-
 }
 
 const touching = results.filter((r) => r.contact && r.contact.rows > 0);

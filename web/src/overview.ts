@@ -2,8 +2,9 @@
 // and von Mises stress.
 import { Body, Look } from './body';
 import { Camera } from './stage';
-import { Field, Result } from './results';
+import { Field } from './results';
 import { peaks, shownRange } from './shown_range';
+import { Drawing } from './on_screen';
 import { Picture } from './picture';
 import { ColourBar } from './colour_bar';
 import { element } from './dom';
@@ -24,23 +25,21 @@ export function homeCamera(body: Body, arrows = false): Camera {
   return new Camera(2, middle, half[0] + room, half[1] + room);
 }
 
-interface Card { picture: Picture; look: (state: number) => Look; bar?: ColourBar; field?: Field }
-
 export class Overview {
   readonly box: HTMLElement;
-  private readonly cards: Card[] = [];
-  private readonly result: Result;
-  constructor(body: Body, private readonly timeline: Timeline, pick: (field: string) => void) {
+  private readonly drawings: Drawing[] = [];
+  private readonly moving: Drawing[] = [];
+  constructor(body: Body, timeline: Timeline, pick: (field: string) => void) {
     const { result } = body;
-    this.result = result;
     const groups = groupsOf(result);
     const scale = body.suitableScale;
     const even = { low: 0, high: 1, signed: false };
     const camera = homeCamera(body);
     const figures: HTMLElement[] = [];
-    const add = (title: string, picture: Picture, look: Card['look'], below: HTMLElement, field?: Field,
-      bar?: ColourBar) => {
-      this.cards.push({ picture, look, field, bar });
+    const add = (title: string, picture: Picture, look: (state: number) => Look, below: HTMLElement, field?: Field) => {
+      const drawing = new Drawing(picture.canvas, () => picture.show(look(result.stateAt(timeline.time))));
+      this.drawings.push(drawing);
+      if (title !== 'Physical setting') this.moving.push(drawing);
       const heading = field
         ? element('button', { type: 'button', class: 'link', onclick: () => pick(field.name) }, title)
         : element('span', {}, title);
@@ -63,19 +62,18 @@ export class Overview {
       const field = result.field(name);
       if (!field) continue;
       const values = field.values('');
-      const range = shownRange(values, values.usual(peaks), field, values.error);
+      const range = shownRange(values, field.isUnknown ? values : values.usual(peaks), field, values.error);
       const bar = new ColourBar(true);
       bar.show(range, field.unit);
       add(fieldTitle(name), new Picture(body, camera),
         (state) => ({ state, scale, mesh: false, field: range.instead ? undefined : field, component: '', range }),
-        element('div', {}, bar.box, field.origin !== '' && element('p', { class: 'note' }, field.origin)), field, bar);
+        element('div', {}, bar.box, field.origin !== '' && element('p', { class: 'note' }, field.origin)), field);
     }
     this.box = element('div', { class: 'cards' }, ...figures);
   }
 
-  draw() {
-    const state = this.result.stateAt(this.timeline.time);
-    for (const card of this.cards) card.picture.show(card.look(state));
-  }
+  draw() { for (const drawing of this.drawings) drawing.ask(); }
 
+  /** What another moment changes. */
+  move() { for (const drawing of this.moving) drawing.ask(); }
 }

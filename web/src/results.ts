@@ -94,7 +94,9 @@ export class Values {
   private usualOf(state: number, share: number): { least: number; greatest: number } {
     const stride = Math.ceil(this.places / 5000);
     const first = state * this.places;
-    const sorted = this.data.subarray(first, first + this.places).filter((_, i) => i % stride === 0).sort();
+    const sorted = new Float32Array(Math.ceil(this.places / stride));
+    for (let i = 0; i < sorted.length; ++i) sorted[i] = this.data[first + i * stride];
+    sorted.sort();
     const last = sorted.length - 1;
     return { least: sorted[Math.floor(share * last)], greatest: sorted[Math.ceil((1 - share) * last)] };
   }

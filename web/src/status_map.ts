@@ -3,6 +3,7 @@ import uPlot from 'uplot';
 import { ContactLine } from './contact_line';
 import { element } from './dom';
 import { shown } from './numbers';
+import { Drawing } from './on_screen';
 import { Result } from './results';
 import { colour, onTheme } from './theme';
 import { Timeline } from './timeline';
@@ -20,6 +21,7 @@ export class StatusMap {
   readonly box: HTMLElement;
   private readonly place = element('div', { class: 'plot' });
   private plot?: uPlot;
+  private readonly drawing: Drawing;
   private readonly status: Float32Array;
 
   /** `nodes`: rows of a step of contact.csv; `ends`: time at the end of each */
@@ -30,20 +32,27 @@ export class StatusMap {
     const key = element('ul', { class: 'legend inline' }, ...statusNames.map((name, i) => there.has(i) &&
       element('li', {}, element('span', { class: 'swatch', style: `background:${statusColours[i]}` }), name)));
     this.box = element('figure', { class: 'chart' }, element('figcaption', {}, statusTitle(there)), this.place, key);
-    new ResizeObserver(() => {
-      const width = this.place.clientWidth;
-      if (!this.plot) this.build();
-      else if (width > 0 && Math.abs(width - this.plot.width) > 1) this.plot.setSize({ width, height: 230 });
-    }).observe(this.place);
-    onTheme(() => this.build());
+    this.drawing = new Drawing(this.place, () => this.draw());
+    onTheme(() => this.rebuild());
   }
 
-  redraw() { this.plot?.redraw(false); }
+  redraw() { this.drawing.ask(); }
 
-  private build() {
+  private rebuild() {
     this.plot?.destroy();
+    this.plot = undefined;
+    this.drawing.ask();
+  }
+
+  private draw() {
     const width = this.place.clientWidth;
     if (width === 0) return;
+    if (!this.plot) return this.build(width);
+    if (Math.abs(width - this.plot.width) > 1) this.plot.setSize({ width, height: 230 });
+    this.plot.redraw(false);
+  }
+
+  private build(width: number) {
     const axis = { stroke: colour('--muted'), grid: { show: false }, ticks: { stroke: colour('--grid'), width: 1 },
       font: '12px system-ui, sans-serif', labelFont: '12px system-ui, sans-serif',
       values: (_: uPlot, splits: number[]) => splits.map((v) => shown(v, 4)) };

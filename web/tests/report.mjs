@@ -48,7 +48,17 @@ async function open(context, file) {
   await tab.waitForSelector('#run');
   await settled(tab);
   const { metrics } = await session.send('Performance.getMetrics');
+  await seen(tab);
   return { tab, complaints, seconds: metrics.find((m) => m.name === 'TaskDuration').value };
+}
+
+/** Once through the page: what never was on the screen has not been drawn. */
+async function seen(tab) {
+  const screens = await tab.evaluate(() => Math.ceil(document.documentElement.scrollHeight / innerHeight));
+  for (let i = screens - 1; i >= 0; --i) {
+    await tab.evaluate((y) => scrollTo({ top: y * innerHeight, behavior: 'instant' }), i);
+    await settled(tab);
+  }
 }
 
 /** Scrolls an element to the middle of the window; its place there. */
@@ -57,17 +67,25 @@ async function centred(tab, selector) {
   return tab.locator(selector).first().boundingBox();
 }
 
-/** Two frames later everything that was asked for is drawn. */
-const settled = (tab) =>
-  tab.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+/** Three frames later everything that was asked for is drawn: one for what has come to the screen, one to draw. */
+const settled = (tab) => tab.evaluate(() => new Promise((done) =>
+  requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done)))));
+
+/** One of the elements, on the screen and drawn. */
+async function shownOne(tab, selector, which) {
+  const one = tab.locator(selector).nth(which);
+  await one.evaluate((e) => { const box = e.getBoundingClientRect();
+    if (box.bottom < 0 || box.top > innerHeight) e.scrollIntoView({ block: 'center', behavior: 'instant' }); });
+  await settled(tab);
+  return one;
+}
 
 /** The pixels of a canvas as one text. */
 async function pixels(tab, selector, which = 0) {
-  await settled(tab);
-  return tab.locator(selector).nth(which).evaluate((canvas) => canvas.toDataURL());
+  return (await shownOne(tab, selector, which)).evaluate((canvas) => canvas.toDataURL());
 }
 
-const colours = (tab, selector, which = 0) => tab.locator(selector).nth(which).evaluate((canvas) => {
+const colours = async (tab, selector, which = 0) => (await shownOne(tab, selector, which)).evaluate((canvas) => {
   const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d', { willReadFrequently: true });
   copy.drawImage(canvas, 0, 0);
   const { data } = copy.getImageData(0, 0, canvas.width, canvas.height);
