@@ -51,6 +51,16 @@ export interface ContactPiece {
 
 export interface Boundary { name: string; kind: string; conditions: string[]; facets: Uint32Array[] }
 
+function endsOf(data: Float32Array, from: number, to: number) {
+  let least = Infinity, greatest = -Infinity;
+  for (let i = from; i < to; ++i) {
+    const value = data[i];
+    if (value < least) least = value;
+    if (value > greatest) greatest = value;
+  }
+  return { least, greatest };
+}
+
 /** A component of a field, or its size, over all states. */
 export class Values {
   least = Infinity;
@@ -59,20 +69,12 @@ export class Values {
 
   /** `error`: largest error by rounding for the page */
   constructor(readonly data: Float32Array, readonly places: number, readonly error: number) {
-    for (const value of data) {
-      if (value < this.least) this.least = value;
-      if (value > this.greatest) this.greatest = value;
-    }
+    Object.assign(this, endsOf(data, 0, data.length));
   }
 
   /** The range of one state. */
   of(state: number): { least: number; greatest: number } {
-    const range = { least: Infinity, greatest: -Infinity };
-    for (const value of this.data.subarray(state * this.places, (state + 1) * this.places)) {
-      if (value < range.least) range.least = value;
-      if (value > range.greatest) range.greatest = value;
-    }
-    return range;
+    return endsOf(this.data, state * this.places, (state + 1) * this.places);
   }
 
   /** The range of one state, or over all of them, each without `share` at its lower and upper end. */
@@ -144,7 +146,8 @@ export class Field {
   private size(): Values {
     const parts = this.packed.components.map((c) => this.values(c));
     const data = new Float32Array(parts[0].data.length);
-    for (let i = 0; i < data.length; ++i) data[i] = Math.hypot(...parts.map((p) => p.data[i]));
+    for (const { data: part } of parts) for (let i = 0; i < data.length; ++i) data[i] += part[i] * part[i];
+    for (let i = 0; i < data.length; ++i) data[i] = Math.sqrt(data[i]);
     return new Values(data, parts[0].places, Math.max(...parts.map((p) => p.error)));
   }
 }
