@@ -3,7 +3,9 @@
 import * as THREE from 'three';
 import { Field, Grid, Result } from './results';
 import { inOrderOfPainting } from './setting';
-import { mapBytes, Range } from './colours';
+import { levelOf } from './colour_scale';
+import { mapBytes, mapHex, Range } from './colours';
+import { isolines } from './isolines';
 
 /** What is to be seen of a body. */
 export interface Look {
@@ -13,6 +15,10 @@ export interface Look {
   field?: Field;
   component: string;
   range: Range;
+  /** of the colours; 0: none */
+  bands?: number;
+  /** places on the colour bar with lines of equal values */
+  levels?: number[];
 }
 
 const vertexShader = `
@@ -39,10 +45,17 @@ const fragmentShader = `
     gl_FragColor = vec4(mix(plain, colour, coloured) * light, 1.0);
   }`;
 
-function colourTexture(signed: boolean): THREE.DataTexture {
-  const texture = new THREE.DataTexture(mapBytes(signed), 256, 1);
-  texture.magFilter = texture.minFilter = THREE.LinearFilter;
-  texture.needsUpdate = true;
+const textures = new Map<string, THREE.DataTexture>();
+
+function colourTexture(signed: boolean, bands: number): THREE.DataTexture {
+  const hex = mapHex(signed, bands);
+  let texture = textures.get(hex);
+  if (!texture) {
+    texture = new THREE.DataTexture(mapBytes(signed, bands), 256, 1);
+    texture.magFilter = texture.minFilter = THREE.LinearFilter;
+    texture.needsUpdate = true;
+    textures.set(hex, texture);
+  }
   return texture;
 }
 
@@ -55,13 +68,13 @@ export class Body {
   /** places of the nodes in the scene, deformed */
   readonly places: Float32Array;
   private readonly material: THREE.ShaderMaterial;
-  private readonly maps = { even: colourTexture(false), signed: colourTexture(true) };
   // Of fields at nodes triangles share their corners; of fields in cells each has corners of its own.
   private readonly smooth = new THREE.BufferGeometry();
   private flat?: THREE.BufferGeometry;
   private readonly lines = new THREE.BufferGeometry();
   private readonly lineMaterial = new THREE.LineBasicMaterial({ transparent: true, opacity: 0.35 });
   private readonly lineObject: THREE.LineSegments;
+  private readonly isolineObject = new THREE.LineSegments(undefined, new THREE.LineBasicMaterial({ color: '#000000' }));
   readonly settingObject = new THREE.Group();
   private readonly triangleObject: THREE.Mesh;
   private scale?: number;
@@ -77,7 +90,7 @@ export class Body {
       vertexShader, fragmentShader, side: THREE.DoubleSide,
       polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
       uniforms: {
-        colours: { value: this.maps.even }, shade: { value: result.dimension === 3 ? 1 : 0 },
+        colours: { value: colourTexture(false, 0) }, shade: { value: result.dimension === 3 ? 1 : 0 },
         plain: { value: new THREE.Vector3() }, coloured: { value: 1 },
       },
     });
@@ -89,8 +102,8 @@ export class Body {
     this.lines.setIndex(new THREE.BufferAttribute(this.grid.edges, 1));
     this.triangleObject = new THREE.Mesh(this.smooth, this.material);
     this.lineObject = new THREE.LineSegments(this.lines, this.lineMaterial);
-    for (const object of [this.triangleObject, this.lineObject]) object.frustumCulled = false;
-    this.scene.add(this.triangleObject, this.lineObject, this.settingObject);
+    for (const object of [this.triangleObject, this.lineObject, this.isolineObject]) object.frustumCulled = false;
+    this.scene.add(this.triangleObject, this.lineObject, this.isolineObject, this.settingObject);
   }
 
   /** The greatest displacement over all states [m]. */
@@ -127,7 +140,8 @@ export class Body {
     const plain = new THREE.Color(paper);
     (this.material.uniforms.plain.value as THREE.Vector3).set(plain.r, plain.g, plain.b);
     this.material.uniforms.coloured.value = look.field ? 1 : 0;
-    this.material.uniforms.colours.value = look.range.signed ? this.maps.signed : this.maps.even;
+    this.material.uniforms.colours.value = colourTexture(look.range.signed, look.bands ?? 0);
+    this.line(look);
   }
 
   /** What the body covers of the scene over all states; of a thin body the arrows of its poling reach beyond it. */
@@ -184,18 +198,26 @@ export class Body {
 
   private colour(look: Look) {
     if (!look.field) return;
-    const key = `${look.state} ${look.field.name} ${look.component} ${look.range.low} ${look.range.high}`;
+    const key = `${look.state} ${look.field.name} ${look.component} ${look.range.low} ${look.range.high} ${!!look.range.logarithmic}`;
     if (key === this.coloured) return;
     this.coloured = key;
     const { data, places } = look.field.values(look.component);
     const attribute = this.triangleObject.geometry.getAttribute('level') as THREE.BufferAttribute;
     const to = attribute.array as Float32Array;
-    const first = look.state * places, { low, high } = look.range;
+    const first = look.state * places, { low, high, logarithmic } = look.range;
     for (let i = 0; i < to.length; ++i) {
       const place = look.field.onPoints ? i : this.grid.triangleCells[(i / 3) | 0];
-      to[i] = (data[first + place] - low) / (high - low);
+      to[i] = logarithmic ? levelOf(look.range, data[first + place]) : (data[first + place] - low) / (high - low);
     }
     attribute.needsUpdate = true;
+  }
+
+  private line(look: Look) {
+    this.isolineObject.visible = !!look.levels?.length;
+    if (!this.isolineObject.visible) return;
+    this.isolineObject.geometry.dispose();
+    this.isolineObject.geometry = new THREE.BufferGeometry();
+    this.isolineObject.geometry.setAttribute('position', new THREE.BufferAttribute(isolines(this, look, look.levels!), 3));
   }
 
   /** Facets of the boundaries as coloured surfaces, for three dimensions. */

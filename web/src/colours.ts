@@ -1,9 +1,11 @@
 // Colour maps come from the program, so that page and figures agree.
+import { banded, MapPair } from './colour_maps';
 
 export interface Range {
   low: number;
   high: number;
   signed: boolean;
+  logarithmic?: boolean;
   /** there are lower or greater values than the range's */
   cutBelow?: boolean;
   cutAbove?: boolean;
@@ -23,21 +25,35 @@ export function colourRange(least: number, greatest: number): Range {
   return { low: least, high: greatest, signed: false };
 }
 
-let maps: Record<'even' | 'signed', string>;
-export function useColourMaps(given: Record<'even' | 'signed', string>) { maps = given; }
+let maps: MapPair;
+export function useColourMaps(given: MapPair) { maps = given; }
 
-/** 256 colours as bytes r, g, b, 255. */
-export function mapBytes(signed: boolean): Uint8Array {
+/** 256 colours as hexadecimal digits, in so many bands if there are any. */
+export function mapHex(signed: boolean, bands = 0): string {
   const hex = maps[signed ? 'signed' : 'even'];
-  const bytes = new Uint8Array(1024).fill(255);
-  for (let i = 0; i < 768; ++i)
-    bytes[4 * Math.floor(i / 3) + (i % 3)] = parseInt(hex.substr(2 * i, 2), 16);
+  return bands > 0 ? banded(hex, bands) : hex;
+}
+
+const unpacked = new Map<string, Uint8Array>();
+
+/** The same as bytes r, g, b, 255. */
+export function mapBytes(signed: boolean, bands = 0): Uint8Array {
+  const hex = mapHex(signed, bands);
+  let bytes = unpacked.get(hex);
+  if (!bytes) {
+    bytes = new Uint8Array(1024).fill(255);
+    for (let i = 0; i < 768; ++i) bytes[4 * Math.floor(i / 3) + (i % 3)] = parseInt(hex.substr(2 * i, 2), 16);
+    unpacked.set(hex, bytes);
+  }
   return bytes;
 }
 
-export function mapGradient(signed: boolean, direction: string): string {
-  const hex = maps[signed ? 'signed' : 'even'];
-  const stops = Array.from({ length: 33 }, (_, i) => '#' + hex.substr(6 * Math.round((i * 255) / 32), 6));
+export function mapGradient(signed: boolean, direction: string, bands = 0): string {
+  const hex = mapHex(signed);
+  const at = (share: number) => '#' + hex.substr(6 * Math.round(share * 255), 6);
+  const stops = bands > 0
+    ? Array.from({ length: bands }, (_, i) => `${at((i + 0.5) / bands)} ${(100 * i) / bands}% ${(100 * (i + 1)) / bands}%`)
+    : Array.from({ length: 33 }, (_, i) => at(i / 32));
   return `linear-gradient(${direction}, ${stops.join(', ')})`;
 }
 

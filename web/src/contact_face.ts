@@ -143,10 +143,10 @@ export class ContactFace {
         ? `below round-off, at most ${shown(Math.max(-least, greatest), 2)} ${unit}` : undefined };
     const bar = new ColourBar(true);
     bar.show(range, unit);
-    const bytes = mapBytes(range.signed);
     this.frame(title, bar.box, (row) => {
       if (range.instead) return colour('--body');
       const level = Math.round(255 * Math.min(1, Math.max(0, (values[row] - range.low) / (range.high - range.low))));
+      const bytes = mapBytes(range.signed);
       return `rgb(${bytes[4 * level]} ${bytes[4 * level + 1]} ${bytes[4 * level + 2]})`;
     });
   }

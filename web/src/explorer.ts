@@ -2,7 +2,14 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { Body, Hit, Look, valueAt } from './body';
+import { margins } from './axes';
+import { canBeLogarithmic } from './colour_scale';
+import { Display } from './display';
+import { drawOverlay } from './overlay';
+import { keepCamera } from './view_camera';
+import { changed, keepControl } from './address';
 import { Camera } from './stage';
+import { vectorNames } from './vectors';
 import { Field, Result } from './results';
 import { Picture } from './picture';
 import { ColourBar } from './colour_bar';
@@ -49,6 +56,7 @@ export class Explorer {
   private readonly componentChoice: ReturnType<typeof choice>;
   private readonly fieldChoice: ReturnType<typeof choice>;
   private readonly hand: HTMLElement;
+  readonly display: Display;
 
   constructor(bodies: Body[], private readonly timeline: Timeline) {
     const first = bodies[0].result;
@@ -56,15 +64,19 @@ export class Explorer {
     this.mesh = first.grid!.cells.length <= mostCellsWithMesh;
     this.field = first.field('potential')?.name ?? first.fields[0].name;
     this.views = bodies.map((body) => this.view(body));
+    this.display = new Display(vectorNames(bodies.map((b) => b.result)));
+    this.display.onChange(() => this.showOtherwise());
     this.fieldChoice = choice('Field', first.fields.map((f) => [f.name, fieldTitle(f.name)]), this.field,
       (name) => this.choose(name));
     this.fieldChoice.select.id = 'field';
     this.componentChoice = choice('Component', [], '', (c) => { this.component = c; this.refresh(); });
     this.componentChoice.select.id = 'component';
     this.hand = this.rangeByHand();
-    this.box = element('div', {}, this.toolbar(),
+    this.box = element('div', {}, this.toolbar(), this.display.box,
       element('div', { class: `views views-${this.views.length}` }, ...this.views.map((v) => this.frame(v))));
     this.choose(this.field);
+    this.showOtherwise();
+    this.keepAll();
   }
 
   choose(name: string) {
@@ -78,7 +90,25 @@ export class Explorer {
     this.refresh();
   }
 
-  refresh() { for (const view of this.views) view.drawing.ask(); }
+  refresh() {
+    for (const view of this.views) view.drawing.ask();
+    changed();
+  }
+
+  /** What of it stands in the address. */
+  private keepAll() {
+    keepControl('field', this.fieldChoice.select);
+    keepControl('component', this.componentChoice.select, () => this.views[0].result.field(this.field)!.components[0]);
+    this.box.querySelectorAll<HTMLInputElement>('.toolbar:not(.further) :is(#range, #stretch, .tick input, .hand input)')
+      .forEach((control) => keepControl(control.id || control.getAttribute('aria-label') || control.parentElement!.textContent!, control));
+    keepCamera(this.camera, this.views.map((view) => view.controls), () => this.refresh());
+  }
+
+  private showOtherwise() {
+    const plane = this.camera.dimension === 2 && this.display.axes;
+    this.camera.inset = plane ? margins : { left: 0, bottom: 0 };
+    this.refresh();
+  }
 
   private view(body: Body): View {
     const picture = new Picture(body, this.camera);
@@ -194,17 +224,20 @@ export class Explorer {
     const range = this.range(view);
     return {
       state: view.result.stateAt(this.timeline.time), scale: this.stretch * view.body.suitableScale, mesh: this.mesh,
-      field: field?.has(this.component) && !range.instead ? field : undefined, component: this.component, range,
+      field: field?.has(this.component) && !range.instead ? field : undefined, component: this.component,
+      range: { ...range, logarithmic: this.display.logarithmic && canBeLogarithmic(range) },
+      bands: this.display.bands, levels: this.display.levels,
     };
   }
 
   private draw(view: View) {
     const look = this.look(view);
-    view.picture.show(look);
-    view.bar.show(look.range, this.fieldOf(view)?.unit ?? '');
+    let said = '';
+    view.picture.show(look, (pen, frame) => { said = drawOverlay(pen, frame, look, this.display, this.timeline.time); });
+    view.bar.show(look.range, this.fieldOf(view)?.unit ?? '', look.bands);
     const { origin } = this.fieldOf(view) ?? { origin: '' };
     view.note.textContent = (this.stretch === 0 ? 'not deformed' : `displacement × ${shown(look.scale, 2)}`) +
-      (origin ? ` · values: ${origin}` : '');
+      (origin ? ` · values: ${origin}` : '') + (said ? ` · ${said}` : '');
   }
 
   private home() {
@@ -259,7 +292,7 @@ export class Explorer {
     const frame = view.picture.canvas.getBoundingClientRect();
     const x = ((event.clientX - frame.left) / frame.width) * 2 - 1;
     const y = 1 - ((event.clientY - frame.top) / frame.height) * 2;
-    this.camera.aim(frame.width, frame.height);
+    this.camera.aim(frame.width, frame.height, 1);
     view.body.set(this.look(view), '#000', '#fff');
     const hit = view.body.pick(x, y, this.camera.three);
     this.clearReadouts();

@@ -3,12 +3,14 @@ import 'uplot/dist/uPlot.min.css';
 import './style.css';
 import { Body } from './body';
 import { redrawMarks } from './chart';
+import { mapsNamed } from './colour_maps';
 import { useColourMaps } from './colours';
 import { Contact } from './contact';
 import { ContactFace } from './contact_face';
 import { element } from './dom';
 import { Explorer } from './explorer';
 import { History } from './history';
+import { playback } from './playback';
 import { probes } from './probes';
 import { Overview } from './overview';
 import { load, Result } from './results';
@@ -54,6 +56,7 @@ const timeline = new Timeline(longest.times, longest.grid ? longest.steps : [...
 startTheme();
 page.append(header(), ...[notices()].filter((n): n is HTMLElement => !!n));
 
+const onMap: (() => void)[] = [];
 if (drawn.length > 0 && !obstacle()) {
   const bodies = drawn.map((r) => new Body(r));
   const explorer = new Explorer(bodies, timeline);
@@ -69,6 +72,17 @@ if (drawn.length > 0 && !obstacle()) {
   const all = () => { for (const overview of overviews) overview.draw(); explorer.refresh(); };
   timeline.onChange(() => { for (const overview of overviews) overview.move(); explorer.refresh(); });
   onTheme(all);
+  const { display } = explorer;
+  let map = '';
+  const useMap = () => {
+    if (map === display.map) return;
+    map = display.map;
+    useColourMaps(mapsNamed(display.map, colourMaps));
+    all();
+    for (const listener of onMap) listener();
+  };
+  display.onChange(useMap);
+  useMap();
 }
 
 const touching = results.filter((r) => r.contact && r.contact.rows > 0);
@@ -77,7 +91,9 @@ if (touching.length > 0) {
     [r, r.dimension === 2 ? new Contact(r, timeline, String(i)) : new ContactFace(r, timeline)] as const));
   page.append(section('contact', 'Along the contact', beside((r) => !!contacts.get(r) &&
     element('div', {}, ...contacts.get(r)!.groups))));
-  timeline.onChange(() => { for (const contact of contacts.values()) contact.update(); });
+  const update = () => { for (const contact of contacts.values()) contact.update(); };
+  timeline.onChange(update);
+  onMap.push(update);
 }
 if (results.some((r) => r.history)) {
   page.append(section('history', 'Over time', beside((r) => !!r.history &&
@@ -90,4 +106,7 @@ if (results.some((r) => r.probes.length > 0)) {
   if (!results.some((r) => r.history)) timeline.onChange(redrawMarks);
 }
 page.append(section('run', 'The run', beside((r) => runSection(r))));
-if (timeline.times.length > 1) document.body.append(timeline.bar);
+if (timeline.times.length > 1) {
+  timeline.bar.append(playback(timeline));
+  document.body.append(timeline.bar);
+}

@@ -29,6 +29,7 @@ export class Overview {
   readonly box: HTMLElement;
   private readonly drawings: Drawing[] = [];
   private readonly moving: Drawing[] = [];
+  private readonly bars: (() => void)[] = [];
   constructor(body: Body, timeline: Timeline, pick: (field: string) => void) {
     const { result } = body;
     const groups = groupsOf(result);
@@ -64,7 +65,9 @@ export class Overview {
       const values = field.values('');
       const range = shownRange(values, field.isUnknown ? values : values.usual(peaks), field, values.error);
       const bar = new ColourBar(true);
-      bar.show(range, field.unit);
+      const showBar = () => bar.show(range, field.unit);
+      this.bars.push(showBar);
+      showBar();
       add(fieldTitle(name), new Picture(body, camera),
         (state) => ({ state, scale, mesh: false, field: range.instead ? undefined : field, component: '', range }),
         element('div', {}, bar.box, field.origin !== '' && element('p', { class: 'note' }, field.origin)), field);
@@ -72,7 +75,10 @@ export class Overview {
     this.box = element('div', { class: 'cards' }, ...figures);
   }
 
-  draw() { for (const drawing of this.drawings) drawing.ask(); }
+  draw() {
+    for (const show of this.bars) show();
+    for (const drawing of this.drawings) drawing.ask();
+  }
 
   /** What another moment changes. */
   move() { for (const drawing of this.moving) drawing.ask(); }

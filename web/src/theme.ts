@@ -1,4 +1,5 @@
 // Light and dark: the reader's system decides until the button is used.
+import { changed, keep } from './address';
 
 type Listener = () => void;
 const listeners: Listener[] = [];
@@ -21,9 +22,11 @@ function apply() {
 export function toggleTheme() {
   chosen = isDark() ? 'light' : 'dark';
   apply();
+  changed();
 }
 
 export function startTheme() {
   system.addEventListener('change', apply);
+  keep('theme', () => chosen, (text) => { chosen = text === 'dark' ? 'dark' : 'light'; apply(); });
   apply();
 }

@@ -1,4 +1,5 @@
 // The moment that everything on the page shows, and the bar that sets it.
+import { changed, keep } from './address';
 import { element } from './dom';
 import { shown } from './numbers';
 
@@ -13,6 +14,9 @@ export class Timeline {
   private readonly text = element('output', { class: 'moment' });
   private readonly button: HTMLButtonElement;
   private timer: number | undefined;
+  private speed = 1;
+  /** begins again at the end */
+  loop = false;
 
   constructor(readonly times: number[], private readonly steps: number[]) {
     this.at = Math.max(0, times.length - 1);
@@ -24,6 +28,7 @@ export class Timeline {
     this.bar = element('div', { class: 'timebar' }, this.button, this.slider, this.text);
     this.stop();
     this.say();
+    keep('t', () => (this.at === times.length - 1 ? undefined : String(this.time)), (text) => this.goTo(Number(text)));
   }
 
   get time(): number { return this.times[this.at] ?? 0; }
@@ -36,6 +41,25 @@ export class Timeline {
     this.slider.value = String(this.at);
     this.say();
     for (const listener of this.listeners) listener();
+    changed();
+  }
+
+  /** The moment nearest to a time. */
+  goTo(time: number) {
+    const away = this.times.map((t) => Math.abs(t - time));
+    if (Number.isFinite(time)) this.go(away.indexOf(Math.min(...away)));
+  }
+
+  /** Stops, and goes on or back by so many moments. */
+  goOn(by: number) {
+    this.stop();
+    this.go(this.at + by);
+  }
+
+  /** 1: as it is by itself. */
+  setSpeed(speed: number) {
+    this.speed = speed;
+    if (this.timer !== undefined) this.play();
   }
 
   toggle() {
@@ -43,10 +67,16 @@ export class Timeline {
     if (this.at === this.times.length - 1) this.go(0);
     this.button.textContent = '❚❚';
     this.button.setAttribute('aria-label', 'pause');
-    const pause = Math.max(60, Math.min(250, 6000 / this.times.length));
+    this.play();
+  }
+
+  private play() {
+    window.clearInterval(this.timer);
+    const pause = Math.max(60, Math.min(250, 6000 / this.times.length)) / this.speed;
     this.timer = window.setInterval(() => {
-      if (this.at >= this.times.length - 1) return this.stop();
-      this.go(this.at + 1);
+      if (this.at < this.times.length - 1) this.go(this.at + 1);
+      else if (this.loop) this.go(0);
+      else this.stop();
     }, pause);
   }
 
