@@ -14,8 +14,8 @@ export function roundLength(length: number): number {
   return [5, 2, 1].find((m) => m * power <= length * (1 + 1e-9))! * power;
 }
 
-/** Coordinates [m] of the ticks between the ends. */
-function ticks(low: number, high: number, pixels: number, apart: number): number[] {
+/** Round numbers between the ends, so many pixels apart or a little more. */
+export function ticks(low: number, high: number, pixels: number, apart: number): number[] {
   const least = ((high - low) * apart) / pixels;
   const step = [1, 2, 5, 10].map((m) => m * 10 ** Math.floor(Math.log10(least))).find((s) => s >= least)!;
   const first = Math.ceil(low / step - 1e-9);

@@ -1,8 +1,11 @@
 // Curves by uPlot, with powers of ten in the axis titles and a mark at the moment.
 import uPlot from 'uplot';
+import { curveSheet } from './curve_sheet';
 import { element } from './dom';
 import { shown, thousands, unitWith } from './numbers';
 import { Drawing } from './on_screen';
+import { Point } from './pen';
+import { csv, fileName, saveButtons, saveText } from './save';
 import { colour, onTheme } from './theme';
 
 export interface Curve {
@@ -48,6 +51,7 @@ export class Chart {
 
   constructor(private readonly options: ChartOptions, private x: number[], private curves: Curve[]) {
     this.box = element('figure', { class: 'chart', 'data-unit': options.unit }, element('figcaption', {}, options.title),
+      saveButtons(options.title, [['SVG', () => this.saveDrawing()], ['CSV', () => this.saveNumbers()]]),
       !!options.note && element('p', { class: 'note' }, options.note), this.place);
     charts.push(this);
     this.drawing = new Drawing(this.place, () => this.draw());
@@ -83,6 +87,24 @@ export class Chart {
     this.power = thousands(this.greatestSize());
     this.plot = new uPlot(this.plotOptions(width), this.data(), this.place);
     this.other = false;
+  }
+
+  private saveNumbers() {
+    const { title, xLabel, unit } = this.options;
+    saveText(fileName(title) + '.csv', 'text/csv', csv([xLabel, ...this.curves.map((c) => (unit ? `${c.label} [${unit}]` : c.label))],
+      [this.x, ...this.curves.map((c) => c.values)]));
+  }
+
+  private saveDrawing() {
+    const { title, xLabel, unit } = this.options;
+    const power = thousands(this.greatestSize()), factor = 10 ** -power;
+    saveText(fileName(title) + '.svg', 'image/svg+xml', curveSheet({ title,
+      x: { label: xLabel, ends: [Math.min(...this.x), Math.max(...this.x)] },
+      y: { label: unitWith(power, unit), ends: padded(...this.limits(), factor) },
+      curves: this.curves.map((c) => ({ ...c, points: this.x.map((x, i): Point | null => {
+        const v = c.values[i];
+        return v === null || !Number.isFinite(v) ? null : [x, v * factor];
+      }) })) }));
   }
 
   private data(): uPlot.AlignedData {

@@ -12,6 +12,10 @@ export class ColourBar {
   /** `small`: only the ends, the unit between them. */
   constructor(private readonly small = false) { this.box = element('div', { class: 'colourbar' }, this.strip, this.ticks); }
 
+  /** What stands below the bar, for a picture that is saved. */
+  get texts(): string[] { return [...this.ticks.children].filter((e) => !e.classList.contains('unit')).map((e) => e.textContent ?? ''); }
+  get unit(): string { return this.ticks.querySelector('.unit')?.textContent ?? ''; }
+
   show(range: Range, unitOfField: string, bands = 0) {
     this.strip.hidden = !!range.instead;
     if (range.instead) {

@@ -1,9 +1,12 @@
 // One quantity over another, step by step: a path that may turn back, with a mark at the moment.
 import uPlot from 'uplot';
 import { padded } from './chart';
+import { curveSheet } from './curve_sheet';
 import { element } from './dom';
 import { Drawing } from './on_screen';
 import { shown, thousands, unitWith } from './numbers';
+import { Point } from './pen';
+import { csv, fileName, saveButtons, saveText } from './save';
 import { colour, onTheme } from './theme';
 
 export interface Path {
@@ -31,7 +34,8 @@ export class Diagram {
   constructor(private readonly options: DiagramOptions, private paths: Path[], private readonly at: () => number) {
     const key = element('ul', { class: 'legend inline' }, ...paths.map((path) =>
       element('li', {}, element('span', { class: 'swatch', style: `background:${path.colour}` }), path.label)));
-    this.box = element('figure', { class: 'chart' }, element('figcaption', {}, options.title), this.place, paths.length > 1 && key);
+    this.box = element('figure', { class: 'chart' }, element('figcaption', {}, options.title),
+      saveButtons(options.title, [['SVG', () => this.saveDrawing()], ['CSV', () => this.saveNumbers()]]), this.place, paths.length > 1 && key);
     this.drawing = new Drawing(this.place, () => this.draw());
     onTheme(() => this.rebuild());
   }
@@ -65,6 +69,22 @@ export class Diagram {
       for (const v of path[of]) if (Number.isFinite(v)) { least = Math.min(least, v); greatest = Math.max(greatest, v); }
     const power = thousands(Math.max(-least, greatest));
     return { power, ends: padded(least, greatest, 10 ** -power) };
+  }
+
+  private saveNumbers() {
+    const { title, x, y } = this.options;
+    const named = ({ label, unit }: { label: string; unit: string }, of: string) => `${label} ${of} [${unit}]`;
+    saveText(fileName(title) + '.csv', 'text/csv', csv(this.paths.flatMap((p) => [named(x, p.label), named(y, p.label)]),
+      this.paths.flatMap((p) => [p.x, p.y])));
+  }
+
+  private saveDrawing() {
+    const { title, x, y } = this.options;
+    const across = this.range('x'), up = this.range('y');
+    saveText(fileName(title) + '.svg', 'image/svg+xml', curveSheet({ title,
+      x: { label: `${x.label} [${unitWith(across.power, x.unit)}]`, ends: across.ends },
+      y: { label: `${y.label} [${unitWith(up.power, y.unit)}]`, ends: up.ends },
+      curves: this.paths.map((p) => ({ ...p, points: p.x.map((v, k): Point => [v / 10 ** across.power, p.y[k] / 10 ** up.power]) })) }));
   }
 
   private build(width: number) {

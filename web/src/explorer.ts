@@ -9,6 +9,8 @@ import { drawOverlay } from './overlay';
 import { keepCamera } from './view_camera';
 import { changed, keepControl } from './address';
 import { Camera } from './stage';
+import { Caption, pixelSheet, vectorSheet } from './picture_sheet';
+import { fileName, save, saveButtons, saveText } from './save';
 import { vectorNames } from './vectors';
 import { Field, Result } from './results';
 import { Picture } from './picture';
@@ -50,6 +52,8 @@ export class Explorer {
   private byHand: [number, number] = [0, 1];
   private linked = true;
   private stretch = 1;
+  /** typed, the same for all bodies; undefined: `stretch` times what suits each */
+  private magnification?: number;
   private mesh: boolean;
   private readonly views: View[];
   private readonly camera: Camera;
@@ -99,7 +103,7 @@ export class Explorer {
   private keepAll() {
     keepControl('field', this.fieldChoice.select);
     keepControl('component', this.componentChoice.select, () => this.views[0].result.field(this.field)!.components[0]);
-    this.box.querySelectorAll<HTMLInputElement>('.toolbar:not(.further) :is(#range, #stretch, .tick input, .hand input)')
+    this.box.querySelectorAll<HTMLInputElement>('.toolbar:not(.further) :is(#range, #stretch, #magnification, .tick input, .hand input)')
       .forEach((control) => keepControl(control.id || control.getAttribute('aria-label') || control.parentElement!.textContent!, control));
     keepCamera(this.camera, this.views.map((view) => view.controls), () => this.refresh());
   }
@@ -153,14 +157,27 @@ export class Explorer {
       element('button', { type: 'button', 'aria-label': 'farther', onclick: zoom(1 / 1.4) }, '−'),
       element('button', { type: 'button', 'aria-label': 'whole body', onclick: () => this.home() }, '⤢'));
     return element('figure', { class: 'view' },
-      element('div', { class: 'head' }, element('figcaption', {}, this.views.length > 1 && view.result.title), buttons),
+      element('div', { class: 'head' }, element('figcaption', {}, this.views.length > 1 && view.result.title), element('div', { class: 'tools' },
+        saveButtons('the picture', [['PNG', () => this.savePixels(view)], ['SVG', () => this.saveVectors(view)]]), buttons)),
       view.picture.canvas, view.bar.box, view.note, view.readout);
   }
 
   private toolbar(): HTMLElement {
     const stretch = element('input', {
       type: 'range', id: 'stretch', min: 0, max: 3, step: 0.1, value: 1,
-      oninput: () => { this.stretch = Number(stretch.value); this.refresh(); },
+      oninput: () => {
+        this.stretch = Number(stretch.value);
+        this.magnification = undefined;
+        typed.value = '';
+        this.refresh();
+      },
+    });
+    const typed = element('input', {
+      type: 'number', id: 'magnification', step: 'any', min: 0, placeholder: '×', 'aria-label': 'magnification of displacements',
+      onchange: () => {
+        this.magnification = typed.value === '' || !(Number(typed.value) >= 0) ? undefined : Number(typed.value);
+        this.refresh();
+      },
     });
     const range = choice('Colour range', [['all', 'all moments'], ['peaks', 'all moments, with peaks'], ['step', 'this moment'],
       ['hand', 'by hand']], 'all',
@@ -175,6 +192,7 @@ export class Explorer {
     range.select.id = 'range';
     return element('div', { class: 'toolbar' }, this.fieldChoice.box, this.componentChoice.box, range.box, this.hand,
       element('label', { class: 'control' }, element('span', {}, 'Deformation'), stretch),
+      element('label', { class: 'control' }, element('span', {}, 'or displacement ×'), typed),
       tick('mesh', this.mesh, (on) => { this.mesh = on; this.refresh(); }),
       this.views.length > 1 && tick('same colours', true, (on) => { this.linked = on; this.refresh(); }));
   }
@@ -223,7 +241,7 @@ export class Explorer {
     const field = this.fieldOf(view);
     const range = this.range(view);
     return {
-      state: view.result.stateAt(this.timeline.time), scale: this.stretch * view.body.suitableScale, mesh: this.mesh,
+      state: view.result.stateAt(this.timeline.time), scale: this.magnification ?? this.stretch * view.body.suitableScale, mesh: this.mesh,
       field: field?.has(this.component) && !range.instead ? field : undefined, component: this.component,
       range: { ...range, logarithmic: this.display.logarithmic && canBeLogarithmic(range) },
       bands: this.display.bands, levels: this.display.levels,
@@ -236,8 +254,31 @@ export class Explorer {
     view.picture.show(look, (pen, frame) => { said = drawOverlay(pen, frame, look, this.display, this.timeline.time); });
     view.bar.show(look.range, this.fieldOf(view)?.unit ?? '', look.bands);
     const { origin } = this.fieldOf(view) ?? { origin: '' };
-    view.note.textContent = (this.stretch === 0 ? 'not deformed' : `displacement × ${shown(look.scale, 2)}`) +
+    view.note.textContent = (look.scale === 0 ? 'not deformed' : `displacement × ${shown(look.scale, 2)}`) +
       (origin ? ` · values: ${origin}` : '') + (said ? ` · ${said}` : '');
+  }
+
+  private caption(view: View): Caption {
+    const { result, bar, note } = view, field = this.fieldOf(view);
+    const component = this.component === 'size' ? '' : this.component;
+    return { title: `${result.title}: ${fieldTitle(this.field)} ${component}, t = ${shown(this.timeline.time)} s`,
+      ticks: field ? bar.texts : [], unit: bar.unit, note: note.textContent ?? '' };
+  }
+
+  private fileOf(view: View): string {
+    return fileName(view.result.name, this.field, this.component, `t${shown(this.timeline.time)}`);
+  }
+
+  private async savePixels(view: View) {
+    this.draw(view);
+    save(this.fileOf(view) + '.png', await pixelSheet(view.picture, this.look(view), this.caption(view)));
+  }
+
+  private saveVectors(view: View) {
+    const look = this.look(view);
+    saveText(this.fileOf(view) + '.svg', 'image/svg+xml', vectorSheet(view.picture, look, this.caption(view),
+      (pen, frame) => { drawOverlay(pen, frame, look, this.display, this.timeline.time); }));
+    this.draw(view);
   }
 
   private home() {

@@ -11,10 +11,10 @@ export class SvgPen implements Pen {
   private readonly pieces: string[] = [];
   constructor(readonly width: number, readonly height: number) {}
 
-  lines(paths: Point[][], colour: string, width: number) {
+  lines(paths: Point[][], colour: string, width: number, dashes?: string) {
     if (paths.length === 0) return;
     this.pieces.push(`<path d="${paths.map(along).join('')}" fill="none" stroke="${colour}" stroke-width="${width}" ` +
-      'stroke-linecap="round" stroke-linejoin="round"/>');
+      `stroke-linecap="${dashes ? 'butt' : 'round'}" stroke-linejoin="round"${dashes ? ` stroke-dasharray="${dashes}"` : ''}/>`);
   }
 
   surface(path: Point[], fill: string, rim?: string) {
@@ -33,11 +33,9 @@ export class SvgPen implements Pen {
     this.pieces.push(`<image href="${url}" x="${x}" y="${y}" width="${width}" height="${height}"/>`);
   }
 
-  /** What `draw` draws, shifted. */
-  shifted(x: number, y: number, draw: () => void) {
-    this.pieces.push(`<g transform="translate(${x} ${y})">`);
-    draw();
-    this.pieces.push('</g>');
+  /** All of another sheet, shifted. */
+  shifted(x: number, y: number, other: SvgPen) {
+    this.pieces.push(`<g transform="translate(${x} ${y})">`, ...other.pieces, '</g>');
   }
 
   text(paper?: string): string {
