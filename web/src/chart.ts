@@ -32,6 +32,8 @@ export interface ChartOptions {
   /** where to draw the line of the moment */
   mark?: () => number | undefined;
   height?: number;
+  /** columns that a CSV has beside the abscissa */
+  further?: () => [name: string, values: number[]][];
 }
 
 const charts: Chart[] = [];
@@ -44,14 +46,16 @@ export function allZero(values: ArrayLike<number | null>): boolean {
 export class Chart {
   readonly box: HTMLElement;
   private readonly place = element('div', { class: 'plot' });
+  private readonly caption = element('figcaption', {});
   private plot?: uPlot;
   private power = 0;
   private other = false;
   private readonly drawing: Drawing;
 
-  constructor(private readonly options: ChartOptions, private x: number[], private curves: Curve[]) {
-    this.box = element('figure', { class: 'chart', 'data-unit': options.unit }, element('figcaption', {}, options.title),
-      saveButtons(options.title, [['SVG', () => this.saveDrawing()], ['CSV', () => this.saveNumbers()]]),
+  constructor(private options: ChartOptions, private x: number[], private curves: Curve[]) {
+    this.caption.textContent = options.title;
+    this.box = element('figure', { class: 'chart', 'data-unit': options.unit }, this.caption,
+      saveButtons('the curves', [['SVG', () => this.saveDrawing()], ['CSV', () => this.saveNumbers()]]),
       !!options.note && element('p', { class: 'note' }, options.note), this.place);
     charts.push(this);
     this.drawing = new Drawing(this.place, () => this.draw());
@@ -62,6 +66,16 @@ export class Chart {
     this.curves = curves;
     this.other = true;
     this.drawing.ask();
+  }
+
+  /** Another chart in its place. */
+  become(options: Partial<ChartOptions>, x: number[], curves: Curve[]) {
+    this.options = { ...this.options, ...options };
+    this.x = x;
+    this.curves = curves;
+    this.caption.textContent = this.options.title;
+    this.box.dataset.unit = this.options.unit;
+    this.rebuild();
   }
 
   redraw() { this.drawing.ask(); }
@@ -90,9 +104,10 @@ export class Chart {
   }
 
   private saveNumbers() {
-    const { title, xLabel, unit } = this.options;
-    saveText(fileName(title) + '.csv', 'text/csv', csv([xLabel, ...this.curves.map((c) => (unit ? `${c.label} [${unit}]` : c.label))],
-      [this.x, ...this.curves.map((c) => c.values)]));
+    const { title, xLabel, unit } = this.options, further = this.options.further?.() ?? [];
+    saveText(fileName(title) + '.csv', 'text/csv', csv(
+      [xLabel, ...further.map(([name]) => name), ...this.curves.map((c) => (unit ? `${c.label} [${unit}]` : c.label))],
+      [this.x, ...further.map(([, values]) => values), ...this.curves.map((c) => c.values)]));
   }
 
   private saveDrawing() {

@@ -35,7 +35,7 @@ export class Diagram {
     const key = element('ul', { class: 'legend inline' }, ...paths.map((path) =>
       element('li', {}, element('span', { class: 'swatch', style: `background:${path.colour}` }), path.label)));
     this.box = element('figure', { class: 'chart' }, element('figcaption', {}, options.title),
-      saveButtons(options.title, [['SVG', () => this.saveDrawing()], ['CSV', () => this.saveNumbers()]]), this.place, paths.length > 1 && key);
+      saveButtons('the curves', [['SVG', () => this.saveDrawing()], ['CSV', () => this.saveNumbers()]]), this.place, paths.length > 1 && key);
     this.drawing = new Drawing(this.place, () => this.draw());
     onTheme(() => this.rebuild());
   }

@@ -9,6 +9,9 @@ import { drawOverlay } from './overlay';
 import { keepCamera } from './view_camera';
 import { changed, keepControl } from './address';
 import { Camera } from './stage';
+import { Frame } from './frame';
+import { Pen, Point } from './pen';
+import { Probing } from './probing';
 import { Caption, pixelSheet, vectorSheet } from './picture_sheet';
 import { fileName, save, saveButtons, saveText } from './save';
 import { vectorNames } from './vectors';
@@ -46,8 +49,8 @@ const mostCellsWithMesh = 20000;
 
 export class Explorer {
   readonly box: HTMLElement;
-  private field: string;
-  private component = '';
+  field: string;
+  component = '';
   private rangeOver: 'all' | 'peaks' | 'step' | 'hand' = 'all';
   private byHand: [number, number] = [0, 1];
   private linked = true;
@@ -61,6 +64,7 @@ export class Explorer {
   private readonly fieldChoice: ReturnType<typeof choice>;
   private readonly hand: HTMLElement;
   readonly display: Display;
+  private readonly probing: Probing;
 
   constructor(bodies: Body[], private readonly timeline: Timeline) {
     const first = bodies[0].result;
@@ -68,16 +72,19 @@ export class Explorer {
     this.mesh = first.grid!.cells.length <= mostCellsWithMesh;
     this.field = first.field('potential')?.name ?? first.fields[0].name;
     this.views = bodies.map((body) => this.view(body));
+    this.probing = new Probing(bodies, timeline, () => this, () => this.refresh());
+    timeline.onChange(() => this.probing.update());
     this.display = new Display(vectorNames(bodies.map((b) => b.result)));
     this.display.onChange(() => this.showOtherwise());
     this.fieldChoice = choice('Field', first.fields.map((f) => [f.name, fieldTitle(f.name)]), this.field,
       (name) => this.choose(name));
     this.fieldChoice.select.id = 'field';
-    this.componentChoice = choice('Component', [], '', (c) => { this.component = c; this.refresh(); });
+    this.componentChoice = choice('Component', [], '', (c) => { this.component = c; this.probing.update(); this.refresh(); });
     this.componentChoice.select.id = 'component';
     this.hand = this.rangeByHand();
+    this.display.box.append(this.probing.control);
     this.box = element('div', {}, this.toolbar(), this.display.box,
-      element('div', { class: `views views-${this.views.length}` }, ...this.views.map((v) => this.frame(v))));
+      element('div', { class: `views views-${this.views.length}` }, ...this.views.map((v) => this.frame(v))), this.probing.box);
     this.choose(this.field);
     this.showOtherwise();
     this.keepAll();
@@ -91,6 +98,7 @@ export class Explorer {
     this.componentChoice.box.hidden = components.length === 1;
     this.componentChoice.select.replaceChildren(...components.map((c) =>
       element('option', { value: c }, c === 'size' ? `|${symbols[name] ?? name}|` : c)));
+    this.probing.update();
     this.refresh();
   }
 
@@ -145,7 +153,9 @@ export class Explorer {
       drawing: new Drawing(canvas, () => this.draw(view)),
     };
     canvas.addEventListener('pointermove', (event) => this.point(view, event));
-    canvas.addEventListener('pointerdown', (event) => this.point(view, event));
+    // Before the controls, which turn and shift.
+    canvas.addEventListener('pointerdown', (event) => this.press(view, event), { capture: true });
+    canvas.addEventListener('pointerup', () => this.release(view));
     canvas.addEventListener('pointerleave', () => this.clearReadouts());
     return view;
   }
@@ -249,9 +259,10 @@ export class Explorer {
   }
 
   private draw(view: View) {
+    if (view.result.dimension === 2) view.picture.canvas.style.touchAction = this.probing.tool === 'line' ? 'none' : 'pan-y';
     const look = this.look(view);
     let said = '';
-    view.picture.show(look, (pen, frame) => { said = drawOverlay(pen, frame, look, this.display, this.timeline.time); });
+    view.picture.show(look, (pen, frame) => { said = this.cover(pen, frame, look); });
     view.bar.show(look.range, this.fieldOf(view)?.unit ?? '', look.bands);
     const { origin } = this.fieldOf(view) ?? { origin: '' };
     view.note.textContent = (look.scale === 0 ? 'not deformed' : `displacement × ${shown(look.scale, 2)}`) +
@@ -261,7 +272,7 @@ export class Explorer {
   private caption(view: View): Caption {
     const { result, bar, note } = view, field = this.fieldOf(view);
     const component = this.component === 'size' ? '' : this.component;
-    return { title: `${result.title}: ${fieldTitle(this.field)} ${component}, t = ${shown(this.timeline.time)} s`,
+    return { title: `${result.title}: ${[fieldTitle(this.field), component].join(' ').trim()}, t = ${shown(this.timeline.time)} s`,
       ticks: field ? bar.texts : [], unit: bar.unit, note: note.textContent ?? '' };
   }
 
@@ -277,8 +288,14 @@ export class Explorer {
   private saveVectors(view: View) {
     const look = this.look(view);
     saveText(this.fileOf(view) + '.svg', 'image/svg+xml', vectorSheet(view.picture, look, this.caption(view),
-      (pen, frame) => { drawOverlay(pen, frame, look, this.display, this.timeline.time); }));
+      (pen, frame) => { this.cover(pen, frame, look); }));
     this.draw(view);
+  }
+
+  private cover(pen: Pen, frame: Frame, look: Look): string {
+    const said = drawOverlay(pen, frame, look, this.display, this.timeline.time);
+    this.probing.draw(pen, frame);
+    return said;
   }
 
   private home() {
@@ -329,16 +346,38 @@ export class Explorer {
     for (const view of this.views) view.readout.replaceChildren();
   }
 
-  private point(view: View, event: PointerEvent) {
+  /** Where the pointer is, in normalised device coordinates, and what of the body lies there. */
+  private under(view: View, event: PointerEvent): { at: Point; near?: { hit: Hit; node?: number } } {
     const frame = view.picture.canvas.getBoundingClientRect();
     const x = ((event.clientX - frame.left) / frame.width) * 2 - 1;
     const y = 1 - ((event.clientY - frame.top) / frame.height) * 2;
     this.camera.aim(frame.width, frame.height, 1);
-    view.body.set(this.look(view), '#000', '#fff');
+    const { state, scale } = this.look(view);
+    view.body.place(state, scale);
     const hit = view.body.pick(x, y, this.camera.three);
+    return { at: [x, y], near: hit && snapped(view.body, hit, x, y, frame, this.camera.three) };
+  }
+
+  private press(view: View, event: PointerEvent) {
+    const { at, near } = this.under(view, event);
+    const taken = this.probing.press(view.body, at, near?.hit);
+    view.controls.enabled = !taken;
+    if (taken) view.picture.canvas.setPointerCapture(event.pointerId);
+    this.point(view, event);
+  }
+
+  private release(view: View) {
+    view.controls.enabled = true;
+    const frame = view.picture.canvas.getBoundingClientRect();
+    this.camera.aim(frame.width, frame.height, 1);
+    this.probing.release(this.camera);
+  }
+
+  private point(view: View, event: PointerEvent) {
+    const { at, near } = this.under(view, event);
+    this.probing.move(at);
     this.clearReadouts();
-    if (!hit) return;
-    const near = snapped(view.body, hit, x, y, frame, this.camera.three);
+    if (!near) return;
     for (const other of this.views)
       if (other === view || sameGrid(other.body, view.body)) this.tell(other, near.hit, near.node);
   }
