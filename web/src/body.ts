@@ -82,7 +82,8 @@ export class Body {
   private spread = false;
   private coloured = '';
 
-  constructor(readonly result: Result) {
+  /** `shape`: whose displacements deform it */
+  constructor(readonly result: Result, private readonly shape = result) {
     this.grid = result.grid!;
     [this.centre, this.size] = extentOf(this.grid.points);
     this.places = new Float32Array(this.grid.points.length);
@@ -108,7 +109,7 @@ export class Body {
 
   /** The greatest displacement over all states [m]. */
   get largestDisplacement(): number {
-    return this.result.field('displacement')?.values('size').greatest ?? 0;
+    return this.shape.field('displacement')?.values('size').greatest ?? 0;
   }
 
   /**
@@ -118,7 +119,7 @@ export class Body {
    */
   get suitableScale(): number {
     if (this.scale === undefined) {
-      const strain = this.result.field('strain');
+      const strain = this.shape.field('strain');
       const largest = Math.max(0, ...(strain?.components ?? []).map((c) => {
         const { least, greatest } = strain!.values(c).usual(0.01);
         return Math.max(-least, greatest);
@@ -152,7 +153,7 @@ export class Body {
       high[c] = Math.max(high[c], at);
     };
     const { points } = this.grid;
-    const displacement = this.result.field('displacement');
+    const displacement = this.shape.field('displacement');
     ['x', 'y', 'z'].forEach((axis, c) => {
       const u = displacement?.has(axis) ? displacement.values(axis).data : new Float32Array(points.length / 3);
       for (let i = 0, node = c; i < u.length; ++i, node = node + 3 < points.length ? node + 3 : c)
@@ -167,7 +168,7 @@ export class Body {
     if (key === this.placed) return;
     this.placed = key;
     const { points } = this.grid;
-    const displacement = this.result.field('displacement');
+    const displacement = this.shape.field('displacement');
     const n = points.length / 3;
     ['x', 'y', 'z'].forEach((axis, c) => {
       const u = scale !== 0 && displacement?.has(axis) ? displacement.values(axis).data : undefined;

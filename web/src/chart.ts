@@ -15,6 +15,8 @@ export interface Curve {
   dashed?: boolean;
   points?: boolean;
   bars?: boolean;
+  /** over abscissas at which it has no value */
+  joined?: boolean;
 }
 
 export interface ChartOptions {
@@ -37,6 +39,9 @@ export interface ChartOptions {
 }
 
 const charts: Chart[] = [];
+const ofBox = new WeakMap<Element, Chart>();
+
+export const chartOf = (box: Element) => ofBox.get(box);
 
 export function allZero(values: ArrayLike<number | null>): boolean {
   for (let i = 0; i < values.length; ++i) if (values[i] !== 0 && values[i] !== null) return false;
@@ -50,6 +55,7 @@ export class Chart {
   private plot?: uPlot;
   private power = 0;
   private other = false;
+  private readonly listeners: (() => void)[] = [];
   private readonly drawing: Drawing;
 
   constructor(private options: ChartOptions, private x: number[], private curves: Curve[]) {
@@ -58,6 +64,7 @@ export class Chart {
       saveButtons('the curves', [['SVG', () => this.saveDrawing()], ['CSV', () => this.saveNumbers()]]),
       !!options.note && element('p', { class: 'note' }, options.note), this.place);
     charts.push(this);
+    ofBox.set(this.box, this);
     this.drawing = new Drawing(this.place, () => this.draw());
   }
 
@@ -66,7 +73,15 @@ export class Chart {
     this.curves = curves;
     this.other = true;
     this.drawing.ask();
+    for (const listener of this.listeners) listener();
   }
+
+  /** Told of other values. */
+  onUpdate(listener: () => void) { this.listeners.push(listener); }
+
+  get described(): ChartOptions { return this.options; }
+  get abscissas(): number[] { return this.x; }
+  get shown(): Curve[] { return this.curves; }
 
   /** Another chart in its place. */
   become(options: Partial<ChartOptions>, x: number[], curves: Curve[]) {
@@ -154,7 +169,7 @@ export class Chart {
       series: [
         { label: xLabel, value: (_, v) => (v === null ? '–' : shown(v, 4)) },
         ...this.curves.map((c): uPlot.Series => ({
-          label: c.label, stroke: c.colour, width: 1.8, dash: c.dashed ? [6, 4] : undefined,
+          label: c.label, stroke: c.colour, width: 1.8, spanGaps: c.joined, dash: c.dashed ? [6, 4] : undefined,
           points: { show: c.points ?? false, size: 5, fill: c.colour },
           fill: c.bars ? c.colour + '55' : undefined,
           paths: c.bars ? uPlot.paths.bars!({ size: [0.7, 40] }) : undefined,
@@ -172,6 +187,7 @@ export class Chart {
     plot.ctx.save();
     plot.ctx.strokeStyle = colour('--accent');
     plot.ctx.lineWidth = 1.5 * devicePixelRatio;
+    plot.ctx.setLineDash([]);
     plot.ctx.beginPath();
     plot.ctx.moveTo(x, plot.bbox.top);
     plot.ctx.lineTo(x, plot.bbox.top + plot.bbox.height);

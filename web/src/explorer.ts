@@ -4,6 +4,7 @@ import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { Body, Hit, Look, valueAt } from './body';
 import { margins } from './axes';
 import { canBeLogarithmic } from './colour_scale';
+import { differenceOf } from './difference';
 import { Display } from './display';
 import { drawOverlay } from './overlay';
 import { keepCamera } from './view_camera';
@@ -35,6 +36,8 @@ interface View {
   note: HTMLElement;
   readout: HTMLElement;
   drawing: Drawing;
+  /** of a difference of two: said of it */
+  less?: string;
 }
 
 const nothing = (): Extremes => ({ least: Infinity, greatest: -Infinity });
@@ -72,6 +75,8 @@ export class Explorer {
     this.mesh = first.grid!.cells.length <= mostCellsWithMesh;
     this.field = first.field('potential')?.name ?? first.fields[0].name;
     this.views = bodies.map((body) => this.view(body));
+    const less = bodies.length === 2 ? differenceOf(bodies[0], bodies[1]) : undefined;
+    if (less) this.views.push(this.view(less.body, less.said));
     this.probing = new Probing(bodies, timeline, () => this, () => this.refresh());
     timeline.onChange(() => this.probing.update());
     this.display = new Display(vectorNames(bodies.map((b) => b.result)));
@@ -84,7 +89,7 @@ export class Explorer {
     this.hand = this.rangeByHand();
     this.display.box.append(this.probing.control);
     this.box = element('div', {}, this.toolbar(), this.display.box,
-      element('div', { class: `views views-${this.views.length}` }, ...this.views.map((v) => this.frame(v))), this.probing.box);
+      element('div', { class: `views views-${bodies.length}` }, ...this.views.map((v) => this.frame(v))), this.probing.box);
     this.choose(this.field);
     this.showOtherwise();
     this.keepAll();
@@ -122,7 +127,7 @@ export class Explorer {
     this.refresh();
   }
 
-  private view(body: Body): View {
+  private view(body: Body, less?: string): View {
     const picture = new Picture(body, this.camera);
     const { canvas } = picture;
     canvas.tabIndex = 0;
@@ -148,7 +153,7 @@ export class Explorer {
     canvas.addEventListener('blur', () => (controls.enableZoom = false));
     canvas.addEventListener('keydown', (event) => this.key(event));
     const view: View = {
-      result: body.result, body, picture, controls, bar: new ColourBar(),
+      result: body.result, body, picture, controls, less, bar: new ColourBar(),
       note: element('p', { class: 'note' }), readout: element('div', { class: 'readout' }),
       drawing: new Drawing(canvas, () => this.draw(view)),
     };
@@ -166,7 +171,7 @@ export class Explorer {
       element('button', { type: 'button', 'aria-label': 'closer', onclick: zoom(1.4) }, '+'),
       element('button', { type: 'button', 'aria-label': 'farther', onclick: zoom(1 / 1.4) }, '−'),
       element('button', { type: 'button', 'aria-label': 'whole body', onclick: () => this.home() }, '⤢'));
-    return element('figure', { class: 'view' },
+    return element('figure', { class: view.less === undefined ? 'view' : 'view difference', hidden: view.less !== undefined },
       element('div', { class: 'head' }, element('figcaption', {}, this.views.length > 1 && view.result.title), element('div', { class: 'tools' },
         saveButtons('the picture', [['PNG', () => this.savePixels(view)], ['SVG', () => this.saveVectors(view)]]), buttons)),
       view.picture.canvas, view.bar.box, view.note, view.readout);
@@ -204,7 +209,17 @@ export class Explorer {
       element('label', { class: 'control' }, element('span', {}, 'Deformation'), stretch),
       element('label', { class: 'control' }, element('span', {}, 'or displacement ×'), typed),
       tick('mesh', this.mesh, (on) => { this.mesh = on; this.refresh(); }),
-      this.views.length > 1 && tick('same colours', true, (on) => { this.linked = on; this.refresh(); }));
+      this.views.length > 1 && tick('same colours', true, (on) => { this.linked = on; this.refresh(); }), this.differenceTick());
+  }
+
+  private differenceTick(): HTMLElement | false {
+    if (!this.views.some((v) => v.less !== undefined)) return false;
+    const box = tick('difference', false, (on) => {
+      this.box.querySelector<HTMLElement>('.difference')!.hidden = !on;
+      changed();
+    });
+    box.querySelector('input')!.id = 'difference';
+    return box;
   }
 
   private rangeByHand(): HTMLElement {
@@ -243,7 +258,7 @@ export class Explorer {
     }
     const field = this.fieldOf(view);
     if (!field) return colourRange(0, 0);
-    const { all, usual, error } = this.valuesOf(this.linked ? this.views : [view]);
+    const { all, usual, error } = this.valuesOf(this.linked && view.less === undefined ? this.views.filter((v) => v.less === undefined) : [view]);
     return this.rangeOver === 'peaks' ? wholeRange(all, field, error) : shownRange(all, usual, field, error);
   }
 
@@ -266,7 +281,7 @@ export class Explorer {
     view.bar.show(look.range, this.fieldOf(view)?.unit ?? '', look.bands);
     const { origin } = this.fieldOf(view) ?? { origin: '' };
     view.note.textContent = (look.scale === 0 ? 'not deformed' : `displacement × ${shown(look.scale, 2)}`) +
-      (origin ? ` · values: ${origin}` : '') + (said ? ` · ${said}` : '');
+      (origin ? ` · values: ${origin}` : '') + (said ? ` · ${said}` : '') + (view.less ? ` · ${view.less}` : '');
   }
 
   private caption(view: View): Caption {

@@ -2,6 +2,7 @@
 import 'uplot/dist/uPlot.min.css';
 import './style.css';
 import { Body } from './body';
+import { bothInOne } from './both_in_one';
 import { redrawMarks } from './chart';
 import { mapsNamed } from './colour_maps';
 import { useColourMaps } from './colours';
@@ -104,6 +105,10 @@ if (results.some((r) => r.probes.length > 0)) {
   page.append(section('probes', 'Probes', beside((r) => r.probes.length > 0 &&
     probes(r, timeline, String(results.indexOf(r))))));
   if (!results.some((r) => r.history)) timeline.onChange(redrawMarks);
+}
+for (const id of ['contact', 'history', 'probes']) {
+  const charts = document.getElementById(id);
+  if (charts && several) bothInOne(charts, results.map((r) => r.title));
 }
 page.append(section('run', 'The run', beside((r) => runSection(r))));
 if (timeline.times.length > 1) {

@@ -104,6 +104,8 @@ export class Values {
   }
 }
 
+type FieldDescription = PackedResult['fields'][number];
+
 export class Field {
   readonly name: string;
   readonly unit: string;
@@ -115,7 +117,8 @@ export class Field {
   readonly components: string[];
   private readonly unpacked = new Map<string, Values>();
 
-  constructor(private readonly packed: PackedResult['fields'][number]) {
+  constructor(readonly description: FieldDescription) {
+    const packed = description;
     this.name = packed.name;
     this.unit = packed.unit;
     this.onPoints = packed.on === 'points';
@@ -138,13 +141,13 @@ export class Field {
 
   has(component: string): boolean { return this.components.includes(component); }
 
-  private component(name: string): Values {
-    const packed = this.packed.values[this.packed.components.indexOf(name)];
+  protected component(name: string): Values {
+    const packed = this.description.values[this.description.components.indexOf(name)];
     return new Values(unpack(packed), packed.columns, packed.coding === 'levels' ? packed.step! / 2 : 0);
   }
 
   private size(): Values {
-    const parts = this.packed.components.map((c) => this.values(c));
+    const parts = this.description.components.map((c) => this.values(c));
     const data = new Float32Array(parts[0].data.length);
     for (const { data: part } of parts) for (let i = 0; i < data.length; ++i) data[i] += part[i] * part[i];
     for (let i = 0; i < data.length; ++i) data[i] = Math.sqrt(data[i]);
@@ -202,6 +205,12 @@ export class Result {
       const bound = this.contact?.column('friction_bound');
       if (bound?.some((v) => v !== 0)) this.frictionBound = bound;
     }
+  }
+
+  /** The same body with other fields, and without a contact. */
+  withFields(title: string, name: string, fields: Field[]): Result {
+    return Object.create(this, Object.fromEntries(
+      Object.entries({ title, name, fields, contact: undefined, probes: [] }).map(([key, value]) => [key, { value }])));
   }
 
   /** Which of several contacts a row belongs to; empty where there is but one. */
