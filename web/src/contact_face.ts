@@ -53,6 +53,14 @@ export class ContactFace {
     this.add('Slip, size', 'm', this.size('slip_'), slip);
     if (result.has('temperature'))
       this.add('Temperature', 'K', this.column('temperature'), !!result.field('temperature')?.belowRoundOff);
+    const crosses = (name: string) => !!result.contact!.column(name)?.some((v) => v !== 0);
+    if (crosses('heat_flux'))
+      this.add('Heat flux out of the body', 'W/m²', this.column('heat_flux'), !!result.field('temperature')?.belowRoundOff);
+    if (crosses('charge_flux')) {
+      const noise = !!result.field('potential')?.belowRoundOff;
+      this.add('Potential', 'V', this.column('potential'), noise);
+      this.add('Charge out of the body', 'C/m²', this.column('charge_flux'), noise);
+    }
     this.groups = [element('div', { class: 'charts' }, ...this.charts)];
     if (this.node) {
       this.groups.push(this.node.box);
