@@ -390,8 +390,8 @@ await inBrowser(desktop, async (context) => {
   });
   await test('values on the surface of a solid body are those of nodes.csv', async () =>
     compare(await probe(tab, 3), nodesOf(block)));
-  await test('the contact face shows stick and slip, tractions, slip and temperature', async () => {
-    assert.equal(await tab.locator('#contact canvas.face').count(), 5);
+  await test('the contact face shows stick and slip, tractions, slip, temperature and heat', async () => {
+    assert.equal(await tab.locator('#contact canvas.face').count(), 6);
     for (const i of [1, 3]) assert.ok((await colours(tab, '#contact canvas.face', i)) > 3, `face ${i} is empty`);
     const late = await pixels(tab, '#contact canvas.face', 1);
     await goTo(tab, 1);
