@@ -2,14 +2,18 @@
 // the nodes.
 import * as THREE from 'three';
 import { Field, Grid, Result } from './results';
+import { featureEdges } from './feature_edges';
 import { inOrderOfPainting } from './setting';
 import { levelOf } from './colour_scale';
 import { mapBytes, mapHex, Range } from './colours';
 import { isolines } from './isolines';
+import { suitableMagnification } from './magnification';
 
 /** What is to be seen of a body. */
 export interface Look {
+  /** -1: none, which `missing` explains */
   state: number;
+  missing?: string;
   scale: number;
   mesh: boolean;
   field?: Field;
@@ -19,6 +23,8 @@ export interface Look {
   bands?: number;
   /** places on the colour bar with lines of equal values */
   levels?: number[];
+  /** shades a solid body by its slopes, which darkens colours; without, its edges show its shape */
+  light?: boolean;
 }
 
 const vertexShader = `
@@ -65,6 +71,7 @@ export class Body {
   /** middle and largest extent of the undeformed body [m]; the scene is measured in that extent */
   readonly centre: [number, number, number];
   readonly size: number;
+  private readonly extents: number[];
   /** places of the nodes in the scene, deformed */
   readonly places: Float32Array;
   private readonly material: THREE.ShaderMaterial;
@@ -75,6 +82,8 @@ export class Body {
   private readonly lineMaterial = new THREE.LineBasicMaterial({ transparent: true, opacity: 0.35 });
   private readonly lineObject: THREE.LineSegments;
   private readonly isolineObject = new THREE.LineSegments(undefined, new THREE.LineBasicMaterial({ color: '#000000' }));
+  private readonly ridges = new THREE.BufferGeometry();
+  private readonly ridgeObject: THREE.LineSegments;
   readonly settingObject = new THREE.Group();
   private readonly triangleObject: THREE.Mesh;
   private scale?: number;
@@ -85,13 +94,14 @@ export class Body {
   /** `shape`: whose displacements deform it */
   constructor(readonly result: Result, private readonly shape = result) {
     this.grid = result.grid!;
-    [this.centre, this.size] = extentOf(this.grid.points);
+    [this.centre, this.extents] = extentOf(this.grid.points);
+    this.size = Math.max(...this.extents);
     this.places = new Float32Array(this.grid.points.length);
     this.material = new THREE.ShaderMaterial({
       vertexShader, fragmentShader, side: THREE.DoubleSide,
       polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
       uniforms: {
-        colours: { value: colourTexture(false, 0) }, shade: { value: result.dimension === 3 ? 1 : 0 },
+        colours: { value: colourTexture(false, 0) }, shade: { value: 0 },
         plain: { value: new THREE.Vector3() }, coloured: { value: 1 },
       },
     });
@@ -103,8 +113,11 @@ export class Body {
     this.lines.setIndex(new THREE.BufferAttribute(this.grid.edges, 1));
     this.triangleObject = new THREE.Mesh(this.smooth, this.material);
     this.lineObject = new THREE.LineSegments(this.lines, this.lineMaterial);
-    for (const object of [this.triangleObject, this.lineObject, this.isolineObject]) object.frustumCulled = false;
-    this.scene.add(this.triangleObject, this.lineObject, this.isolineObject, this.settingObject);
+    this.ridges.setAttribute('position', corners);
+    this.ridgeObject = new THREE.LineSegments(this.ridges, new THREE.LineBasicMaterial({ color: '#000000', transparent: true, opacity: 0.6 }));
+    this.ridgeObject.visible = false;
+    for (const object of [this.triangleObject, this.lineObject, this.isolineObject, this.ridgeObject]) object.frustumCulled = false;
+    this.scene.add(this.triangleObject, this.lineObject, this.isolineObject, this.ridgeObject, this.settingObject);
   }
 
   /** The greatest displacement over all states [m]. */
@@ -112,22 +125,15 @@ export class Body {
     return this.shape.field('displacement')?.values('size').greatest ?? 0;
   }
 
-  /**
-   * Magnification, one digit times 10^n, that shows the greatest displacement as at most a tenth of the body and
-   * strains as less than one, so that cells do not turn inside out; but for the hundredth that is strained most,
-   * at singular corners. The counterpart of suitable_scale in src/report/scale.cc.
-   */
+  /** Whether its extents, in units of the largest one, are those of the other body, to a hundredth. */
+  isShapedLike(other: Body): boolean {
+    return this.result.dimension === other.result.dimension &&
+      this.extents.every((v, c) => Math.abs(v / this.size - other.extents[c] / other.size) < 0.01);
+  }
+
+  /** Magnification of displacements that shows them well and folds no cell. */
   get suitableScale(): number {
-    if (this.scale === undefined) {
-      const strain = this.shape.field('strain');
-      const largest = Math.max(0, ...(strain?.components ?? []).map((c) => {
-        const { least, greatest } = strain!.values(c).usual(0.01);
-        return Math.max(-least, greatest);
-      }));
-      const wanted = Math.min((0.1 * this.size) / this.largestDisplacement, 0.9 / largest);
-      const power = 10 ** Math.floor(Math.log10(wanted));
-      this.scale = Number.isFinite(wanted) ? [8, 6, 5, 4, 3, 2, 1].find((m) => m * power <= wanted * 1.000001)! * power : 1;
-    }
+    this.scale ??= suitableMagnification(this.grid, this.size, this.shape.field('displacement'), this.shape.field('strain'));
     return this.scale;
   }
 
@@ -136,6 +142,9 @@ export class Body {
     this.triangleObject.geometry = look.field && !look.field.onPoints ? this.apart() : this.smooth;
     this.colour(look);
     this.lineObject.visible = look.mesh;
+    this.ridgeObject.visible = this.result.dimension === 3 && !!look.field;
+    if (this.ridgeObject.visible && !this.ridges.index) this.ridges.setIndex(new THREE.BufferAttribute(featureEdges(this.grid), 1));
+    this.material.uniforms.shade.value = this.result.dimension === 3 && (!look.field || look.light) ? 1 : 0;
     this.lineMaterial.color.set(look.field ? '#000000' : ink);
     this.lineMaterial.opacity = look.field ? 0.17 : 0.5;
     const plain = new THREE.Color(paper);
@@ -302,12 +311,13 @@ export function valueAt(grid: Grid, field: Field, component: string, state: numb
   return sum;
 }
 
-function extentOf(points: Float32Array): [[number, number, number], number] {
+/** Middle and extents along the axes. */
+function extentOf(points: Float32Array): [[number, number, number], number[]] {
   const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
   for (let i = 0; i < points.length; ++i) {
     low[i % 3] = Math.min(low[i % 3], points[i]);
     high[i % 3] = Math.max(high[i % 3], points[i]);
   }
   const middle = low.map((v, c) => (v + high[c]) / 2) as [number, number, number];
-  return [middle, Math.max(...low.map((v, c) => high[c] - v))];
+  return [middle, low.map((v, c) => high[c] - v)];
 }

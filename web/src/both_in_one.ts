@@ -3,21 +3,6 @@ import { changed, keepControl } from './address';
 import { Chart, chartOf, Curve } from './chart';
 import { element, tick } from './dom';
 
-/** Headings above a chart and its title: what makes two charts those of the same thing. */
-function keyOf(figure: Element, column: Element): string {
-  const words = [figure.querySelector('figcaption')?.textContent ?? ''];
-  for (let at = figure.parentElement; at && at !== column.parentElement; at = at.parentElement)
-    words.push(...[...at.querySelectorAll(':scope > h3:not(.whose), :scope > h4')].map((h) => h.textContent ?? ''));
-  return words.join('\n');
-}
-
-function chartsIn(column: Element): Map<string, Chart> {
-  return new Map([...column.querySelectorAll('figure.chart')].flatMap((figure): [string, Chart][] => {
-    const chart = chartOf(figure);
-    return chart ? [[keyOf(figure, column), chart]] : [];
-  }));
-}
-
 /** Values at all abscissas of both, none where a curve has no point of its own. */
 function onto(x: number[], own: number[], curve: Curve, label: string, dashed: boolean): Curve {
   const at = new Map(own.map((v, i) => [v, i]));
@@ -43,21 +28,22 @@ function oneOf(charts: [Chart, Chart], titles: string[]): Chart {
   return chart;
 }
 
-/** A box to tick above a section whose `.beside` holds the charts of two runs; undefined where they share none. */
+/** A box to tick above a section that has rows with the charts of two runs; undefined where they share none. */
 export function bothInOne(section: HTMLElement, titles: string[]): HTMLElement | undefined {
-  const beside = section.querySelector<HTMLElement>(':scope > .beside');
-  if (!beside || beside.children.length !== 2) return undefined;
-  const [one, other] = [...beside.children].map(chartsIn);
-  const pairs = [...one].flatMap(([key, chart]): [Chart, Chart][] => (other.has(key) ? [[chart, other.get(key)!]] : []));
-  if (pairs.length === 0) return undefined;
-  const together = element('div', { class: 'charts together', hidden: true });
+  const rows = [...section.querySelectorAll<HTMLElement>('.row')].flatMap((row): { row: HTMLElement; pair: [Chart, Chart] }[] => {
+    const charts = [...row.querySelectorAll('figure.chart')].flatMap((figure) => chartOf(figure) ?? []);
+    return charts.length === 2 ? [{ row, pair: [charts[0], charts[1]] }] : [];
+  });
+  if (rows.length === 0) return undefined;
   const box = tick('both runs in one chart', false, (on) => {
-    if (on && together.children.length === 0) together.append(...pairs.map((pair) => oneOf(pair, titles).box));
-    together.hidden = !on;
-    for (const chart of pairs.flat()) chart.box.hidden = on;
+    for (const { row, pair } of rows) {
+      let together = row.querySelector<HTMLElement>(':scope > .together');
+      if (on && !together) row.append(together = element('div', { class: 'together' }, oneOf(pair, titles).box));
+      for (const cell of [...row.children] as HTMLElement[]) cell.hidden = (cell === together) !== on;
+    }
     changed();
   });
-  beside.before(box, together);
+  section.querySelector('h2')!.after(box);
   keepControl(`both-${section.id}`, box.querySelector('input')!);
   return box;
 }

@@ -1,11 +1,13 @@
 // Curves by uPlot, with powers of ten in the axis titles and a mark at the moment.
 import uPlot from 'uplot';
+import { takeKeys } from './chart_keys';
 import { curveSheet } from './curve_sheet';
 import { element } from './dom';
 import { shown, thousands, unitWith } from './numbers';
 import { Drawing } from './on_screen';
 import { Point } from './pen';
 import { csv, fileName, saveButtons, saveText } from './save';
+import { TableBehind } from './table_behind';
 import { colour, onTheme } from './theme';
 
 export interface Curve {
@@ -31,6 +33,8 @@ export interface ChartOptions {
   /** values the y axis always holds, over all moments */
   least?: number;
   greatest?: number;
+  /** charts of one group and title, of runs side by side, can share their axes */
+  group?: string;
   /** where to draw the line of the moment */
   mark?: () => number | undefined;
   height?: number;
@@ -40,8 +44,22 @@ export interface ChartOptions {
 
 const charts: Chart[] = [];
 const ofBox = new WeakMap<Element, Chart>();
+const apart = new Set<string>();
+const listeners: (() => void)[] = [];
 
 export const chartOf = (box: Element) => ofBox.get(box);
+
+/** Whether the charts of a group have the same axes as their counterparts; they do at first. */
+export function shareAxes(group: string, on: boolean) {
+  if (on) apart.delete(group);
+  else apart.add(group);
+  for (const chart of charts) if (chart.isIn(group)) chart.rebuild();
+  for (const listener of listeners) listener();
+}
+
+/** For pictures of a group that are no charts of this kind. */
+export const areAxesShared = (group: string) => !apart.has(group);
+export function onSharing(listener: () => void) { listeners.push(listener); }
 
 export function allZero(values: ArrayLike<number | null>): boolean {
   for (let i = 0; i < values.length; ++i) if (values[i] !== 0 && values[i] !== null) return false;
@@ -52,6 +70,7 @@ export class Chart {
   readonly box: HTMLElement;
   private readonly place = element('div', { class: 'plot' });
   private readonly caption = element('figcaption', {});
+  private readonly table: TableBehind;
   private plot?: uPlot;
   private power = 0;
   private other = false;
@@ -60,9 +79,11 @@ export class Chart {
 
   constructor(private options: ChartOptions, private x: number[], private curves: Curve[]) {
     this.caption.textContent = options.title;
+    this.table = new TableBehind(() => this.options.title, () => [{ name: this.options.xLabel, unit: '', values: this.x },
+      ...this.curves.map(({ label, values }) => ({ name: label, unit: this.options.unit, values }))]);
     this.box = element('figure', { class: 'chart', 'data-unit': options.unit }, this.caption,
       saveButtons('the curves', [['SVG', () => this.saveDrawing()], ['CSV', () => this.saveNumbers()]]),
-      !!options.note && element('p', { class: 'note' }, options.note), this.place);
+      !!options.note && element('p', { class: 'note' }, options.note), this.place, this.table.box);
     charts.push(this);
     ofBox.set(this.box, this);
     this.drawing = new Drawing(this.place, () => this.draw());
@@ -71,6 +92,7 @@ export class Chart {
   /** Other values for the same curves. */
   update(curves: Curve[]) {
     this.curves = curves;
+    this.table.refresh();
     this.other = true;
     this.drawing.ask();
     for (const listener of this.listeners) listener();
@@ -89,6 +111,7 @@ export class Chart {
     this.x = x;
     this.curves = curves;
     this.caption.textContent = this.options.title;
+    this.table.refresh();
     this.box.dataset.unit = this.options.unit;
     this.rebuild();
   }
@@ -115,6 +138,9 @@ export class Chart {
   private build(width: number) {
     this.power = thousands(this.greatestSize());
     this.plot = new uPlot(this.plotOptions(width), this.data(), this.place);
+    takeKeys(this.plot, this.options.title);
+    const { x, y } = this.plot.scales;
+    this.box.dataset.axes = [x.min, x.max, ...[y.min, y.max].map((v) => (v ?? 0) * 10 ** this.power)].join(' ');
     this.other = false;
   }
 
@@ -143,12 +169,32 @@ export class Chart {
       Array.from(c.values, (v) => (v === null || !Number.isFinite(v) ? null : v * factor)))] as uPlot.AlignedData;
   }
 
+  isIn(group: string): boolean { return this.options.group === group; }
+
+  /** This chart, and those that have its axes. */
+  private alike(): Chart[] {
+    const { group, title, xLabel, unit } = this.options;
+    if (group === undefined || apart.has(group)) return [this];
+    return charts.filter(({ options }) =>
+      options.group === group && options.title === title && options.xLabel === xLabel && options.unit === unit);
+  }
+
   private limits(): [number, number] {
-    let least = this.options.least ?? Infinity, greatest = this.options.greatest ?? -Infinity;
-    for (const curve of this.curves)
-      for (const v of Array.from(curve.values))
-        if (v !== null && Number.isFinite(v)) { least = Math.min(least, v); greatest = Math.max(greatest, v); }
+    let least = Infinity, greatest = -Infinity;
+    for (const chart of this.alike()) {
+      least = Math.min(least, chart.options.least ?? Infinity);
+      greatest = Math.max(greatest, chart.options.greatest ?? -Infinity);
+      for (const curve of chart.curves)
+        for (const v of Array.from(curve.values))
+          if (v !== null && Number.isFinite(v)) { least = Math.min(least, v); greatest = Math.max(greatest, v); }
+    }
     return least <= greatest ? [least, greatest] : [0, 1];
+  }
+
+  private ends(): [number, number] {
+    const all = this.alike().flatMap(({ x }) => [x[0], x[x.length - 1]]).filter((v) => v !== undefined);
+    const [least, greatest] = [Math.min(...all), Math.max(...all)];
+    return least < greatest ? [least, greatest] : [least - 1, greatest + 1];
   }
 
   private greatestSize(): number { return Math.max(...this.limits().map(Math.abs)); }
@@ -161,7 +207,7 @@ export class Chart {
     return {
       width, height: this.options.height ?? 230,
       cursor: { sync: { key: sync }, drag: { x: true, y: false } },
-      scales: { x: { time: false }, y: { range: () => padded(...this.limits(), 10 ** -this.power) } },
+      scales: { x: { time: false, ...(this.alike().length > 1 ? { range: () => this.ends() } : {}) }, y: { range: () => padded(...this.limits(), 10 ** -this.power) } },
       axes: [
         { ...axis, label: xLabel, labelSize: 18, size: 34, values: numbers },
         { ...axis, label: unitWith(this.power, unit), labelSize: 18, size: 56, values: numbers },

@@ -1,12 +1,13 @@
 // A colour bar with unit and the values at its ends and in the middle.
-import { mapGradient, Range } from './colours';
+import { mapPicture, Range } from './colours';
 import { valueAtLevel } from './colour_scale';
 import { element } from './dom';
 import { shown, thousands, unitWith } from './numbers';
 
 export class ColourBar {
   readonly box: HTMLElement;
-  private readonly strip = element('div', { class: 'strip' });
+  // A picture, as backgrounds are not printed.
+  private readonly strip = element('img', { class: 'strip', alt: '', hidden: true });
   private readonly ticks = element('div', { class: 'ticks' });
 
   /** `small`: only the ends, the unit between them. */
@@ -23,7 +24,7 @@ export class ColourBar {
       return;
     }
     const power = thousands(Math.max(Math.abs(range.low), Math.abs(range.high)));
-    this.strip.style.background = mapGradient(range.signed, 'to right', bands);
+    this.strip.src = mapPicture(range.signed, bands);
     // To three digits of the greatest: beside 1.24 the end of a bar is 0, not 9.6e-5.
     const step = 10 ** (Math.floor(Math.log10(Math.max(Math.abs(range.low), Math.abs(range.high)))) - 2);
     const tick = (at: number) => element('span', {}, (range.cutAbove && at === 1 ? '≥ ' : range.cutBelow && at === 0 ? '≤ ' : '') +

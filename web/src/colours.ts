@@ -48,13 +48,26 @@ export function mapBytes(signed: boolean, bands = 0): Uint8Array {
   return bytes;
 }
 
-export function mapGradient(signed: boolean, direction: string, bands = 0): string {
-  const hex = mapHex(signed);
-  const at = (share: number) => '#' + hex.substr(6 * Math.round(share * 255), 6);
-  const stops = bands > 0
-    ? Array.from({ length: bands }, (_, i) => `${at((i + 0.5) / bands)} ${(100 * i) / bands}% ${(100 * (i + 1)) / bands}%`)
-    : Array.from({ length: 33 }, (_, i) => at(i / 32));
-  return `linear-gradient(${direction}, ${stops.join(', ')})`;
+const pictures = new Map<string, string>();
+
+/** The map from left to right as a data address. */
+export function mapPicture(signed: boolean, bands = 0): string {
+  const key = `${mapHex(signed)} ${bands}`;
+  let address = pictures.get(key);
+  if (!address) {
+    const bytes = mapBytes(signed);
+    const shown = new Uint8ClampedArray(bytes.length);
+    for (let i = 0; i < 256; ++i) {
+      const from = bands > 0 ? Math.round(((Math.min(bands - 1, Math.floor((i * bands) / 256)) + 0.5) / bands) * 255) : i;
+      shown.set(bytes.subarray(4 * from, 4 * from + 4), 4 * i);
+    }
+    const canvas = document.createElement('canvas');
+    [canvas.width, canvas.height] = [256, 1];
+    canvas.getContext('2d')!.putImageData(new ImageData(shown, 256, 1), 0, 0);
+    address = canvas.toDataURL();
+    pictures.set(key, address);
+  }
+  return address;
 }
 
 /** Colours that differ for all eyes (Okabe and Ito), for lines and boundaries. */

@@ -2,11 +2,12 @@
 import uPlot from 'uplot';
 import { padded } from './chart';
 import { curveSheet } from './curve_sheet';
-import { element } from './dom';
+import { element, swatch } from './dom';
 import { Drawing } from './on_screen';
 import { shown, thousands, unitWith } from './numbers';
 import { Point } from './pen';
 import { csv, fileName, saveButtons, saveText } from './save';
+import { TableBehind } from './table_behind';
 import { colour, onTheme } from './theme';
 
 export interface Path {
@@ -29,13 +30,18 @@ export class Diagram {
   private readonly place = element('div', { class: 'plot' });
   private plot?: uPlot;
   private readonly drawing: Drawing;
+  private readonly table: TableBehind;
 
   /** `at`: the step to be marked, or -1 */
   constructor(private readonly options: DiagramOptions, private paths: Path[], private readonly at: () => number) {
+    this.table = new TableBehind(() => options.title, () => [
+      { name: `${options.x.label}`, unit: options.x.unit, values: this.paths[0]?.x ?? [] },
+      ...this.paths.map((path) => ({ name: path.label, unit: options.y.unit, values: path.y }))]);
     const key = element('ul', { class: 'legend inline' }, ...paths.map((path) =>
-      element('li', {}, element('span', { class: 'swatch', style: `background:${path.colour}` }), path.label)));
+      element('li', {}, swatch(path.colour), path.label)));
     this.box = element('figure', { class: 'chart' }, element('figcaption', {}, options.title),
-      saveButtons('the curves', [['SVG', () => this.saveDrawing()], ['CSV', () => this.saveNumbers()]]), this.place, paths.length > 1 && key);
+      saveButtons('the curves', [['SVG', () => this.saveDrawing()], ['CSV', () => this.saveNumbers()]]), this.place,
+      paths.length > 1 && key, this.table.box);
     this.drawing = new Drawing(this.place, () => this.draw());
     onTheme(() => this.rebuild());
   }
@@ -43,8 +49,11 @@ export class Diagram {
   /** Other values of the same paths. */
   update(paths: Path[]) {
     this.paths = paths;
+    this.table.refresh();
     this.rebuild();
   }
+
+  get title(): string { return this.options.title; }
 
   redraw() { this.drawing.ask(); }
 

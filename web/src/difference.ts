@@ -53,7 +53,9 @@ class DifferenceField extends Field {
   protected component(name: string): Values {
     const own = this.one.values(name), theirs = this.other.values(name);
     const data = new Float32Array(own.data.length);
+    const end = this.otherTimes[this.otherTimes.length - 1] * (1 + 3e-7);
     this.times.forEach((time, state) => {
+      if (time > end) return void data.fill(NaN, state * own.places, (state + 1) * own.places);
       const there = this.otherAt(theirs, time);
       const first = state * own.places;
       for (let i = 0; i < own.places; ++i) data[first + i] = there(i) - own.data[first + i];
@@ -89,7 +91,7 @@ export function differenceOf(one: Body, other: Body): Difference | undefined {
   const fields = a.fields.flatMap((field) => {
     const theirs = b.field(field.name);
     return theirs && theirs.onPoints === field.onPoints
-      ? [new DifferenceField(field, theirs, passage, a.times, b.times, other.grid)] : [];
+      ? [new DifferenceField(field, theirs, passage, a.stateTimes, b.stateTimes, other.grid)] : [];
   });
   const said = passage.same ? '' : 'interpolated to the mesh of the first';
   return fields.length === 0 ? undefined

@@ -55,4 +55,5 @@ function drawAll() {
   for (const drawing of now) drawing.finish();
 }
 
-addEventListener('beforeprint', () => { for (const drawing of all) drawing.finish(); });
+/** Also what is off the screen, now: paper has all of it. */
+export function drawEverything() { for (const drawing of all) drawing.finish(); }

@@ -5,6 +5,7 @@ import { Body, Look } from './body';
 import { Camera, draw, fitted } from './stage';
 import { element } from './dom';
 import { Frame } from './frame';
+import { notReached } from './moments';
 import { CanvasPen, Pen } from './pen';
 import { colour } from './theme';
 
@@ -15,6 +16,7 @@ export class Picture {
   show(look: Look, upon?: (pen: Pen, frame: Frame) => void) {
     const size = fitted(this.canvas);
     if (!size) return;
+    if (look.state < 0) return this.say(look.missing ?? notReached(this.body.result), size.ratio);
     this.camera.aim(size.width, size.height, size.ratio);
     this.body.set(look, colour('--ink'), colour('--body'));
     const solid = this.body.result.dimension === 3;
@@ -30,6 +32,16 @@ export class Picture {
     const pen = new CanvasPen(this.canvas.getContext('2d')!, ratio);
     upon(pen, new Frame(this.body, this.camera, pen.width, pen.height));
     pen.end();
+  }
+
+  /** A text in place of the picture. */
+  private say(text: string, ratio: number) {
+    const context = this.canvas.getContext('2d')!;
+    context.clearRect(0, 0, this.canvas.width, this.canvas.height);
+    context.fillStyle = colour('--muted');
+    context.font = `${13 * ratio}px system-ui, sans-serif`;
+    context.textAlign = 'center';
+    context.fillText(text, this.canvas.width / 2, this.canvas.height / 2, 0.95 * this.canvas.width);
   }
 
   // Only places that are seen from the first position of the camera have an arrow, and the setting keeps it.

@@ -7,6 +7,7 @@ import { choice, element } from './dom';
 import { Frame } from './frame';
 import { lineOnSkin, LineProbe, straightLine } from './line_probe';
 import { Locator } from './locate';
+import { stateAt } from './moments';
 import { fieldTitle, symbols } from './numbers';
 import { Pen, Point } from './pen';
 import { inScene, overTime, undeformed } from './skin_place';
@@ -164,9 +165,9 @@ export class Probing {
   private alongLine(body: Body, name: string, component: string, i: number): Curve[] {
     const line = this.lines.get(body), field = body.result.field(name)!;
     if (!line) return [];
-    const state = body.result.stateAt(this.timeline.time);
+    const state = stateAt(body.result, this.timeline.time);
     return [{ label: this.named(body, ''), colour: lineColours[i],
-      values: line.hits.map((hit) => (hit ? valueAt(body.grid, field, component, state, hit) : null)) }];
+      values: line.hits.map((hit) => (hit && state >= 0 ? valueAt(body.grid, field, component, state, hit) : null)) }];
   }
 
   private atPins(body: Body, name: string, component: string, i: number): Curve[] {
@@ -175,7 +176,8 @@ export class Probing {
       const hit = this.locator(body).find(...place);
       if (!hit) return [];
       const own = overTime(body, field, component, hit);
-      const values = this.timeline.times.map((t) => own[body.result.stateAt(t)]);
+      // Where the run had ended there is nothing.
+      const values = this.timeline.times.map((t) => own[stateAt(body.result, t)] ?? null);
       return [{ label: this.named(body, `pin ${k + 1}`), colour: lineColours[k % lineColours.length], values, dashed: i > 0 }];
     });
   }

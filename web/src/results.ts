@@ -18,6 +18,8 @@ interface PackedResult {
     components: string[]; values: Packed[] }[];
   boundaries: { name: string; kind: string; conditions: string[]; sizes: Packed; nodes: Packed }[];
   contactPieces: { name: string; abscissa: string; origin: string; rows: Packed; along: Packed }[];
+  contactFaces: { contact: string; place: string; across: string; up: string; origin: string;
+    sizes: Packed; rows: Packed; x: Packed; y: Packed }[];
   parts: { name: string; material: string }[];
   unnamed: string;
   poling: Packed | null;
@@ -47,6 +49,21 @@ export interface ContactPiece {
   origin: string;
   rows: Uint32Array;
   along: Float32Array;
+}
+
+/** A part of the contact of a solid body in a plane: the nodes of its facets, one facet behind the other. */
+export interface ContactFacePart {
+  contact: string;
+  place: string;
+  across: string;
+  up: string;
+  origin: string;
+  /** nodes of each facet: its corners, then those amid its sides and in its middle */
+  sizes: Uint32Array;
+  /** of one step of contact.csv */
+  rows: Uint32Array;
+  x: Float32Array;
+  y: Float32Array;
 }
 
 export interface Boundary { name: string; kind: string; conditions: string[]; facets: Uint32Array[] }
@@ -173,6 +190,7 @@ export class Result {
   readonly grid?: Grid;
   readonly boundaries: Boundary[];
   readonly contactPieces: ContactPiece[];
+  readonly contactFaces: ContactFacePart[];
   /** tail and tip [m] of arrows along the poling, six numbers each */
   readonly poling?: Float32Array;
   readonly history?: Table;
@@ -196,6 +214,8 @@ export class Result {
       };
     this.boundaries = packed.boundaries.map((b) => ({ ...b, facets: facetsOf(b.sizes, b.nodes) }));
     this.contactPieces = packed.contactPieces.map((p) => ({ ...p, rows: unpackIntegers(p.rows), along: unpack(p.along) }));
+    this.contactFaces = packed.contactFaces.map((f) => ({ ...f, sizes: unpackIntegers(f.sizes), rows: unpackIntegers(f.rows),
+      x: unpack(f.x), y: unpack(f.y) }));
     if (packed.poling) this.poling = unpack(packed.poling);
     if (packed.history) this.history = new Table(packed.history);
     if (packed.contact) this.contact = new Table(packed.contact);
@@ -237,24 +257,13 @@ export class Result {
   get remarks(): string[] { return this.packed.remarks; }
   get steps(): number[] { return this.packed.steps; }
 
-  /** Moments that can be looked at: those of the fields, or else the steps of the history. */
-  get times(): number[] {
-    return this.grid ? this.packed.times : [...(this.history?.column('time') ?? [])];
-  }
+  /** Moments of the fields [s]. */
+  get stateTimes(): number[] { return this.grid ? this.packed.times : []; }
 
   /** Whether the model has that field among its unknowns. */
   has(name: string): boolean { return !this.packed.leftOut.includes(name); }
 
   field(name: string): Field | undefined { return this.fields.find((f) => f.name === name); }
-
-  /** The state whose time is nearest. */
-  stateAt(time: number): number {
-    const times = this.times;
-    let best = 0;
-    for (let i = 1; i < times.length; ++i)
-      if (Math.abs(times[i] - time) < Math.abs(times[best] - time)) best = i;
-    return best;
-  }
 }
 
 function facetsOf(sizes: Packed, nodes: Packed): Uint32Array[] {

@@ -10,5 +10,5 @@ export const undeformed = (body: Body, hit: Hit) => mixed(body.grid.points, body
 export const inScene = (body: Body, hit: Hit) => mixed(body.places, body.grid.triangles, hit);
 
 export function overTime(body: Body, field: Field, component: string, hit: Hit): number[] {
-  return body.result.times.map((_, state) => valueAt(body.grid, field, component, state, hit));
+  return body.result.stateTimes.map((_, state) => valueAt(body.grid, field, component, state, hit));
 }
