@@ -182,6 +182,19 @@ TEST(NumberText, UnitsTakeThePowerOfTheirValues) {
   EXPECT_EQ(unit_text(shown_power(2e9), ""), "10⁹");
 }
 
+/// A square of side 2 that does not move.
+Result square() {
+  Result result;
+  result.points = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0}};
+  result.skin.nodes = {0, 1, 2, 3};
+  result.skin.cells = {0, 1};
+  result.skin.triangles = {{0, 1, 2}, {1, 3, 2}};
+  result.skin.triangle_cells = {0, 1};
+  result.times = {1};
+  result.fields = {{"displacement", "m", true, {"x", "y"}, {{0, 0, 0, 0}, {0, 0, 0, 0}}}};
+  return result;
+}
+
 /// A square of side 2 with a layer of a thousandth at its foot, whose top moves up by `top` while
 /// that of the layer moves by `layer`.
 Result layered(float top, float layer) {
@@ -270,7 +283,7 @@ TEST(Setting, BoundariesWithTheSameConditionsShareAColourAndContactComesFirst) {
 }
 
 TEST(Setting, FacetsWithoutANameAreToldOfUnlessAllHaveOne) {
-  Result result = square(0, 0);
+  Result result = square();
   result.skin.n_facets = 4;
   EXPECT_FALSE(has_unnamed_facets(result));  // nothing is known of the boundary
   result.boundaries = {{"a", {"free", {}}, {{0, 1}, {1, 3}}},
@@ -283,7 +296,7 @@ TEST(Setting, FacetsWithoutANameAreToldOfUnlessAllHaveOne) {
 
 TEST(Raster, WithSomeSlackTheLastOfWhatIsAtOnePlaceIsSeen) {
   for (const double slack : {0., 1e-6}) {
-    Raster raster(view_of(square(0, 0), 0), 10);
+    Raster raster(view_of(square(), 0), 10);
     for (const Colour &colour : {Colour{1, 0, 0}, Colour{2, 0, 0}})
       raster.triangle(
           {0, 0, 1}, {2, 0, 1}, {0, 2, 1}, [&](double, double, double) { return colour; }, slack);
@@ -292,7 +305,7 @@ TEST(Raster, WithSomeSlackTheLastOfWhatIsAtOnePlaceIsSeen) {
 }
 
 TEST(Raster, WhatIsNearerHidesWhatIsBehindInEitherOrder) {
-  const View view = view_of(square(0, 0), 0);
+  const View view = view_of(square(), 0);
   const Colour near{255, 0, 0}, far{0, 0, 255};
   for (const bool near_first : {true, false}) {
     Raster raster(view, 10);
@@ -306,7 +319,7 @@ TEST(Raster, WhatIsNearerHidesWhatIsBehindInEitherOrder) {
 }
 
 TEST(Raster, ThePaintGetsTheWeightsOfTheCorners) {
-  Raster raster(view_of(square(0, 0), 0), 10);
+  Raster raster(view_of(square(), 0), 10);
   double worst = 0;
   int pixels = 0;
   // The weight of the corner at x = 2 is x / 2.

@@ -139,8 +139,6 @@ export class Chart {
     this.power = thousands(this.greatestSize());
     this.plot = new uPlot(this.plotOptions(width), this.data(), this.place);
     takeKeys(this.plot, this.options.title);
-    const { x, y } = this.plot.scales;
-    this.box.dataset.axes = [x.min, x.max, ...[y.min, y.max].map((v) => (v ?? 0) * 10 ** this.power)].join(' ');
     this.other = false;
   }
 
@@ -227,6 +225,8 @@ export class Chart {
   }
 
   private drawMark(plot: uPlot) {
+    const { x: across, y: up } = plot.scales;
+    this.box.dataset.axes = [across.min, across.max, ...[up.min, up.max].map((v) => (v ?? 0) * 10 ** this.power)].join(' ');
     const at = this.options.mark?.();
     if (at === undefined) return;
     const x = plot.valToPos(at, 'x', true);
