@@ -43,6 +43,7 @@ struct Asked {
   std::string format = "svg";
   std::vector<std::string> fields;
   std::optional<double> time;
+  double megabytes = 0;
 };
 
 tourmaline::casefile::Case case_of(const Asked &asked) {
@@ -90,7 +91,8 @@ void report_page(const Asked &asked) {
                                                                  : "report.html";
   // A run that is at work there makes its page itself.
   tourmaline::output::require_unused(file.has_parent_path() ? file.parent_path() : ".");
-  tourmaline::report::write_page(asked.folders, file);
+  tourmaline::report::write_page(asked.folders, file,
+                                 static_cast<std::size_t>(asked.megabytes * 1e6));
   std::cout << file.string() << '\n';
 }
 
@@ -145,6 +147,12 @@ void add_report(CLI::App &app, Asked &asked) {
       ->expected(1, 2);
   command->add_option("-o,--output", asked.file,
                       "the page; if not given DIR/report.html, of two folders report.html");
+  command
+      ->add_option(
+          "--size", asked.megabytes,
+          "how large the page may be [MB], 1 to 10000: it holds as many moments of the fields "
+          "as fit; if not given some 12 million numbers")
+      ->check(CLI::Range(1., 1e4));
   command->callback([&asked] { report_page(asked); });
 }
 

@@ -45,6 +45,7 @@ std::optional<unsigned long long> step_of_field_file(const std::string &name) {
 }
 
 constexpr std::string_view part = ".part";
+constexpr const char *reason_name = "unfinished.txt";
 
 bool is_of_probe(std::string_view name) {
   return name.starts_with("probe-") && name.ends_with(".csv");
@@ -52,9 +53,10 @@ bool is_of_probe(std::string_view name) {
 
 /// Whether a run gives a file this name, in its place or while it is being written.
 bool is_ours(std::string_view name) {
-  constexpr std::array<std::string_view, 10> others{
-      "result.pvd",   "contact.pvd",   "nodes.csv",       "contact.csv", "history.csv",
-      "summary.json", "resolved.toml", "boundaries.json", "report.html", checkpoint_name};
+  constexpr std::array<std::string_view, 11> others{
+      "result.pvd",  "contact.pvd",  "nodes.csv",     "contact.csv",
+      "history.csv", "summary.json", "resolved.toml", "boundaries.json",
+      "report.html", reason_name,    checkpoint_name};
   if (name.ends_with(part))
     name.remove_suffix(part.size());
   return step_of_field_file(std::string(name)) ||
@@ -95,7 +97,7 @@ bool is_later(const std::string &name, const Checkpoint &checkpoint) {
       !checkpoint.position.tables.contains(name.substr(0, name.size() - part.size()));
   const auto of_step = step_of_field_file(name);
   return unfinished || (of_step && *of_step > checkpoint.step) || name == "nodes.csv" ||
-         name == "report.html" || name == "summary.json";
+         name == "report.html" || name == "summary.json" || name == reason_name;
 }
 
 /// Of the field files up to that step whose names begin so, of all pieces.
@@ -295,6 +297,10 @@ void ResultFolder::put_summary(const Summary &summary) {
   sync_path(file);
   sync_path(directory_);
   remove_checkpoint();
+}
+
+void ResultFolder::put_reason(const std::string &text) {
+  write_file(directory_ / reason_name, text + "\n");
 }
 
 void ResultFolder::sync_results() {

@@ -100,6 +100,9 @@ class ResultFolder {
   /// of the steps so far.
   void put_summary(const Summary &summary);
 
+  /// unfinished.txt: why the run ends before its end, in the words that its user gets.
+  void put_reason(const std::string &text);
+
   /// checkpoint.bin, to which it adds how far the files have come; they are on the disk itself
   /// then.
   void put_checkpoint(Checkpoint checkpoint);

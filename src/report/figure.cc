@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/feature_edges.h"
 #include "report/number_text.h"
 #include "report/poling.h"
 #include "report/scale.h"
@@ -24,18 +25,60 @@ double points_per_metre(const View &view) {
   return body_size / std::max({view.width(), view.height(), 1e-300});
 }
 
+constexpr double number_size = 7, label_size = 7.5;
+
+// Of a flat body's marks only as many as their numbers do not cover each other.
+std::vector<double> sparse_ticks(double low, double high, double per_metre, double apart) {
+  std::vector<double> values = ticks(low, high);
+  if (values.size() < 2)
+    return values;
+  const double step = values[1] - values[0];
+  const auto every = std::max(1L, static_cast<long>(std::ceil(apart / (step * per_metre))));
+  std::erase_if(values, [&](double value) { return std::lround(value / step) % every != 0; });
+  return values;
+}
+
+/// Marks of an axis with their numbers.
+std::vector<std::pair<double, std::string>> marks_of(const View &view, int direction) {
+  const double low = view.low[direction], high = view.high[direction];
+  const int power = shown_power(std::max(std::abs(low), std::abs(high)));
+  std::vector<std::pair<double, std::string>> marks;
+  for (const double value :
+       sparse_ticks(low, high, points_per_metre(view), direction == 0 ? 18 : 8))
+    marks.emplace_back(value, number_text(value / std::pow(10, power), 4));
+  return marks;
+}
+
+/// From the ordinate to the foot of its label, which stands left of the numbers.
+double label_distance(const View &view, Canvas &canvas) {
+  double widest = 0;
+  for (const auto &[value, text] : marks_of(view, 1))
+    widest = std::max(widest, canvas.text_width(text, number_size));
+  return std::max(29., 10 + widest + 3);
+}
+
+/// What the ordinate needs beyond the margin [pt].
+double room_for_numbers(const Result &result, FigureFormat format, const View &view) {
+  if (result.dimension == 3)
+    return 0;
+  Canvas scratch(format, 1, 1);
+  const double left = left_margin + (body_size - view.width() * points_per_metre(view)) / 2;
+  return std::max(0., label_distance(view, scratch) + label_size + 1 - left);
+}
+
 }  // namespace
 
 Figure::Figure(const Result &result, FigureFormat format, double scale, double below)
     : result_(result),
       scale_(scale),
       view_(view_of(result, scale)),
-      left_(left_margin + (body_size - view_.width() * points_per_metre(view_)) / 2),
+      shift_(room_for_numbers(result, format, view_)),
+      left_(left_margin + shift_ + (body_size - view_.width() * points_per_metre(view_)) / 2),
       top_(top_margin),
       width_(view_.width() * points_per_metre(view_)),
       height_(view_.height() * points_per_metre(view_)),
       per_metre_(points_per_metre(view_)),
-      canvas_(format, left_margin + body_size + right_margin,
+      canvas_(format, left_margin + shift_ + body_size + right_margin,
               top_margin + view_.height() * points_per_metre(view_) + axis_room + below) {
   if (result.dimension == 2)
     axes();
@@ -74,37 +117,21 @@ void Figure::axes() {
   axis(1, "y");
 }
 
-namespace {
-
-// Of a flat body's marks only as many as their numbers do not cover each other.
-std::vector<double> sparse_ticks(double low, double high, double per_metre, double apart) {
-  std::vector<double> values = ticks(low, high);
-  if (values.size() < 2)
-    return values;
-  const double step = values[1] - values[0];
-  const auto every = std::max(1L, static_cast<long>(std::ceil(apart / (step * per_metre))));
-  std::erase_if(values, [&](double value) { return std::lround(value / step) % every != 0; });
-  return values;
-}
-
-}  // namespace
-
 // Coordinates are those of the undeformed body.
 void Figure::axis(int direction, const char *label) {
   const double low = view_.low[direction], high = view_.high[direction];
   const int power = shown_power(std::max(std::abs(low), std::abs(high)));
   const double foot = top_ + height_ + 5, side = left_ - 5;
   std::vector<std::vector<Canvas::Point>> marks;
-  for (const double value : sparse_ticks(low, high, per_metre_, direction == 0 ? 18 : 8)) {
+  for (const auto &[value, text] : marks_of(view_, direction)) {
     const double at = (value - low) * per_metre_;
-    const std::string text = number_text(value / std::pow(10, power), 4);
     if (direction == 0) {
       marks.push_back({{left_ + at, foot}, {left_ + at, foot + 3}});
-      canvas_.text(text, {left_ + at, foot + 11}, Canvas::Align::middle, 7);
+      canvas_.text(text, {left_ + at, foot + 11}, Canvas::Align::middle, number_size);
     } else {
       const double y = top_ + height_ - at;
       marks.push_back({{side, y}, {side - 3, y}});
-      canvas_.text(text, {side - 5, y + 2.5}, Canvas::Align::right, 7);
+      canvas_.text(text, {side - 5, y + 2.5}, Canvas::Align::right, number_size);
     }
   }
   if (direction == 0)
@@ -114,9 +141,10 @@ void Figure::axis(int direction, const char *label) {
   canvas_.lines(marks, grey, 0.5);
   const std::string name = std::string(label) + " [" + unit_text(power, "m") + "]";
   if (direction == 0)
-    canvas_.text(name, {left_ + width_ / 2, foot + 21}, Canvas::Align::middle, 7.5);
+    canvas_.text(name, {left_ + width_ / 2, foot + 21}, Canvas::Align::middle, label_size);
   else
-    canvas_.text(name, {left_ - 29, top_ + height_ / 2}, Canvas::Align::middle, 7.5, false, true);
+    canvas_.text(name, {left_ - label_distance(view_, canvas_), top_ + height_ / 2},
+                 Canvas::Align::middle, label_size, false, true);
 }
 
 void Figure::solid_axes_cross() {
@@ -173,12 +201,16 @@ void Figure::field(const Field &field, std::size_t component) {
     const auto value = [&](int corner) {
       return all[first + (field.on_points ? t[corner] : result_.skin.triangle_cells[i])];
     };
-    raster.triangle(view_.places[t[0]], view_.places[t[1]], view_.places[t[2]],
-                    [&, v = std::array<double, 3>{value(0), value(1), value(2)},
-                     light = view_.light[i]](double a, double b, double c) {
-                      return shaded(colour_of(a * v[0] + b * v[1] + c * v[2], range), light);
-                    });
+    raster.triangle(
+        view_.places[t[0]], view_.places[t[1]], view_.places[t[2]],
+        [&, v = std::array<double, 3>{value(0), value(1), value(2)}](double a, double b, double c) {
+          return colour_of(a * v[0] + b * v[1] + c * v[2], range);
+        });
   }
+  // Colours are those of the bar, without a light; edges show the shape.
+  if (result_.dimension == 3)
+    for (const auto &edge : feature_edges(result_))
+      raster.line(view_.places[edge[0]], view_.places[edge[1]], 0.004 * size_of(result_));
   put(raster);
   colour_bar(range, field.unit, shown);
 }

@@ -52,6 +52,7 @@ class Figure {
   const Result &result_;
   double scale_;
   View view_;
+  double shift_;  ///< of all to the right, for wide numbers of the ordinate [pt]
   double left_, top_, width_, height_, per_metre_;
   Canvas canvas_;
 };

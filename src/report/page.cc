@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "output/atomic_file.h"
 #include "page_template.h"
@@ -90,6 +91,18 @@ Json piece_json(Packing &packing, const ContactPiece &piece) {
           {"along", packing.floats(as_floats(piece.along), 1)}};
 }
 
+Json face_json(Packing &packing, const ContactFace &face) {
+  return {{"contact", face.contact},
+          {"place", face.place},
+          {"across", face.across},
+          {"up", face.up},
+          {"origin", face.origin},
+          {"sizes", packing.integers(face.sizes)},
+          {"rows", packing.integers(face.rows)},
+          {"x", packing.floats(as_floats(face.x), 1)},
+          {"y", packing.floats(as_floats(face.y), 1)}};
+}
+
 /// Tail and tip of each arrow; null where nothing is poled.
 Json poling_json(Packing &packing, const Result &result) {
   std::vector<float> ends;
@@ -149,6 +162,7 @@ Json result_json(Packing &packing, const Result &result) {
             {"boundaries", Json::array()},
             {"unnamed", has_unnamed_facets(result) ? name_of_unnamed(result) : ""},
             {"contactPieces", Json::array()},
+            {"contactFaces", Json::array()},
             {"parts", Json::array()}};
   if (json["summary"].is_discarded())
     json["summary"] = nullptr;
@@ -163,6 +177,8 @@ Json result_json(Packing &packing, const Result &result) {
     json["boundaries"].push_back(boundary_json(packing, boundary));
   for (const ContactPiece &piece : result.contact_pieces)
     json["contactPieces"].push_back(piece_json(packing, piece));
+  for (const ContactFace &face : result.contact_faces)
+    json["contactFaces"].push_back(face_json(packing, face));
   if (result.asked && result.asked->contacts.size() > 1)
     for (const casefile::ContactCase &contact : result.asked->contacts)
       json["contacts"].push_back(contact.called());
@@ -218,22 +234,64 @@ void tell_apart(Json &results, const std::vector<std::filesystem::path> &folders
   }
 }
 
+/// A page that is not written yet.
+struct Page {
+  std::string results, numbers;
+  bool has_all = true;    ///< all field files of the runs
+  bool has_least = true;  ///< only the last one of each
+
+  std::size_t bytes() const { return results.size() + numbers.size() + page_template().size(); }
+};
+
+Page made(const std::vector<std::filesystem::path> &folders, std::size_t numbers) {
+  Packing packing;
+  Json results = Json::array();
+  Page page;
+  for (const std::filesystem::path &folder : folders) {
+    const Result result = read_result(folder, {numbers / folders.size(), {}});
+    page.has_all = page.has_all && result.times.size() == result.n_states;
+    page.has_least = page.has_least && result.times.size() <= 1;
+    results.push_back(result_json(packing, result));
+  }
+  tell_apart(results, folders);
+  page.results = script_text(
+      {{"results", results},
+       {"colourMaps", {{"even", map_json(viridis())}, {"signed", map_json(blue_red())}}}});
+  page.numbers = packing.text();
+  return page;
+}
+
+/// The page with the most moments that was found to fit.
+Page fitted(const std::vector<std::filesystem::path> &folders, std::size_t most_bytes) {
+  // A number takes some 0.8 bytes of a page, more or less as it changes from moment to moment.
+  auto numbers = static_cast<double>(most_bytes) / 0.8;
+  std::optional<Page> best;
+  for (int attempt = 0; attempt < 5; ++attempt) {
+    Page page = made(folders, static_cast<std::size_t>(numbers));
+    const double share = static_cast<double>(page.bytes()) / static_cast<double>(most_bytes);
+    const bool fits = share <= 1, is_last = page.has_all || share > 0.8;
+    if (!fits && page.has_least)
+      throw CaseError(fmt::format(
+          "a page with one moment of the fields has {:.3g} MB already, and at most {:.3g} MB are "
+          "asked for; give more with --size",
+          static_cast<double>(page.bytes()) / 1e6, static_cast<double>(most_bytes) / 1e6));
+    if (fits && (!best || page.bytes() > best->bytes()))
+      best = std::move(page);
+    if (fits && is_last)
+      break;
+    numbers *= 0.95 / share;
+  }
+  return best ? *std::move(best) : made(folders, 0);
+}
+
 }  // namespace
 
 void write_page(const std::vector<std::filesystem::path> &folders,
-                const std::filesystem::path &file) {
+                const std::filesystem::path &file, std::size_t most_bytes) {
   if (folders.empty() || folders.size() > 2)
     throw CaseError(fmt::format("a report shows one folder, or two side by side; {} were given",
                                 folders.size()));
-  Packing packing;
-  Json results = Json::array();
-  for (const std::filesystem::path &folder : folders)
-    results.push_back(
-        result_json(packing, read_result(folder, {most_numbers / folders.size(), {}})));
-  tell_apart(results, folders);
-  const Json page{
-      {"results", results},
-      {"colourMaps", {{"even", map_json(viridis())}, {"signed", map_json(blue_red())}}}};
+  const Page page = most_bytes > 0 ? fitted(folders, most_bytes) : made(folders, most_numbers);
   constexpr std::string_view end = "</body>";
   const std::string_view shell = page_template();
   const std::size_t at = shell.rfind(end);
@@ -241,9 +299,9 @@ void write_page(const std::vector<std::filesystem::path> &folders,
     throw MachineError("the report page inside this program is damaged; build it again");
   output::AtomicFile out(file);
   out.append(shell.substr(0, at));
-  out.append("<script type=\"application/json\" id=\"results\">" + script_text(page) +
+  out.append("<script type=\"application/json\" id=\"results\">" + page.results +
              "</script>\n<script type=\"text/plain\" id=\"numbers\">");
-  out.append(packing.text());
+  out.append(page.numbers);
   out.append("</script>\n");
   out.append(shell.substr(at));
   out.finish();

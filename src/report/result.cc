@@ -12,6 +12,7 @@
 #include "contact/kinds.h"
 #include "output/probe_rows.h"
 #include "report/field_file.h"
+#include "report/number_text.h"
 #include "report/recorded_mesh.h"
 #include "report/text_file.h"
 #include "report/xml.h"
@@ -81,6 +82,24 @@ void remark_on_lost_tables(Result &result, const fs::path &folder) {
   }
 }
 
+// In the words that the terminal had; a run that was killed could leave none.
+void remark_on_unfinished(Result &result, const fs::path &folder) {
+  std::string text = "The run did not finish, or has not yet: there is no summary.json.";
+  if (fs::exists(folder / "unfinished.txt")) {
+    std::string reason = read_text_file(folder / "unfinished.txt");
+    while (!reason.empty() && (reason.back() == '\n' || reason.back() == '.'))
+      reason.pop_back();
+    text = "The run did not finish: " + reason + ".";
+  }
+  if (result.asked)
+    text += fmt::format(" It was to end at t = {} s", number_text(result.asked->time.end, 6));
+  const std::vector<double> *time = result.history ? result.history->find("time") : nullptr;
+  if (result.asked && time && !time->empty())
+    text += fmt::format("; the last step that is recorded ends at t = {} s",
+                        number_text(time->back(), 6));
+  result.remarks.insert(result.remarks.begin(), text + (result.asked ? "." : ""));
+}
+
 std::vector<std::string> names_of_contacts(const Result &result) {
   std::vector<std::string> names;
   if (result.asked)
@@ -102,7 +121,7 @@ void read_tables(Result &result, const fs::path &folder) {
   if (fs::exists(folder / "summary.json"))
     result.summary = read_text_file(folder / "summary.json");
   else
-    result.remarks.push_back("The run did not finish, or has not yet: there is no summary.json.");
+    remark_on_unfinished(result, folder);
   remark_on_lost_tables(result, folder);
 }
 
@@ -153,9 +172,9 @@ double time_of(const std::string &text, const fs::path &path) {
   return time;
 }
 
-std::vector<State> series_of(const fs::path &folder) {
+std::vector<State> series_of(const fs::path &folder, const char *list = "result.pvd") {
   std::vector<State> series;
-  const fs::path path = folder / "result.pvd";
+  const fs::path path = folder / list;
   if (!fs::exists(path))
     return series;
   const std::string text = read_text_file(path);
@@ -304,6 +323,7 @@ void read_fields(Result &result, const fs::path &folder, const States &states) {
   std::vector<State> series = series_of(folder);
   if (series.empty())
     return say_why_no_fields(result);
+  result.n_states = series.size();
   if (states.time)
     series = nearest(series, *states.time);
   const FieldFile last = read_state(series.back().file, states);
@@ -312,8 +332,10 @@ void read_fields(Result &result, const fs::path &folder, const States &states) {
       std::max<std::size_t>(1, states.most_numbers / numbers_of(last, result.skin));
   const std::vector<State> kept = thinned(series, most);
   if (kept.size() < series.size() && kept.size() > 1)
-    result.remarks.push_back(fmt::format("Of {} field files {} are shown, to keep the page small.",
-                                         series.size(), kept.size()));
+    result.remarks.push_back(fmt::format(
+        "Of {} field files {} are shown, to keep the page small; `tourmaline report DIR --size MB` "
+        "takes as many as fit. Curves, contact and tables have all steps.",
+        series.size(), kept.size()));
   for (const State &state : kept) {
     result.times.push_back(state.time);
     result.steps.push_back(step_of(state.file));
@@ -381,6 +403,65 @@ void add_contact_pieces(Result &result, std::vector<NamedFacets> boundaries) {
   result.contact_pieces = contact_pieces(boundaries, places, contacts);
 }
 
+/// The facets by rows of contact.csv, as the files for ParaView have them with all nodes of degree
+/// 2; without these the corners, if they are all the nodes that there are.
+std::vector<ContactFacet> contact_facets(const Result &result, const fs::path &folder,
+                                         const std::vector<NamedFacets> &boundaries,
+                                         std::size_t n_places) {
+  std::vector<ContactFacet> facets;
+  if (const std::vector<State> series = series_of(folder, "contact.pvd"); !series.empty()) {
+    const output::Grid grid = read_field_file(series.front().file).grid;
+    if (grid.points.size() != n_places)
+      return {};
+    for (std::size_t i = 0; i < grid.n_cells(); ++i) {
+      const auto first =
+          grid.connectivity.begin() + static_cast<std::ptrdiff_t>(i * grid.nodes_per_cell);
+      facets.emplace_back(first, first + static_cast<std::ptrdiff_t>(grid.nodes_per_cell));
+    }
+    return facets;
+  }
+  std::set<std::string> touching;
+  for (const casefile::ContactCase &contact : result.asked->contacts)
+    touching.insert(contact.on.begin(), contact.on.end());
+  std::map<std::uint32_t, std::uint32_t> row_of;
+  for (const NamedFacets &boundary : boundaries)
+    if (touching.contains(boundary.name))
+      for (const auto &facet : boundary.facets) {
+        facets.push_back(facet);
+        for (const std::uint32_t node : facet)
+          row_of[node] = 0;
+      }
+  if (row_of.size() != n_places)
+    return {};
+  std::uint32_t next = 0;
+  for (auto &entry : row_of)
+    entry.second = next++;
+  for (ContactFacet &facet : facets)
+    for (std::uint32_t &node : facet)
+      node = row_of.at(node);
+  return facets;
+}
+
+void add_contact_faces(Result &result, const fs::path &folder,
+                       const std::vector<NamedFacets> &boundaries) {
+  if (result.dimension != 3 || !result.contact || !result.asked || result.asked->contacts.empty())
+    return;
+  const std::vector<double> *step = result.contact->find("step"), *x = result.contact->find("x"),
+                            *y = result.contact->find("y"), *z = result.contact->find("z"),
+                            *contact = result.contact->find("contact");
+  if (!step || !x || !y || !z || step->empty())
+    return;
+  std::vector<Vector3> places;
+  std::vector<std::size_t> contacts;
+  for (std::size_t i = 0; i < step->size() && (*step)[i] == step->front(); ++i) {
+    places.push_back({(*x)[i], (*y)[i], (*z)[i]});
+    if (contact)
+      contacts.push_back(static_cast<std::size_t>((*contact)[i]));
+  }
+  result.contact_faces = contact_faces(contact_facets(result, folder, boundaries, places.size()),
+                                       places, contacts, names_of_contacts(result));
+}
+
 void read_boundaries(Result &result, const fs::path &folder) {
   const fs::path path = folder / "boundaries.json";
   if (!fs::exists(path))
@@ -392,15 +473,17 @@ void read_boundaries(Result &result, const fs::path &folder) {
   if (!result.points.empty())
     for (const NamedFacets &named : boundaries)
       result.boundaries.push_back(seen_boundary(named, result, place));
+  add_contact_faces(result, folder, boundaries);
   add_contact_pieces(result, std::move(boundaries));
 }
 
 void remark_on_contact(Result &result) {
-  if (result.dimension == 2 && result.contact && result.contact->n_rows() > 0 &&
-      result.contact_pieces.empty())
+  if (result.contact && result.contact->n_rows() > 0 && result.contact_pieces.empty() &&
+      result.contact_faces.empty())
     result.remarks.push_back(
-        "There are no curves along the contact: the folder does not tell its facets "
-        "(boundaries.json, resolved.toml).");
+        fmt::format("There are no {} the contact: the folder does not tell its facets "
+                    "(boundaries.json, resolved.toml).",
+                    result.dimension == 2 ? "curves along" : "pictures of"));
 }
 
 /// The greatest value of a column of the history; 0 when it is not there.

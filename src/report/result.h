@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "output/records.h"
+#include "report/contact_face.h"
 #include "report/contact_line.h"
 #include "report/legend.h"
 #include "report/skin.h"
@@ -59,6 +60,7 @@ struct Result {
   std::optional<Table> history, contact;
   std::vector<ProbeTable> probes;            ///< but of those along lines
   std::vector<ContactPiece> contact_pieces;  ///< of a plane body
+  std::vector<ContactFace> contact_faces;    ///< of a solid body
   std::vector<double> friction_bound;        ///< S at each row of `contact` [N/m^2]; empty: none
   std::vector<std::string> remarks;
 
@@ -66,7 +68,8 @@ struct Result {
   std::size_t n_points = 0, n_cells = 0;  ///< of the body
   std::vector<Vector3> points;            ///< of the skin's nodes [m]
   std::vector<Boundary> boundaries;
-  std::vector<double> times;  ///< of the states [s]
+  std::size_t n_states = 0;   ///< field files that there are
+  std::vector<double> times;  ///< of those that are read [s]
   std::vector<int> steps;
   std::vector<Field> fields;
 

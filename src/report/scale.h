@@ -5,9 +5,9 @@
 namespace tourmaline::report {
 
 /// Magnification of displacements, one digit times a power of ten, for which the greatest one is at
-/// most a tenth of the body and strains stay below one, so that cells do not turn inside out; but
-/// for the hundredth that is strained most, at singular corners. 1 when nothing moves. Of the last
-/// state that `result` holds.
+/// most a tenth of the body and no cell is folded: every triangle of the skin keeps a tenth of its
+/// area, every cell of a solid one a tenth of its thickness in any direction. 1 when nothing moves.
+/// Of all states that `result` holds.
 double suitable_scale(const Result &result);
 
 /// The values below and above which `share` of a field's component lies in the last state.

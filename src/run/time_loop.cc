@@ -203,22 +203,25 @@ output::Summary TimeLoop<dim>::take_steps(Schedule &schedule) {
     march_together(schedule);
     return close_tables(schedule);
   } catch (const CaseError &error) {
-    keep_what_there_is();
-    throw CaseError(error.what() + what_is_left());
+    const std::string why = error.what() + what_is_left();
+    keep_what_there_is(why);
+    throw CaseError(why);
   } catch (const SolveError &error) {
-    keep_what_there_is();
-    throw SolveError(error.what() + what_is_left());
+    const std::string why = error.what() + what_is_left();
+    keep_what_there_is(why);
+    throw SolveError(why);
   } catch (const MachineError &error) {
-    keep_what_there_is();
-    throw MachineError(
+    const std::string why =
         error.what() + what_is_left() +
-        (saved_step_ > 0 ? fmt::format("; --resume goes on after step {}", saved_step_) : ""));
-  } catch (const Stopped &) {
-    keep_what_there_is();
+        (saved_step_ > 0 ? fmt::format("; --resume goes on after step {}", saved_step_) : "");
+    keep_what_there_is(why);
+    throw MachineError(why);
+  } catch (const Stopped &stopped) {
+    keep_what_there_is(stopped.what());
     throw;
-  } catch (const std::exception &) {
+  } catch (const std::exception &error) {
     if (parallel::n_ranks() == 1)  // otherwise the others know nothing of it
-      keep_what_there_is();
+      keep_what_there_is(error.what());
     throw;
   }
 }
@@ -316,11 +319,14 @@ void TimeLoop<dim>::put_report() {
 
 // The error that ended the steps is the one to tell of.
 template <int dim>
-void TimeLoop<dim>::keep_what_there_is() {
+void TimeLoop<dim>::keep_what_there_is(const std::string &why) {
   progress_.done();
   try {
     recorder_->finish(state_);
-    parallel::on_first([&] { put_report(); });
+    parallel::on_first([&] {
+      folder_->put_reason(why);
+      put_report();
+    });
   } catch (const std::exception &) {
   }
   progress_.done();

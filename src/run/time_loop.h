@@ -55,7 +55,7 @@ class TimeLoop {
   void restore();
   output::Summary close_tables(Schedule &schedule);
   void put_report();
-  void keep_what_there_is();
+  void keep_what_there_is(const std::string &why);
   std::string what_is_left() const;
   std::string of_all() const;
   void tell(const output::Summary &done, int signal) const;

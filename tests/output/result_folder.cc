@@ -115,12 +115,12 @@ TEST_F(Results, TheSameRunLeavesTheSameBytes) {
 }
 
 TEST_F(Results, AnEarlierRunsFilesAreRemovedAndNoOthers) {
-  const Names ours{"result_0001.vtu",  "result_12345.vtu",     "result.pvd",
-                   "nodes.csv",        "contact.csv",          "history.csv",
-                   "summary.json",     "resolved.toml",        "report.html",
-                   "history.csv.part", "result_0007.vtu.part", "checkpoint.bin",
-                   "contact.pvd",      "contact_0001.vtu",     "contact_12345.vtu",
-                   "contact.pvd.part", "probe-tip.csv",        "probe-a.b.csv.part"};
+  const Names ours{
+      "result_0001.vtu", "result_12345.vtu",   "result.pvd",           "nodes.csv",
+      "contact.csv",     "history.csv",        "summary.json",         "resolved.toml",
+      "report.html",     "history.csv.part",   "result_0007.vtu.part", "checkpoint.bin",
+      "contact.pvd",     "contact_0001.vtu",   "contact_12345.vtu",    "contact.pvd.part",
+      "probe-tip.csv",   "probe-a.b.csv.part", "unfinished.txt"};
   const Names others{"result_mine.vtu",    "result_01.vtu",    "notes.csv", "old_nodes.csv",
                      "thesis.tex.part",    "result.pvd.bak",   "Nodes.csv", "contact_1.vtu",
                      "contact_0001_0.vtu", "contact_mine.vtu", "probe.csv", "probe-tip.txt"};

@@ -1,5 +1,7 @@
 #include "report/figures.h"
 
+#include "report/feature_edges.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -180,8 +182,8 @@ TEST(NumberText, UnitsTakeThePowerOfTheirValues) {
   EXPECT_EQ(unit_text(shown_power(2e9), ""), "10⁹");
 }
 
-/// A square of side 2 whose top moves up by `top`, with the strain `strain` in all of its cells.
-Result square(float top, float strain) {
+/// A square of side 2 that does not move.
+Result square() {
   Result result;
   result.points = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0}};
   result.skin.nodes = {0, 1, 2, 3};
@@ -189,19 +191,79 @@ Result square(float top, float strain) {
   result.skin.triangles = {{0, 1, 2}, {1, 3, 2}};
   result.skin.triangle_cells = {0, 1};
   result.times = {1};
-  result.fields = {{"displacement", "m", true, {"x", "y"}, {{0, 0, 0, 0}, {0, 0, top, top}}},
-                   {"strain", "", false, {"yy"}, {{strain, strain}}}};
+  result.fields = {{"displacement", "m", true, {"x", "y"}, {{0, 0, 0, 0}, {0, 0, 0, 0}}}};
+  return result;
+}
+
+/// A square of side 2 with a layer of a thousandth at its foot, whose top moves up by `top` while
+/// that of the layer moves by `layer`.
+Result layered(float top, float layer) {
+  Result result;
+  for (const double y : {0., 0.002, 2.})
+    for (const double x : {0., 2.})
+      result.points.push_back({x, y, 0});
+  result.skin.nodes = {0, 1, 2, 3, 4, 5};
+  result.skin.cells = {0, 1};
+  result.skin.triangles = {{0, 1, 2}, {1, 3, 2}, {2, 3, 4}, {3, 5, 4}};
+  result.skin.triangle_cells = {0, 0, 1, 1};
+  result.times = {1};
+  result.fields = {{"displacement",
+                    "m",
+                    true,
+                    {"x", "y"},
+                    {{0, 0, 0, 0, 0, 0}, {0, 0, layer, layer, top, top}}}};
   return result;
 }
 
 TEST(Scale, TheGreatestDisplacementIsShownAsAtMostATenthOfTheBody) {
   // 0.2 / 4e-11 = 5e9
-  EXPECT_DOUBLE_EQ(suitable_scale(square(4e-11F, 1e-12F)), 5e9);
-  EXPECT_DOUBLE_EQ(suitable_scale(square(0, 0)), 1);
+  EXPECT_DOUBLE_EQ(suitable_scale(layered(4e-11F, 4e-14F)), 5e9);
+  EXPECT_DOUBLE_EQ(suitable_scale(layered(0, 0)), 1);
 }
 
-TEST(Scale, StrainsStayBelowOneSoThatNoCellTurnsInsideOut) {
-  EXPECT_DOUBLE_EQ(suitable_scale(square(4e-11F, -3e-8F)), 3e7);
+TEST(Scale, NoCellIsFoldedHoweverFewAreStrained) {
+  // The layer is 0.002 - s 3e-11 high, of which a tenth is left at s = 6e7.
+  EXPECT_DOUBLE_EQ(suitable_scale(layered(4e-11F, -3e-11F)), 6e7);
+  // What is stretched does not fold.
+  EXPECT_DOUBLE_EQ(suitable_scale(layered(4e-11F, 3e-11F)), 5e9);
+}
+
+/// A cube, its skin in triangles, with this strain in its one cell.
+Result cube(std::array<float, 6> strain) {
+  Result result;
+  result.dimension = 3;
+  for (const double z : {0., 1.})
+    for (const double y : {0., 1.})
+      for (const double x : {0., 1.})
+        result.points.push_back({x, y, z});
+  result.skin.nodes = {0, 1, 2, 3, 4, 5, 6, 7};
+  result.skin.cells = {0};
+  for (const auto &[a, b, c, d] : std::vector<std::array<std::uint32_t, 4>>{
+           {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+    result.skin.triangles.push_back({a, b, c});
+    result.skin.triangles.push_back({a, c, d});
+  }
+  result.skin.triangle_cells.assign(12, 0);
+  result.times = {1};
+  const std::vector<float> still(8, 0);
+  std::vector<float> moved(8, 0);
+  moved[7] = 1e-12F;
+  result.fields = {{"displacement", "m", true, {"x", "y", "z"}, {moved, still, still}},
+                   {"strain", "", false, {"xx", "yy", "zz", "xy", "yz", "xz"}, {}}};
+  for (const float component : strain)
+    result.fields[1].values.push_back({component});
+  return result;
+}
+
+TEST(Scale, NoCellOfASolidBodyIsPressedToNothing) {
+  EXPECT_DOUBLE_EQ(suitable_scale(cube({0, 0, -3e-9F, 0, 0, 0})), 3e8);
+  // Sheared by 3e-9 it is pressed by as much across.
+  EXPECT_DOUBLE_EQ(suitable_scale(cube({0, 0, 0, 0, 3e-9F, 0})), 3e8);
+  EXPECT_DOUBLE_EQ(suitable_scale(cube({3e-9F, 0, 0, 0, 0, 0})), 1e11);
+}
+
+TEST(FeatureEdges, OfACubeAreItsTwelve) {
+  EXPECT_EQ(feature_edges(cube({})).size(), 12U);
 }
 
 TEST(Setting, BoundariesWithTheSameConditionsShareAColourAndContactComesFirst) {
@@ -221,7 +283,7 @@ TEST(Setting, BoundariesWithTheSameConditionsShareAColourAndContactComesFirst) {
 }
 
 TEST(Setting, FacetsWithoutANameAreToldOfUnlessAllHaveOne) {
-  Result result = square(0, 0);
+  Result result = square();
   result.skin.n_facets = 4;
   EXPECT_FALSE(has_unnamed_facets(result));  // nothing is known of the boundary
   result.boundaries = {{"a", {"free", {}}, {{0, 1}, {1, 3}}},
@@ -234,7 +296,7 @@ TEST(Setting, FacetsWithoutANameAreToldOfUnlessAllHaveOne) {
 
 TEST(Raster, WithSomeSlackTheLastOfWhatIsAtOnePlaceIsSeen) {
   for (const double slack : {0., 1e-6}) {
-    Raster raster(view_of(square(0, 0), 0), 10);
+    Raster raster(view_of(square(), 0), 10);
     for (const Colour &colour : {Colour{1, 0, 0}, Colour{2, 0, 0}})
       raster.triangle(
           {0, 0, 1}, {2, 0, 1}, {0, 2, 1}, [&](double, double, double) { return colour; }, slack);
@@ -243,7 +305,7 @@ TEST(Raster, WithSomeSlackTheLastOfWhatIsAtOnePlaceIsSeen) {
 }
 
 TEST(Raster, WhatIsNearerHidesWhatIsBehindInEitherOrder) {
-  const View view = view_of(square(0, 0), 0);
+  const View view = view_of(square(), 0);
   const Colour near{255, 0, 0}, far{0, 0, 255};
   for (const bool near_first : {true, false}) {
     Raster raster(view, 10);
@@ -257,7 +319,7 @@ TEST(Raster, WhatIsNearerHidesWhatIsBehindInEitherOrder) {
 }
 
 TEST(Raster, ThePaintGetsTheWeightsOfTheCorners) {
-  Raster raster(view_of(square(0, 0), 0), 10);
+  Raster raster(view_of(square(), 0), 10);
   double worst = 0;
   int pixels = 0;
   // The weight of the corner at x = 2 is x / 2.

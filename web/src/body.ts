@@ -2,17 +2,29 @@
 // the nodes.
 import * as THREE from 'three';
 import { Field, Grid, Result } from './results';
+import { featureEdges } from './feature_edges';
 import { inOrderOfPainting } from './setting';
-import { mapBytes, Range } from './colours';
+import { levelOf } from './colour_scale';
+import { mapBytes, mapHex, Range } from './colours';
+import { isolines } from './isolines';
+import { suitableMagnification } from './magnification';
 
 /** What is to be seen of a body. */
 export interface Look {
+  /** -1: none, which `missing` explains */
   state: number;
+  missing?: string;
   scale: number;
   mesh: boolean;
   field?: Field;
   component: string;
   range: Range;
+  /** of the colours; 0: none */
+  bands?: number;
+  /** places on the colour bar with lines of equal values */
+  levels?: number[];
+  /** shades a solid body by its slopes, which darkens colours; without, its edges show its shape */
+  light?: boolean;
 }
 
 const vertexShader = `
@@ -39,10 +51,17 @@ const fragmentShader = `
     gl_FragColor = vec4(mix(plain, colour, coloured) * light, 1.0);
   }`;
 
-function colourTexture(signed: boolean): THREE.DataTexture {
-  const texture = new THREE.DataTexture(mapBytes(signed), 256, 1);
-  texture.magFilter = texture.minFilter = THREE.LinearFilter;
-  texture.needsUpdate = true;
+const textures = new Map<string, THREE.DataTexture>();
+
+function colourTexture(signed: boolean, bands: number): THREE.DataTexture {
+  const hex = mapHex(signed, bands);
+  let texture = textures.get(hex);
+  if (!texture) {
+    texture = new THREE.DataTexture(mapBytes(signed, bands), 256, 1);
+    texture.magFilter = texture.minFilter = THREE.LinearFilter;
+    texture.needsUpdate = true;
+    textures.set(hex, texture);
+  }
   return texture;
 }
 
@@ -52,77 +71,87 @@ export class Body {
   /** middle and largest extent of the undeformed body [m]; the scene is measured in that extent */
   readonly centre: [number, number, number];
   readonly size: number;
+  private readonly extents: number[];
   /** places of the nodes in the scene, deformed */
   readonly places: Float32Array;
   private readonly material: THREE.ShaderMaterial;
-  private readonly maps = { even: colourTexture(false), signed: colourTexture(true) };
-  private readonly triangles = new THREE.BufferGeometry();
+  // Of fields at nodes triangles share their corners; of fields in cells each has corners of its own.
+  private readonly smooth = new THREE.BufferGeometry();
+  private flat?: THREE.BufferGeometry;
   private readonly lines = new THREE.BufferGeometry();
   private readonly lineMaterial = new THREE.LineBasicMaterial({ transparent: true, opacity: 0.35 });
   private readonly lineObject: THREE.LineSegments;
+  private readonly isolineObject = new THREE.LineSegments(undefined, new THREE.LineBasicMaterial({ color: '#000000' }));
+  private readonly ridges = new THREE.BufferGeometry();
+  private readonly ridgeObject: THREE.LineSegments;
   readonly settingObject = new THREE.Group();
   private readonly triangleObject: THREE.Mesh;
   private scale?: number;
   private placed = '';
+  private spread = false;
   private coloured = '';
 
-  constructor(readonly result: Result) {
+  /** `shape`: whose displacements deform it */
+  constructor(readonly result: Result, private readonly shape = result) {
     this.grid = result.grid!;
-    [this.centre, this.size] = extentOf(this.grid.points);
+    [this.centre, this.extents] = extentOf(this.grid.points);
+    this.size = Math.max(...this.extents);
     this.places = new Float32Array(this.grid.points.length);
     this.material = new THREE.ShaderMaterial({
       vertexShader, fragmentShader, side: THREE.DoubleSide,
       polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
       uniforms: {
-        colours: { value: this.maps.even }, shade: { value: result.dimension === 3 ? 1 : 0 },
+        colours: { value: colourTexture(false, 0) }, shade: { value: 0 },
         plain: { value: new THREE.Vector3() }, coloured: { value: 1 },
       },
     });
-    const n = this.grid.triangles.length;
-    this.triangles.setAttribute('position', new THREE.BufferAttribute(new Float32Array(3 * n), 3));
-    this.triangles.setAttribute('level', new THREE.BufferAttribute(new Float32Array(n), 1));
-    this.lines.setAttribute('position',
-      new THREE.BufferAttribute(new Float32Array(3 * this.grid.edges.length), 3));
-    this.triangleObject = new THREE.Mesh(this.triangles, this.material);
+    const corners = new THREE.BufferAttribute(this.places, 3);
+    this.smooth.setAttribute('position', corners);
+    this.smooth.setAttribute('level', new THREE.BufferAttribute(new Float32Array(this.places.length / 3), 1));
+    this.smooth.setIndex(new THREE.BufferAttribute(this.grid.triangles, 1));
+    this.lines.setAttribute('position', corners);
+    this.lines.setIndex(new THREE.BufferAttribute(this.grid.edges, 1));
+    this.triangleObject = new THREE.Mesh(this.smooth, this.material);
     this.lineObject = new THREE.LineSegments(this.lines, this.lineMaterial);
-    for (const object of [this.triangleObject, this.lineObject]) object.frustumCulled = false;
-    this.scene.add(this.triangleObject, this.lineObject, this.settingObject);
+    this.ridges.setAttribute('position', corners);
+    this.ridgeObject = new THREE.LineSegments(this.ridges, new THREE.LineBasicMaterial({ color: '#000000', transparent: true, opacity: 0.6 }));
+    this.ridgeObject.visible = false;
+    for (const object of [this.triangleObject, this.lineObject, this.isolineObject, this.ridgeObject]) object.frustumCulled = false;
+    this.scene.add(this.triangleObject, this.lineObject, this.isolineObject, this.ridgeObject, this.settingObject);
   }
 
   /** The greatest displacement over all states [m]. */
   get largestDisplacement(): number {
-    return this.result.field('displacement')?.values('size').greatest ?? 0;
+    return this.shape.field('displacement')?.values('size').greatest ?? 0;
   }
 
-  /**
-   * Magnification, one digit times 10^n, that shows the greatest displacement as at most a tenth of the body and
-   * strains as less than one, so that cells do not turn inside out; but for the hundredth that is strained most,
-   * at singular corners. The counterpart of suitable_scale in src/report/scale.cc.
-   */
+  /** Whether its extents, in units of the largest one, are those of the other body, to a hundredth. */
+  isShapedLike(other: Body): boolean {
+    return this.result.dimension === other.result.dimension &&
+      this.extents.every((v, c) => Math.abs(v / this.size - other.extents[c] / other.size) < 0.01);
+  }
+
+  /** Magnification of displacements that shows them well and folds no cell. */
   get suitableScale(): number {
-    if (this.scale === undefined) {
-      const strain = this.result.field('strain');
-      const largest = Math.max(0, ...(strain?.components ?? []).map((c) => {
-        const { least, greatest } = strain!.values(c).usual(0.01);
-        return Math.max(-least, greatest);
-      }));
-      const wanted = Math.min((0.1 * this.size) / this.largestDisplacement, 0.9 / largest);
-      const power = 10 ** Math.floor(Math.log10(wanted));
-      this.scale = Number.isFinite(wanted) ? [8, 6, 5, 4, 3, 2, 1].find((m) => m * power <= wanted * 1.000001)! * power : 1;
-    }
+    this.scale ??= suitableMagnification(this.grid, this.size, this.shape.field('displacement'), this.shape.field('strain'));
     return this.scale;
   }
 
   set(look: Look, ink: string, paper: string) {
     this.place(look.state, look.scale);
+    this.triangleObject.geometry = look.field && !look.field.onPoints ? this.apart() : this.smooth;
     this.colour(look);
     this.lineObject.visible = look.mesh;
+    this.ridgeObject.visible = this.result.dimension === 3 && !!look.field;
+    if (this.ridgeObject.visible && !this.ridges.index) this.ridges.setIndex(new THREE.BufferAttribute(featureEdges(this.grid), 1));
+    this.material.uniforms.shade.value = this.result.dimension === 3 && (!look.field || look.light) ? 1 : 0;
     this.lineMaterial.color.set(look.field ? '#000000' : ink);
     this.lineMaterial.opacity = look.field ? 0.17 : 0.5;
     const plain = new THREE.Color(paper);
     (this.material.uniforms.plain.value as THREE.Vector3).set(plain.r, plain.g, plain.b);
     this.material.uniforms.coloured.value = look.field ? 1 : 0;
-    this.material.uniforms.colours.value = look.range.signed ? this.maps.signed : this.maps.even;
+    this.material.uniforms.colours.value = colourTexture(look.range.signed, look.bands ?? 0);
+    this.line(look);
   }
 
   /** What the body covers of the scene over all states; of a thin body the arrows of its poling reach beyond it. */
@@ -133,7 +162,7 @@ export class Body {
       high[c] = Math.max(high[c], at);
     };
     const { points } = this.grid;
-    const displacement = this.result.field('displacement');
+    const displacement = this.shape.field('displacement');
     ['x', 'y', 'z'].forEach((axis, c) => {
       const u = displacement?.has(axis) ? displacement.values(axis).data : new Float32Array(points.length / 3);
       for (let i = 0, node = c; i < u.length; ++i, node = node + 3 < points.length ? node + 3 : c)
@@ -148,46 +177,57 @@ export class Body {
     if (key === this.placed) return;
     this.placed = key;
     const { points } = this.grid;
-    const displacement = this.result.field('displacement');
-    const axes = ['x', 'y', 'z'].map((c) => (displacement?.has(c) ? displacement.values(c) : undefined));
+    const displacement = this.shape.field('displacement');
     const n = points.length / 3;
-    for (let i = 0; i < n; ++i)
-      for (let c = 0; c < 3; ++c) {
-        const u = axes[c] ? axes[c]!.data[state * n + i] : 0;
-        this.places[3 * i + c] = (points[3 * i + c] - this.centre[c] + scale * u) / this.size;
-      }
-    this.spread(this.triangles, this.grid.triangles);
-    this.spread(this.lines, this.grid.edges);
+    ['x', 'y', 'z'].forEach((axis, c) => {
+      const u = scale !== 0 && displacement?.has(axis) ? displacement.values(axis).data : undefined;
+      for (let i = 0, k = c, at = state * n; i < n; ++i, k += 3, ++at)
+        this.places[k] = (points[k] - this.centre[c] + (u ? scale * u[at] : 0)) / this.size;
+    });
+    this.smooth.getAttribute('position').needsUpdate = true;
+    this.spread = false;
   }
 
-  // From nodes to the corners of triangles or lines.
-  private spread(geometry: THREE.BufferGeometry, corners: Uint32Array) {
-    const attribute = geometry.getAttribute('position') as THREE.BufferAttribute;
-    const to = attribute.array as Float32Array;
-    for (let i = 0; i < corners.length; ++i) {
-      const node = 3 * corners[i];
-      to[3 * i] = this.places[node];
-      to[3 * i + 1] = this.places[node + 1];
-      to[3 * i + 2] = this.places[node + 2];
+  // The triangles with corners of their own, where the nodes are.
+  private apart(): THREE.BufferGeometry {
+    const { triangles } = this.grid;
+    if (!this.flat) {
+      this.flat = new THREE.BufferGeometry();
+      this.flat.setAttribute('position', new THREE.BufferAttribute(new Float32Array(3 * triangles.length), 3));
+      this.flat.setAttribute('level', new THREE.BufferAttribute(new Float32Array(triangles.length), 1));
     }
+    if (this.spread) return this.flat;
+    this.spread = true;
+    const attribute = this.flat.getAttribute('position') as THREE.BufferAttribute;
+    const to = attribute.array as Float32Array;
+    for (let i = 0; i < triangles.length; ++i)
+      for (let c = 0; c < 3; ++c) to[3 * i + c] = this.places[3 * triangles[i] + c];
     attribute.needsUpdate = true;
+    return this.flat;
   }
 
   private colour(look: Look) {
     if (!look.field) return;
-    const key = `${look.state} ${look.field.name} ${look.component} ${look.range.low} ${look.range.high}`;
+    const key = `${look.state} ${look.field.name} ${look.component} ${look.range.low} ${look.range.high} ${!!look.range.logarithmic}`;
     if (key === this.coloured) return;
     this.coloured = key;
     const { data, places } = look.field.values(look.component);
-    const { triangles, triangleCells } = this.grid;
-    const attribute = this.triangles.getAttribute('level') as THREE.BufferAttribute;
+    const attribute = this.triangleObject.geometry.getAttribute('level') as THREE.BufferAttribute;
     const to = attribute.array as Float32Array;
-    const { low, high } = look.range;
-    for (let i = 0; i < triangles.length; ++i) {
-      const place = look.field.onPoints ? triangles[i] : triangleCells[(i / 3) | 0];
-      to[i] = (data[look.state * places + place] - low) / (high - low);
+    const first = look.state * places, { low, high, logarithmic } = look.range;
+    for (let i = 0; i < to.length; ++i) {
+      const place = look.field.onPoints ? i : this.grid.triangleCells[(i / 3) | 0];
+      to[i] = logarithmic ? levelOf(look.range, data[first + place]) : (data[first + place] - low) / (high - low);
     }
     attribute.needsUpdate = true;
+  }
+
+  private line(look: Look) {
+    this.isolineObject.visible = !!look.levels?.length;
+    if (!this.isolineObject.visible) return;
+    this.isolineObject.geometry.dispose();
+    this.isolineObject.geometry = new THREE.BufferGeometry();
+    this.isolineObject.geometry.setAttribute('position', new THREE.BufferAttribute(isolines(this, look, look.levels!), 3));
   }
 
   /** Facets of the boundaries as coloured surfaces, for three dimensions. */
@@ -271,12 +311,13 @@ export function valueAt(grid: Grid, field: Field, component: string, state: numb
   return sum;
 }
 
-function extentOf(points: Float32Array): [[number, number, number], number] {
+/** Middle and extents along the axes. */
+function extentOf(points: Float32Array): [[number, number, number], number[]] {
   const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
   for (let i = 0; i < points.length; ++i) {
     low[i % 3] = Math.min(low[i % 3], points[i]);
     high[i % 3] = Math.max(high[i % 3], points[i]);
   }
   const middle = low.map((v, c) => (v + high[c]) / 2) as [number, number, number];
-  return [middle, Math.max(...low.map((v, c) => high[c] - v))];
+  return [middle, low.map((v, c) => high[c] - v)];
 }

@@ -1,9 +1,11 @@
 // Colour maps come from the program, so that page and figures agree.
+import { banded, MapPair } from './colour_maps';
 
 export interface Range {
   low: number;
   high: number;
   signed: boolean;
+  logarithmic?: boolean;
   /** there are lower or greater values than the range's */
   cutBelow?: boolean;
   cutAbove?: boolean;
@@ -23,22 +25,49 @@ export function colourRange(least: number, greatest: number): Range {
   return { low: least, high: greatest, signed: false };
 }
 
-let maps: Record<'even' | 'signed', string>;
-export function useColourMaps(given: Record<'even' | 'signed', string>) { maps = given; }
+let maps: MapPair;
+export function useColourMaps(given: MapPair) { maps = given; }
 
-/** 256 colours as bytes r, g, b, 255. */
-export function mapBytes(signed: boolean): Uint8Array {
+/** 256 colours as hexadecimal digits, in so many bands if there are any. */
+export function mapHex(signed: boolean, bands = 0): string {
   const hex = maps[signed ? 'signed' : 'even'];
-  const bytes = new Uint8Array(1024).fill(255);
-  for (let i = 0; i < 768; ++i)
-    bytes[4 * Math.floor(i / 3) + (i % 3)] = parseInt(hex.substr(2 * i, 2), 16);
+  return bands > 0 ? banded(hex, bands) : hex;
+}
+
+const unpacked = new Map<string, Uint8Array>();
+
+/** The same as bytes r, g, b, 255. */
+export function mapBytes(signed: boolean, bands = 0): Uint8Array {
+  const hex = mapHex(signed, bands);
+  let bytes = unpacked.get(hex);
+  if (!bytes) {
+    bytes = new Uint8Array(1024).fill(255);
+    for (let i = 0; i < 768; ++i) bytes[4 * Math.floor(i / 3) + (i % 3)] = parseInt(hex.substr(2 * i, 2), 16);
+    unpacked.set(hex, bytes);
+  }
   return bytes;
 }
 
-export function mapGradient(signed: boolean, direction: string): string {
-  const hex = maps[signed ? 'signed' : 'even'];
-  const stops = Array.from({ length: 33 }, (_, i) => '#' + hex.substr(6 * Math.round((i * 255) / 32), 6));
-  return `linear-gradient(${direction}, ${stops.join(', ')})`;
+const pictures = new Map<string, string>();
+
+/** The map from left to right as a data address. */
+export function mapPicture(signed: boolean, bands = 0): string {
+  const key = `${mapHex(signed)} ${bands}`;
+  let address = pictures.get(key);
+  if (!address) {
+    const bytes = mapBytes(signed);
+    const shown = new Uint8ClampedArray(bytes.length);
+    for (let i = 0; i < 256; ++i) {
+      const from = bands > 0 ? Math.round(((Math.min(bands - 1, Math.floor((i * bands) / 256)) + 0.5) / bands) * 255) : i;
+      shown.set(bytes.subarray(4 * from, 4 * from + 4), 4 * i);
+    }
+    const canvas = document.createElement('canvas');
+    [canvas.width, canvas.height] = [256, 1];
+    canvas.getContext('2d')!.putImageData(new ImageData(shown, 256, 1), 0, 0);
+    address = canvas.toDataURL();
+    pictures.set(key, address);
+  }
+  return address;
 }
 
 /** Colours that differ for all eyes (Okabe and Ito), for lines and boundaries. */

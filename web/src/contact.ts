@@ -1,5 +1,6 @@
 // Along the contact boundary of a plane body, each connected piece apart: opening and tractions with the bound, slip,
 // temperature and potential, what crosses, and a map of stick and slip over place and time.
+import { Cell, Group } from './arrangement';
 import { allZero, Chart, Curve } from './chart';
 import { ContactLine, contactLines, contactNodes, stepAt, stepEnds } from './contact_line';
 import { ContactNode, hasDiagrams } from './contact_node';
@@ -19,7 +20,7 @@ type Series = { label: string; values: (row: number, at: number) => number; colo
 
 export class Contact {
   /** one for each piece */
-  readonly groups: HTMLElement[] = [];
+  readonly groups: Group[] = [];
   private readonly updates: (() => void)[] = [];
   private readonly nodes: number;
   private readonly ends: number[];
@@ -31,17 +32,17 @@ export class Contact {
     lines.forEach((line, i) => this.groups.push(this.piece(line, i, lines.length > 1)));
     if (lines.length > 0 && hasDiagrams(result)) {
       const node = new ContactNode(result, timeline, lines);
-      this.groups.push(node.box);
+      this.groups.push(node.group);
       this.updates.push(() => node.update());
     }
   }
 
   update() { for (const update of this.updates) update(); }
 
-  private piece(line: ContactLine, number: number, several: boolean): HTMLElement {
-    const charts: HTMLElement[] = [];
+  private piece(line: ContactLine, number: number, several: boolean): Group {
+    const cells: Cell[] = [];
     const add = (title: string, unit: string, series: Series[], noise = false, note = '') =>
-      charts.push(this.chart(line, `${number} ${this.sync}`, title, unit, series, noise, note));
+      cells.push(this.chart(line, `${number} ${this.sync}`, title, unit, series, noise, note));
     const { normal, tangential, slip, gap } = contactRoundOff(this.result);
     const theta = !!this.result.field('temperature')?.belowRoundOff;
     const traction = this.of('normal_traction');
@@ -65,16 +66,15 @@ export class Contact {
     if (this.result.contact!.column('charge_flux')?.some((v) => v !== 0))
       add('Charge out of the body', 'C/m²', [{ label: 'D·ν', values: this.of('charge_flux'), colour: lineColours[4] }], phi);
     const map = new StatusMap(this.result, line, this.nodes, this.ends, this.timeline);
-    charts.push(map.box);
+    cells.push({ title: map.title, box: map.box });
     this.updates.push(() => map.redraw());
     const from = [line.name, line.origin].filter((text) => text).join(': ');
-    return element('div', { class: 'piece', 'data-piece': line.name },
-      (several || line.origin !== '') && element('h4', {}, several ? from : line.origin),
-      element('div', { class: 'charts' }, ...charts));
+    const heading = several || line.origin !== '' ? element('h4', {}, several ? from : line.origin) : undefined;
+    return { key: `piece ${line.name}`, heading, piece: line.name, cells };
   }
 
   private chart(line: ContactLine, sync: string, title: string, unit: string, series: Series[], noise: boolean,
-    note: string): HTMLElement {
+    note: string): Cell {
     const at = (k: number, s: Series) => line.order.map((row, j) => s.values(k * this.nodes + row, j));
     const all = series.filter((s) => !s.dashed).flatMap((s) => this.ends.flatMap((_, k) => at(k, s)));
     if (allZero(all)) return said(title, `0 everywhere, at all moments`);
@@ -88,9 +88,9 @@ export class Contact {
       return series.map((s) => ({ ...s, points: line.order.length < 3 && !s.dashed,
         values: k < 0 ? line.order.map(() => null) : at(k, s) }));
     };
-    const chart = new Chart({ title, note, xLabel: line.label, unit, sync: 'place' + sync, least, greatest }, line.along, curves());
+    const chart = new Chart({ title, note, group: 'contact', xLabel: line.label, unit, sync: 'place' + sync, least, greatest }, line.along, curves());
     this.updates.push(() => chart.update(curves()));
-    return chart.box;
+    return { title, box: chart.box };
   }
 
   private of(name: string) {
@@ -116,6 +116,7 @@ export class Contact {
 }
 
 /** In the place of a chart that would have nothing to draw. */
-function said(title: string, text: string): HTMLElement {
-  return element('figure', { class: 'chart' }, element('figcaption', {}, title), element('p', { class: 'note' }, text));
+function said(title: string, text: string): Cell {
+  const box = element('figure', { class: 'chart' }, element('figcaption', {}, title), element('p', { class: 'note' }, text));
+  return { title, box };
 }

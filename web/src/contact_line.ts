@@ -30,9 +30,9 @@ export function stepEnds(result: Result): number[] {
   return Array.from({ length: time.length / nodes }, (_, k) => time[k * nodes]);
 }
 
-/** The step whose end is nearest; -1 for the initial state, which has no rows. */
+/** The step whose end is nearest; -1 for the initial state, which has no rows, and behind the end of the run. */
 export function stepAt(ends: number[], time: number): number {
-  if (time < ends[0] / 2) return -1;
+  if (time < ends[0] / 2 || time > ends[ends.length - 1] * (1 + 3e-7)) return -1;
   let best = 0;
   for (let k = 1; k < ends.length; ++k) if (Math.abs(ends[k] - time) < Math.abs(ends[best] - time)) best = k;
   return best;

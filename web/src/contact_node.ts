@@ -1,10 +1,12 @@
 // One contact node of the reader's choice over the steps: tangential traction over slip, friction bound over pressure,
 // pressure over opening.
+import { Group } from './arrangement';
 import { lineColours } from './colours';
 import { ContactLine, contactNodes, stepAt, stepEnds } from './contact_line';
 import { negligibleMove } from './contact_round_off';
 import { Diagram, Path } from './diagram';
 import { element } from './dom';
+import { isReached, notReached } from './moments';
 import { shown } from './numbers';
 import { Result } from './results';
 import { statusNames } from './status_map';
@@ -23,7 +25,7 @@ export const hasDiagrams = (result: Result) => result.contactOpens || !!result.c
 interface Place { row: number; tangent?: Vector }
 
 export class ContactNode {
-  readonly box: HTMLElement;
+  readonly group: Group;
   private readonly nodes: number;
   private readonly ends: number[];
   private readonly places: Place[];
@@ -46,10 +48,12 @@ export class ContactNode {
     this.slider = element('input', { type: 'range', min: 0, max: this.places.length - 1, step: 1, value: this.chosen,
       'aria-label': 'contact node', oninput: () => this.show(Number(this.slider.value)) });
     this.addDiagrams();
-    this.box = element('div', { class: 'piece node' }, element('h4', {}, 'At one node, step by step'),
+    const chosen = element('div', {},
       element('label', { class: 'control' }, element('span', {}, lines ? 'node' : 'node; a click on a map chooses it too'),
         this.slider, this.where),
-      this.said, this.direction, element('div', { class: 'charts' }, ...this.diagrams.map((d) => d.diagram.box)));
+      this.said, this.direction);
+    this.group = { key: 'node', kind: 'node', heading: element('h4', {}, 'At one node, step by step'),
+      cells: [{ title: '', box: chosen }, ...this.diagrams.map(({ diagram }) => ({ title: diagram.title, box: diagram.box }))] };
     this.update();
   }
 
@@ -148,7 +152,9 @@ export class ContactNode {
     this.direction.textContent = this.places[this.chosen].tangent ? ''
       : `Slip and traction along (${along.map((v) => shown(v, 3)).join(', ')}), the direction of the node's greatest slip.`;
     const step = this.step();
-    if (step < 0) return this.said.replaceChildren('At the start there is nothing to tell.');
+    if (step < 0)
+      return this.said.replaceChildren(isReached(this.result, this.timeline.time) ? 'At the start there is nothing to tell.'
+        : `Nothing to tell: ${notReached(this.result)}.`);
     const number = (name: string, label: string, value: number | undefined, unit: string) => value !== undefined &&
       element('span', { 'data-quantity': name, 'data-value': value }, `${label} ${shown(value, 5)} ${unit}`);
     const parts = [

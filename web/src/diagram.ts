@@ -1,8 +1,13 @@
 // One quantity over another, step by step: a path that may turn back, with a mark at the moment.
 import uPlot from 'uplot';
 import { padded } from './chart';
-import { element } from './dom';
+import { curveSheet } from './curve_sheet';
+import { element, swatch } from './dom';
+import { Drawing } from './on_screen';
 import { shown, thousands, unitWith } from './numbers';
+import { Point } from './pen';
+import { csv, fileName, saveButtons, saveText } from './save';
+import { TableBehind } from './table_behind';
 import { colour, onTheme } from './theme';
 
 export interface Path {
@@ -24,27 +29,47 @@ export class Diagram {
   readonly box: HTMLElement;
   private readonly place = element('div', { class: 'plot' });
   private plot?: uPlot;
+  private readonly drawing: Drawing;
+  private readonly table: TableBehind;
 
   /** `at`: the step to be marked, or -1 */
   constructor(private readonly options: DiagramOptions, private paths: Path[], private readonly at: () => number) {
+    this.table = new TableBehind(() => options.title, () => [
+      { name: `${options.x.label}`, unit: options.x.unit, values: this.paths[0]?.x ?? [] },
+      ...this.paths.map((path) => ({ name: path.label, unit: options.y.unit, values: path.y }))]);
     const key = element('ul', { class: 'legend inline' }, ...paths.map((path) =>
-      element('li', {}, element('span', { class: 'swatch', style: `background:${path.colour}` }), path.label)));
-    this.box = element('figure', { class: 'chart' }, element('figcaption', {}, options.title), this.place, paths.length > 1 && key);
-    new ResizeObserver(() => {
-      const width = this.place.clientWidth;
-      if (!this.plot) this.build();
-      else if (width > 0 && Math.abs(width - this.plot.width) > 1) this.plot.setSize({ width, height: 230 });
-    }).observe(this.place);
-    onTheme(() => this.build());
+      element('li', {}, swatch(path.colour), path.label)));
+    this.box = element('figure', { class: 'chart' }, element('figcaption', {}, options.title),
+      saveButtons('the curves', [['SVG', () => this.saveDrawing()], ['CSV', () => this.saveNumbers()]]), this.place,
+      paths.length > 1 && key, this.table.box);
+    this.drawing = new Drawing(this.place, () => this.draw());
+    onTheme(() => this.rebuild());
   }
 
   /** Other values of the same paths. */
   update(paths: Path[]) {
     this.paths = paths;
-    this.build();
+    this.table.refresh();
+    this.rebuild();
   }
 
-  redraw() { this.plot?.redraw(false); }
+  get title(): string { return this.options.title; }
+
+  redraw() { this.drawing.ask(); }
+
+  private rebuild() {
+    this.plot?.destroy();
+    this.plot = undefined;
+    this.drawing.ask();
+  }
+
+  private draw() {
+    const width = this.place.clientWidth;
+    if (width === 0) return;
+    if (!this.plot) return this.build(width);
+    if (Math.abs(width - this.plot.width) > 1) this.plot.setSize({ width, height: 230 });
+    this.plot.redraw(false);
+  }
 
   private range(of: 'x' | 'y'): { power: number; ends: [number, number] } {
     // 0 is always seen: where the path begins.
@@ -55,11 +80,23 @@ export class Diagram {
     return { power, ends: padded(least, greatest, 10 ** -power) };
   }
 
-  private build() {
-    this.plot?.destroy();
-    this.plot = undefined;
-    const width = this.place.clientWidth;
-    if (width === 0) return;
+  private saveNumbers() {
+    const { title, x, y } = this.options;
+    const named = ({ label, unit }: { label: string; unit: string }, of: string) => `${label} ${of} [${unit}]`;
+    saveText(fileName(title) + '.csv', 'text/csv', csv(this.paths.flatMap((p) => [named(x, p.label), named(y, p.label)]),
+      this.paths.flatMap((p) => [p.x, p.y])));
+  }
+
+  private saveDrawing() {
+    const { title, x, y } = this.options;
+    const across = this.range('x'), up = this.range('y');
+    saveText(fileName(title) + '.svg', 'image/svg+xml', curveSheet({ title,
+      x: { label: `${x.label} [${unitWith(across.power, x.unit)}]`, ends: across.ends },
+      y: { label: `${y.label} [${unitWith(up.power, y.unit)}]`, ends: up.ends },
+      curves: this.paths.map((p) => ({ ...p, points: p.x.map((v, k): Point => [v / 10 ** across.power, p.y[k] / 10 ** up.power]) })) }));
+  }
+
+  private build(width: number) {
     const { x, y } = this.options;
     const across = this.range('x'), up = this.range('y');
     const label = (name: string, power: number, unit: string) => `${name} [${unitWith(power, unit)}]`;

@@ -29,3 +29,8 @@ export function tick(label: string, on: boolean, change: (on: boolean) => void):
   const input = element('input', { type: 'checkbox', checked: on, onchange: () => change(input.checked) });
   return element('label', { class: 'tick' }, input, label);
 }
+
+/** A square in a legend. Its border is its colour, as backgrounds are not printed. */
+export function swatch(colour: string): HTMLElement {
+  return element('span', { class: 'swatch', style: `border-color:${colour}`, 'data-colour': colour });
+}

@@ -1,4 +1,5 @@
 // Over time: energies, powers, iterations, the state of the contact, charges, extremes.
+import { Cell } from './arrangement';
 import { allZero, Chart, Curve } from './chart';
 import { lineColours } from './colours';
 import { element } from './dom';
@@ -6,7 +7,7 @@ import { shown } from './numbers';
 import { Result, Table } from './results';
 import { Timeline } from './timeline';
 
-export interface Group {
+export interface Quantity {
   title: string;
   unit: string;
   columns: [name: string, label: string][];
@@ -34,7 +35,7 @@ function roundOff(history: Table) {
   return { electric, thermal, charge: electric + (potential > 0 ? (1e-11 * energies[1]) / potential : 0) };
 }
 
-function groups(history: Table, perDepth: boolean): Group[] {
+function groups(history: Table, perDepth: boolean): Quantity[] {
   const per = perDepth ? '/m' : '';
   const named = (prefix: string) => history.names.filter((n) => n.startsWith(prefix) && !n.endsWith('_imbalance'))
     .map((n): [string, string] => [n, n.slice(prefix.length)]);
@@ -59,7 +60,7 @@ function groups(history: Table, perDepth: boolean): Group[] {
       ['time_step_loss', 'time step']] },
     { title: 'Newton iterations', unit: '', columns: [['newton_iterations', 'iterations']], bars: true },
     { title: 'Contact nodes', unit: '', columns: [['stick', 'stick'], ['slip', 'slip'], ['open', 'open']] },
-    ...named('stick_').map(([, name]): Group => ({ title: `Contact nodes of ${name}`, unit: '',
+    ...named('stick_').map(([, name]): Quantity => ({ title: `Contact nodes of ${name}`, unit: '',
       columns: [[`stick_${name}`, 'stick'], [`slip_${name}`, 'slip'], [`open_${name}`, 'open']] })),
     { title: 'Charge', unit: 'C' + per, columns: named('charge_'), least: least.charge },
     { title: 'Heat out of the body', unit: 'W' + per, columns: named('heat_').filter(([n]) => n !== 'heat_source'),
@@ -77,19 +78,23 @@ const mostStepsInTable = 3;
 
 /** Curves of a table that has a row for each step. */
 export class Curves {
-  readonly content: HTMLElement;
+  readonly cells: Cell[];
 
-  constructor(history: Table, all: Group[], private readonly timeline: Timeline, private readonly sync: string) {
+  /** `group`: of charts that share their axes with those of another run */
+  constructor(history: Table, all: Quantity[], private readonly timeline: Timeline, private readonly sync: string,
+    private readonly group: string) {
     const time = [...(history.column('time') ?? [])];
     const parts = all.map((group) => ({ group, curves: curvesOf(group, history) })).filter(({ curves }) => curves.length > 0);
     const silent = all.filter((g) => g.columns.some(([n]) => isRoundOff(g, history, n)) && !parts.some((p) => p.group === g));
     const notes = silent.length > 0 && element('p', { class: 'note' }, `Below round-off: ${silent.map((g) => g.title).join(', ')}.`);
-    this.content = element('div', {}, time.length <= mostStepsInTable ? tableOf(parts, time)
-      : element('div', { class: 'charts' }, ...parts.map(({ group, curves }) => this.chart(group, curves, time))), notes);
+    const isTable = time.length <= mostStepsInTable;
+    this.cells = isTable ? [{ title: '', box: element('div', {}, tableOf(parts, time), notes) }]
+      : [...parts.map(({ group, curves }) => ({ title: group.title, box: this.chart(group, curves, time) })),
+        ...(notes ? [{ title: '', box: notes }] : [])];
   }
 
-  private chart(group: Group, curves: Curve[], time: number[]): HTMLElement {
-    return new Chart({ title: group.title, xLabel: 't [s]', unit: group.unit, sync: 'time' + this.sync,
+  private chart(group: Quantity, curves: Curve[], time: number[]): HTMLElement {
+    return new Chart({ title: group.title, xLabel: 't [s]', unit: group.unit, group: this.group, sync: 'time' + this.sync,
       least: 0, mark: () => this.timeline.time }, time, curves).box;
   }
 }
@@ -99,16 +104,16 @@ export class History extends Curves {
     const history = result.history!;
     super(history, groups(history, result.perDepth)
       .filter((g) => !g.bars || !!result.contact?.rows || !g.columns.every(([n]) => greatest(history, n) === 0)),
-      timeline, sync);
+      timeline, sync, 'history');
   }
 }
 
-function isRoundOff(group: Group, history: Table, name: string): boolean {
+function isRoundOff(group: Quantity, history: Table, name: string): boolean {
   const size = greatest(history, name);
   return size > 0 && size <= (group.least ?? 0);
 }
 
-function curvesOf(group: Group, history: Table): Curve[] {
+function curvesOf(group: Quantity, history: Table): Curve[] {
   return group.columns.flatMap(([name, label], i): Curve[] => {
     const values = history.column(name);
     if (!values || (group.columns.length > 1 && allZero(values)) || isRoundOff(group, history, name)) return [];
@@ -118,7 +123,7 @@ function curvesOf(group: Group, history: Table): Curve[] {
 }
 
 /** A row for each quantity, a column for each step. */
-function tableOf(parts: { group: Group; curves: Curve[] }[], time: number[]): HTMLElement {
+function tableOf(parts: { group: Quantity; curves: Curve[] }[], time: number[]): HTMLElement {
   const head = element('tr', {}, element('th', { scope: 'col' }, 't'),
     ...time.map((t) => element('th', { scope: 'col' }, `${shown(t, 4)} s`)));
   const rows = parts.flatMap(({ group, curves }) => curves.map((curve) => element('tr', {},

@@ -2,13 +2,19 @@
 import 'uplot/dist/uPlot.min.css';
 import './style.css';
 import { Body } from './body';
-import { redrawMarks } from './chart';
+import { arranged } from './arrangement';
+import { bothInOne } from './both_in_one';
+import { redrawMarks, shareAxes } from './chart';
+import { mapsNamed } from './colour_maps';
 import { useColourMaps } from './colours';
 import { Contact } from './contact';
-import { ContactFace } from './contact_face';
-import { element } from './dom';
+import { ContactFace, shareFaceColours } from './contact_face';
+import { element, tick } from './dom';
 import { Explorer } from './explorer';
 import { History } from './history';
+import { isReached, notReached } from './moments';
+import { shown } from './numbers';
+import { playback } from './playback';
 import { probes } from './probes';
 import { Overview } from './overview';
 import { load, Result } from './results';
@@ -26,13 +32,34 @@ const drawn = results.filter((r) => r.grid);
 const several = results.length > 1;
 
 function section(id: string, title: string, ...content: (HTMLElement | false)[]): HTMLElement {
-  return element('section', { id, 'aria-labelledby': `${id}-title` }, element('h2', { id: `${id}-title` }, title), ...content);
+  return element('section', { id, 'aria-labelledby': `${id}-title` },
+    element('h2', { id: `${id}-title` }, title, ['overview', 'fields', 'contact'].includes(id) && printedMoment()), ...content);
+}
+
+/** The moment, for paper, which has no time bar. */
+function printedMoment(): HTMLElement {
+  const text = element('span', { class: 'printed' });
+  const say = () => { text.textContent = `, t = ${shown(timeline.time)} s`; };
+  timeline.onChange(say);
+  say();
+  return text;
 }
 
 /** The same part of each result, side by side where there is room. */
 function beside(make: (result: Result) => HTMLElement | false): HTMLElement {
   return element('div', { class: `beside beside-${results.length}` }, ...results.map((result) => element('div', {},
     several && element('h3', { class: 'whose' }, result.title), make(result))));
+}
+
+/** Which of the runs does not reach the moment. */
+function strays(): HTMLElement {
+  const box = element('div', { class: `beside beside-${results.length}` }, ...results.map(() => element('p', { class: 'stray', role: 'status' })));
+  const say = () => results.forEach((result, i) => {
+    box.children[i].textContent = isReached(result, timeline.time) ? '' : notReached(result);
+  });
+  timeline.onChange(say);
+  say();
+  return box;
 }
 
 function header(): HTMLElement {
@@ -49,11 +76,13 @@ function notices(): HTMLElement | false {
 }
 
 document.title = results.map((r) => r.title).join(' | ');
-const longest = results.reduce((a, b) => (b.times.length > a.times.length ? b : a));
-const timeline = new Timeline(longest.times, longest.grid ? longest.steps : [...(longest.history?.column('step') ?? [])]);
+const timeline = new Timeline(results);
+timeline.bar.append(playback(timeline));
+new ResizeObserver(() => document.documentElement.style.setProperty('--bar', `${timeline.bar.offsetHeight}px`)).observe(timeline.bar);
 startTheme();
-page.append(header(), ...[notices()].filter((n): n is HTMLElement => !!n));
+page.append(header(), ...(timeline.moments.length > 1 ? [timeline.bar] : []), ...[notices()].filter((n): n is HTMLElement => !!n));
 
+const onMap: (() => void)[] = [];
 if (drawn.length > 0 && !obstacle()) {
   const bodies = drawn.map((r) => new Body(r));
   const explorer = new Explorer(bodies, timeline);
@@ -67,30 +96,50 @@ if (drawn.length > 0 && !obstacle()) {
     several && element('h3', { class: 'whose' }, drawn[i].title), o.box))),
     section('fields', 'Fields', explorer.box));
   const all = () => { for (const overview of overviews) overview.draw(); explorer.refresh(); };
-  timeline.onChange(all);
+  timeline.onChange(() => { for (const overview of overviews) overview.move(); explorer.refresh(); });
   onTheme(all);
-  new ResizeObserver(all).observe(page);
-  all();
-
+  const { display } = explorer;
+  let map = '';
+  const useMap = () => {
+    if (map === display.map) return;
+    map = display.map;
+    useColourMaps(mapsNamed(display.map, colourMaps));
+    all();
+    for (const listener of onMap) listener();
+  };
+  display.onChange(useMap);
+  useMap();
 }
 
-const touching = results.filter((r) => r.contact && r.contact.rows > 0);
-if (touching.length > 0) {
-  const contacts = new Map(touching.map((r, i) =>
-    [r, r.dimension === 2 ? new Contact(r, timeline, String(i)) : new ContactFace(r, timeline)] as const));
-  page.append(section('contact', 'Along the contact', beside((r) => !!contacts.get(r) &&
-    element('div', {}, ...contacts.get(r)!.groups))));
-  timeline.onChange(() => { for (const contact of contacts.values()) contact.update(); });
+/** Whether the charts of a section have the same axes for both runs. */
+const axesChoice = (...groups: string[]) => several &&
+  tick('same axes', true, (on) => {
+    for (const group of groups) shareAxes(group, on);
+    if (groups.includes('contact')) shareFaceColours(on);
+  });
+
+if (results.some((r) => r.contact && r.contact.rows > 0)) {
+  const contacts = new Map(results.filter((r) => r.contact && r.contact.rows > 0).map((r) => [r, r.dimension === 2
+    ? new Contact(r, timeline, String(results.indexOf(r))) : new ContactFace(r, timeline)] as const));
+  page.append(section('contact', 'Along the contact', axesChoice('contact'), strays(),
+    arranged(results, (r) => contacts.get(r)?.groups ?? [])));
+  const update = () => { for (const contact of contacts.values()) contact.update(); };
+  timeline.onChange(update);
+  onMap.push(update);
 }
 if (results.some((r) => r.history)) {
-  page.append(section('history', 'Over time', beside((r) => !!r.history &&
-    new History(r, timeline, String(results.indexOf(r))).content)));
+  page.append(section('history', 'Over time', axesChoice('history'), arranged(results, (r) => (r.history
+    ? [{ key: '', cells: new History(r, timeline, String(results.indexOf(r))).cells }] : []))));
   timeline.onChange(redrawMarks);
 }
 if (results.some((r) => r.probes.length > 0)) {
-  page.append(section('probes', 'Probes', beside((r) => r.probes.length > 0 &&
-    probes(r, timeline, String(results.indexOf(r))))));
+  const names = [...new Set(results.flatMap((r) => r.probes.map(({ name }) => `probe ${name}`)))];
+  page.append(section('probes', 'Probes', axesChoice(...names),
+    arranged(results, (r) => probes(r, timeline, String(results.indexOf(r))))));
   if (!results.some((r) => r.history)) timeline.onChange(redrawMarks);
 }
+for (const id of ['contact', 'history', 'probes']) {
+  const charts = document.getElementById(id);
+  if (charts && several) bothInOne(charts, results.map((r) => r.title));
+}
 page.append(section('run', 'The run', beside((r) => runSection(r))));
-if (timeline.times.length > 1) document.body.append(timeline.bar);

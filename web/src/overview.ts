@@ -4,19 +4,23 @@ import { Body, Look } from './body';
 import { Camera } from './stage';
 import { Field, Result } from './results';
 import { peaks, shownRange } from './shown_range';
+import { Drawing } from './on_screen';
 import { Picture } from './picture';
 import { ColourBar } from './colour_bar';
 import { element } from './dom';
 import { fieldTitle, shown } from './numbers';
+import { stateAt, strayMoment } from './moments';
 import { coloursOf, groupsOf, legend } from './setting';
 import { Timeline } from './timeline';
 
-/** A camera that has the body in view at every moment. */
-export function homeCamera(body: Body, arrows = false): Camera {
-  const { low, high } = body.reach(body.suitableScale, arrows);
+/** A camera that has all of these bodies in view at every moment. */
+export function homeCamera(bodies: Body[], arrows = false): Camera {
+  const reaches = bodies.map((body) => body.reach(body.suitableScale, arrows));
+  const low = [0, 1, 2].map((c) => Math.min(...reaches.map((r) => r.low[c])));
+  const high = [0, 1, 2].map((c) => Math.max(...reaches.map((r) => r.high[c])));
   const middle = low.map((v, c) => (v + high[c]) / 2) as [number, number, number];
   const half = low.map((v, c) => (high[c] - v) / 2);
-  if (body.result.dimension === 3) {
+  if (bodies[0].result.dimension === 3) {
     const radius = 1.02 * Math.hypot(...half);
     return new Camera(3, middle, radius, radius);
   }
@@ -24,23 +28,32 @@ export function homeCamera(body: Body, arrows = false): Camera {
   return new Camera(2, middle, half[0] + room, half[1] + room);
 }
 
-interface Card { picture: Picture; look: (state: number) => Look; bar?: ColourBar; field?: Field }
+/** Bodies of one shape are looked at through one camera; others each through its own. */
+export function camerasOf(bodies: Body[]): Camera[] {
+  if (!bodies.every((body) => body.isShapedLike(bodies[0]))) return bodies.map((body) => homeCamera([body]));
+  const camera = homeCamera(bodies);
+  return bodies.map(() => camera);
+}
 
 export class Overview {
   readonly box: HTMLElement;
-  private readonly cards: Card[] = [];
+  private readonly drawings: Drawing[] = [];
+  private readonly moving: Drawing[] = [];
+  private readonly bars: (() => void)[] = [];
   private readonly result: Result;
+  private readonly stray = element('p', { class: 'stray', role: 'status' });
   constructor(body: Body, private readonly timeline: Timeline, pick: (field: string) => void) {
+    this.result = body.result;
     const { result } = body;
-    this.result = result;
     const groups = groupsOf(result);
     const scale = body.suitableScale;
     const even = { low: 0, high: 1, signed: false };
-    const camera = homeCamera(body);
+    const camera = homeCamera([body]);
     const figures: HTMLElement[] = [];
-    const add = (title: string, picture: Picture, look: Card['look'], below: HTMLElement, field?: Field,
-      bar?: ColourBar) => {
-      this.cards.push({ picture, look, field, bar });
+    const add = (title: string, picture: Picture, look: (state: number) => Look, below: HTMLElement, field?: Field) => {
+      const drawing = new Drawing(picture.canvas, () => picture.show(look(stateAt(result, timeline.time))));
+      this.drawings.push(drawing);
+      if (title !== 'Physical setting') this.moving.push(drawing);
       const heading = field
         ? element('button', { type: 'button', class: 'link', onclick: () => pick(field.name) }, title)
         : element('span', {}, title);
@@ -50,7 +63,7 @@ export class Overview {
         element('figcaption', {}, heading), picture.canvas, below));
     };
     if (result.boundaries.length > 0)
-      add('Physical setting', new Picture(body, homeCamera(body, true), coloursOf(groups)),
+      add('Physical setting', new Picture(body, homeCamera([body], true), coloursOf(groups)),
         () => ({ state: 0, scale: 0, mesh: false, component: '', range: even }), legend(groups, result));
     const plain = result.field('displacement');
     if (plain)
@@ -63,19 +76,29 @@ export class Overview {
       const field = result.field(name);
       if (!field) continue;
       const values = field.values('');
-      const range = shownRange(values, values.usual(peaks), field, values.error);
+      const range = shownRange(values, field.isUnknown ? values : values.usual(peaks), field, values.error);
       const bar = new ColourBar(true);
-      bar.show(range, field.unit);
+      const showBar = () => bar.show(range, field.unit);
+      this.bars.push(showBar);
+      showBar();
       add(fieldTitle(name), new Picture(body, camera),
         (state) => ({ state, scale, mesh: false, field: range.instead ? undefined : field, component: '', range }),
-        element('div', {}, bar.box, field.origin !== '' && element('p', { class: 'note' }, field.origin)), field, bar);
+        element('div', {}, bar.box, field.origin !== '' && element('p', { class: 'note' }, field.origin)), field);
     }
-    this.box = element('div', { class: 'cards' }, ...figures);
+    this.box = element('div', {}, this.stray, element('div', { class: 'cards' }, ...figures));
   }
 
   draw() {
-    const state = this.result.stateAt(this.timeline.time);
-    for (const card of this.cards) card.picture.show(card.look(state));
+    for (const show of this.bars) show();
+    for (const drawing of this.drawings) drawing.ask();
+    this.say();
   }
 
+  /** What another moment changes. */
+  move() {
+    for (const drawing of this.moving) drawing.ask();
+    this.say();
+  }
+
+  private say() { this.stray.textContent = strayMoment(this.result, this.timeline.time); }
 }

@@ -22,11 +22,10 @@ function bytesOf(packed: Packed): Uint8Array {
   return unzlibSync(bytes);
 }
 
-function words(bytes: Uint8Array, size: number): Uint32Array {
-  const n = bytes.length / size;
+function words(bytes: Uint8Array): Uint32Array {
+  const n = bytes.length / 4;
   const result = new Uint32Array(n);
-  for (let b = 0; b < size; ++b)
-    for (let i = 0; i < n; ++i) result[i] |= bytes[b * n + i] << (8 * b);
+  for (let i = 0; i < n; ++i) result[i] = bytes[i] | (bytes[n + i] << 8) | (bytes[2 * n + i] << 16) | (bytes[3 * n + i] << 24);
   return result;
 }
 
@@ -34,40 +33,39 @@ function words(bytes: Uint8Array, size: number): Uint32Array {
 const unfolded = (word: number) => (word >>> 1) ^ -(word & 1);
 
 export function unpackIntegers(packed: Packed): Uint32Array {
-  const result = words(bytesOf(packed), 4);
+  const result = words(bytesOf(packed));
   for (let i = 0; i < result.length; ++i)
     result[i] = unfolded(result[i]) + (i > 0 ? result[i - 1] : 0);
   return result;
 }
 
 function unpackFloats(packed: Packed): Float32Array {
-  const differences = words(bytesOf(packed), 4);
+  const differences = words(bytesOf(packed));
   const result = new Float32Array(differences.length);
-  const bits = new Uint32Array(result.buffer);
+  const bits = new Int32Array(result.buffer);
   const line = new Float32Array(1);
-  const lineBits = new Uint32Array(line.buffer);
+  const lineBits = new Int32Array(line.buffer);
   const n = packed.columns;
   for (let i = 0; i < result.length; ++i) {
-    if (i < n) line[0] = i === 0 ? 0 : result[i - 1];
-    else if (i < 2 * n) line[0] = result[i - n];
-    else line[0] = Math.fround(2 * result[i - n]) - result[i - 2 * n];
-    if (Number.isNaN(line[0])) line[0] = 0;
-    const ordered = lineBits[0] >>> 31 ? ~lineBits[0] : lineBits[0] | 0x80000000;
-    const value = (ordered + unfolded(differences[i])) >>> 0;
-    bits[i] = value >>> 31 ? value & 0x7fffffff : ~value;
+    const before = i < n ? (i === 0 ? 0 : result[i - 1]) : i < 2 * n ? result[i - n] : 2 * result[i - n] - result[i - 2 * n];
+    line[0] = before === before ? before : 0;
+    const word = lineBits[0];
+    const value = ((word < 0 ? ~word : word | 0x80000000) + unfolded(differences[i])) | 0;
+    bits[i] = value < 0 ? value & 0x7fffffff : ~value;
   }
   return result;
 }
 
 function unpackLevels(packed: Packed): Float32Array {
-  const levels = words(bytesOf(packed), 2);
-  const result = new Float32Array(levels.length);
-  const n = packed.columns;
-  for (let i = 0; i < levels.length; ++i) {
+  const bytes = bytesOf(packed);
+  const n = packed.columns, all = bytes.length / 2;
+  const levels = new Uint16Array(all), result = new Float32Array(all);
+  const low = packed.low!, step = packed.step!;
+  for (let i = 0; i < all; ++i) {
     const line = i < n ? (i === 0 ? 0 : levels[i - 1])
       : i < 2 * n ? levels[i - n] : 2 * levels[i - n] - levels[i - 2 * n];
-    levels[i] = (line + unfolded(levels[i])) & 0xffff;
-    result[i] = packed.low! + packed.step! * levels[i];
+    levels[i] = line + unfolded(bytes[i] | (bytes[all + i] << 8));
+    result[i] = low + step * levels[i];
   }
   return result;
 }

@@ -4,16 +4,20 @@ import { arrow } from './arrow';
 import { Body, Look } from './body';
 import { Camera, draw, fitted } from './stage';
 import { element } from './dom';
+import { Frame } from './frame';
+import { notReached } from './moments';
+import { CanvasPen, Pen } from './pen';
 import { colour } from './theme';
 
 export class Picture {
   readonly canvas = element('canvas', {});
   constructor(readonly body: Body, readonly camera: Camera, private readonly boundaries?: Map<string, string>) {}
 
-  show(look: Look) {
+  show(look: Look, upon?: (pen: Pen, frame: Frame) => void) {
     const size = fitted(this.canvas);
     if (!size) return;
-    this.camera.aim(size.width, size.height);
+    if (look.state < 0) return this.say(look.missing ?? notReached(this.body.result), size.ratio);
+    this.camera.aim(size.width, size.height, size.ratio);
     this.body.set(look, colour('--ink'), colour('--body'));
     const solid = this.body.result.dimension === 3;
     this.body.showSetting(solid && !!this.boundaries);
@@ -21,6 +25,23 @@ export class Picture {
     if (this.boundaries && !solid) this.outline(this.boundaries, 3.5 * size.ratio);
     else if (!solid) this.outline(undefined, size.ratio);
     if (this.boundaries) this.poling(size.ratio);
+    if (upon) this.cover(size.ratio, upon);
+  }
+
+  private cover(ratio: number, upon: (pen: Pen, frame: Frame) => void) {
+    const pen = new CanvasPen(this.canvas.getContext('2d')!, ratio);
+    upon(pen, new Frame(this.body, this.camera, pen.width, pen.height));
+    pen.end();
+  }
+
+  /** A text in place of the picture. */
+  private say(text: string, ratio: number) {
+    const context = this.canvas.getContext('2d')!;
+    context.clearRect(0, 0, this.canvas.width, this.canvas.height);
+    context.fillStyle = colour('--muted');
+    context.font = `${13 * ratio}px system-ui, sans-serif`;
+    context.textAlign = 'center';
+    context.fillText(text, this.canvas.width / 2, this.canvas.height / 2, 0.95 * this.canvas.width);
   }
 
   // Only places that are seen from the first position of the camera have an arrow, and the setting keeps it.

@@ -1,18 +1,19 @@
 // What the case's probes told over time: the fields at places, what goes through boundaries, what regions hold.
+import { Group } from './arrangement';
 import { allZero } from './chart';
 import { element } from './dom';
-import { Curves, Group } from './history';
+import { Curves, Quantity } from './history';
 import { Result, Table } from './results';
 import { Timeline } from './timeline';
 
 /** Of a plane body forces, charges, heats and energies hold for a metre of its depth. */
-function groups(table: Table, perDepth: boolean): Group[] {
+function groups(table: Table, perDepth: boolean): Quantity[] {
   const per = perDepth ? '/m' : '';
   const components = (prefix: string) => ['x', 'y', 'z'].filter((axis) => table.names.includes(prefix + axis))
     .map((axis): [string, string] => [prefix + axis, axis]);
   const range = (field: string) => [['mean_', 'mean'], ['min_', 'lowest'], ['max_', 'highest']]
     .map(([prefix, label]): [string, string] => [prefix + field, label]);
-  const all: Group[] = [
+  const all: Quantity[] = [
     { title: 'Force on the body', unit: 'N' + per, columns: components('force_') },
     { title: 'Moment of the force', unit: 'N m' + per, columns: components('moment_') },
     { title: 'Charge, the integral of D·ν', unit: 'C' + per, columns: [['charge', 'charge']] },
@@ -31,7 +32,7 @@ function groups(table: Table, perDepth: boolean): Group[] {
     ['charge', 'heat'].includes(name) && allZero(table.column(name) ?? [])));
 }
 
-export function probes(result: Result, timeline: Timeline, sync: string): HTMLElement {
-  return element('div', {}, ...result.probes.map(({ name, table }) => element('div', {}, element('h3', {}, name),
-    new Curves(table, groups(table, result.perDepth), timeline, sync).content)));
+export function probes(result: Result, timeline: Timeline, sync: string): Group[] {
+  return result.probes.map(({ name, table }) => ({ key: name, heading: element('h3', {}, name),
+    cells: new Curves(table, groups(table, result.perDepth), timeline, sync, `probe ${name}`).cells }));
 }

@@ -18,6 +18,8 @@ interface PackedResult {
     components: string[]; values: Packed[] }[];
   boundaries: { name: string; kind: string; conditions: string[]; sizes: Packed; nodes: Packed }[];
   contactPieces: { name: string; abscissa: string; origin: string; rows: Packed; along: Packed }[];
+  contactFaces: { contact: string; place: string; across: string; up: string; origin: string;
+    sizes: Packed; rows: Packed; x: Packed; y: Packed }[];
   parts: { name: string; material: string }[];
   unnamed: string;
   poling: Packed | null;
@@ -49,7 +51,32 @@ export interface ContactPiece {
   along: Float32Array;
 }
 
+/** A part of the contact of a solid body in a plane: the nodes of its facets, one facet behind the other. */
+export interface ContactFacePart {
+  contact: string;
+  place: string;
+  across: string;
+  up: string;
+  origin: string;
+  /** nodes of each facet: its corners, then those amid its sides and in its middle */
+  sizes: Uint32Array;
+  /** of one step of contact.csv */
+  rows: Uint32Array;
+  x: Float32Array;
+  y: Float32Array;
+}
+
 export interface Boundary { name: string; kind: string; conditions: string[]; facets: Uint32Array[] }
+
+function endsOf(data: Float32Array, from: number, to: number) {
+  let least = Infinity, greatest = -Infinity;
+  for (let i = from; i < to; ++i) {
+    const value = data[i];
+    if (value < least) least = value;
+    if (value > greatest) greatest = value;
+  }
+  return { least, greatest };
+}
 
 /** A component of a field, or its size, over all states. */
 export class Values {
@@ -59,20 +86,12 @@ export class Values {
 
   /** `error`: largest error by rounding for the page */
   constructor(readonly data: Float32Array, readonly places: number, readonly error: number) {
-    for (const value of data) {
-      if (value < this.least) this.least = value;
-      if (value > this.greatest) this.greatest = value;
-    }
+    Object.assign(this, endsOf(data, 0, data.length));
   }
 
   /** The range of one state. */
   of(state: number): { least: number; greatest: number } {
-    const range = { least: Infinity, greatest: -Infinity };
-    for (const value of this.data.subarray(state * this.places, (state + 1) * this.places)) {
-      if (value < range.least) range.least = value;
-      if (value > range.greatest) range.greatest = value;
-    }
-    return range;
+    return endsOf(this.data, state * this.places, (state + 1) * this.places);
   }
 
   /** The range of one state, or over all of them, each without `share` at its lower and upper end. */
@@ -94,11 +113,15 @@ export class Values {
   private usualOf(state: number, share: number): { least: number; greatest: number } {
     const stride = Math.ceil(this.places / 5000);
     const first = state * this.places;
-    const sorted = this.data.subarray(first, first + this.places).filter((_, i) => i % stride === 0).sort();
+    const sorted = new Float32Array(Math.ceil(this.places / stride));
+    for (let i = 0; i < sorted.length; ++i) sorted[i] = this.data[first + i * stride];
+    sorted.sort();
     const last = sorted.length - 1;
     return { least: sorted[Math.floor(share * last)], greatest: sorted[Math.ceil((1 - share) * last)] };
   }
 }
+
+type FieldDescription = PackedResult['fields'][number];
 
 export class Field {
   readonly name: string;
@@ -111,7 +134,8 @@ export class Field {
   readonly components: string[];
   private readonly unpacked = new Map<string, Values>();
 
-  constructor(private readonly packed: PackedResult['fields'][number]) {
+  constructor(readonly description: FieldDescription) {
+    const packed = description;
     this.name = packed.name;
     this.unit = packed.unit;
     this.onPoints = packed.on === 'points';
@@ -134,15 +158,16 @@ export class Field {
 
   has(component: string): boolean { return this.components.includes(component); }
 
-  private component(name: string): Values {
-    const packed = this.packed.values[this.packed.components.indexOf(name)];
+  protected component(name: string): Values {
+    const packed = this.description.values[this.description.components.indexOf(name)];
     return new Values(unpack(packed), packed.columns, packed.coding === 'levels' ? packed.step! / 2 : 0);
   }
 
   private size(): Values {
-    const parts = this.packed.components.map((c) => this.values(c));
+    const parts = this.description.components.map((c) => this.values(c));
     const data = new Float32Array(parts[0].data.length);
-    for (let i = 0; i < data.length; ++i) data[i] = Math.hypot(...parts.map((p) => p.data[i]));
+    for (const { data: part } of parts) for (let i = 0; i < data.length; ++i) data[i] += part[i] * part[i];
+    for (let i = 0; i < data.length; ++i) data[i] = Math.sqrt(data[i]);
     return new Values(data, parts[0].places, Math.max(...parts.map((p) => p.error)));
   }
 }
@@ -165,6 +190,7 @@ export class Result {
   readonly grid?: Grid;
   readonly boundaries: Boundary[];
   readonly contactPieces: ContactPiece[];
+  readonly contactFaces: ContactFacePart[];
   /** tail and tip [m] of arrows along the poling, six numbers each */
   readonly poling?: Float32Array;
   readonly history?: Table;
@@ -188,6 +214,8 @@ export class Result {
       };
     this.boundaries = packed.boundaries.map((b) => ({ ...b, facets: facetsOf(b.sizes, b.nodes) }));
     this.contactPieces = packed.contactPieces.map((p) => ({ ...p, rows: unpackIntegers(p.rows), along: unpack(p.along) }));
+    this.contactFaces = packed.contactFaces.map((f) => ({ ...f, sizes: unpackIntegers(f.sizes), rows: unpackIntegers(f.rows),
+      x: unpack(f.x), y: unpack(f.y) }));
     if (packed.poling) this.poling = unpack(packed.poling);
     if (packed.history) this.history = new Table(packed.history);
     if (packed.contact) this.contact = new Table(packed.contact);
@@ -197,6 +225,12 @@ export class Result {
       const bound = this.contact?.column('friction_bound');
       if (bound?.some((v) => v !== 0)) this.frictionBound = bound;
     }
+  }
+
+  /** The same body with other fields, and without a contact. */
+  withFields(title: string, name: string, fields: Field[]): Result {
+    return Object.create(this, Object.fromEntries(
+      Object.entries({ title, name, fields, contact: undefined, probes: [] }).map(([key, value]) => [key, { value }])));
   }
 
   /** Which of several contacts a row belongs to; empty where there is but one. */
@@ -223,24 +257,13 @@ export class Result {
   get remarks(): string[] { return this.packed.remarks; }
   get steps(): number[] { return this.packed.steps; }
 
-  /** Moments that can be looked at: those of the fields, or else the steps of the history. */
-  get times(): number[] {
-    return this.grid ? this.packed.times : [...(this.history?.column('time') ?? [])];
-  }
+  /** Moments of the fields [s]. */
+  get stateTimes(): number[] { return this.grid ? this.packed.times : []; }
 
   /** Whether the model has that field among its unknowns. */
   has(name: string): boolean { return !this.packed.leftOut.includes(name); }
 
   field(name: string): Field | undefined { return this.fields.find((f) => f.name === name); }
-
-  /** The state whose time is nearest. */
-  stateAt(time: number): number {
-    const times = this.times;
-    let best = 0;
-    for (let i = 1; i < times.length; ++i)
-      if (Math.abs(times[i] - time) < Math.abs(times[best] - time)) best = i;
-    return best;
-  }
 }
 
 function facetsOf(sizes: Packed, nodes: Packed): Uint32Array[] {

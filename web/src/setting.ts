@@ -2,7 +2,7 @@
 import { Result } from './results';
 import { furtherColours, palette } from './colours';
 import { arrowMark } from './arrow';
-import { element } from './dom';
+import { element, swatch } from './dom';
 
 export interface Group { colour: string; names: string[]; conditions: string[] }
 
@@ -44,7 +44,7 @@ export function legend(groups: Group[], result: Result): HTMLElement {
   const line = (mark: HTMLElement, name: string, said: string) =>
     element('li', {}, mark, element('span', {}, element('b', {}, name), ' ', said));
   return element('ul', { class: 'legend' },
-    ...groups.map((g) => line(element('span', { class: 'swatch', style: `background:${g.colour}` }),
+    ...groups.map((g) => line(swatch(g.colour),
       g.names.join(', '), g.conditions.join('; ') || 'no condition')),
     result.unnamed !== '' && line(element('span', { class: 'swatch bare' }), result.unnamed, 'no condition'),
     result.poling && line(arrowMark(), 'poling', 'direction of the crystal axis 3'),

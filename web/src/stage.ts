@@ -52,6 +52,8 @@ export function draw(scene: THREE.Scene, camera: THREE.Camera, canvas: HTMLCanva
 export class Camera {
   readonly three = new THREE.OrthographicCamera(-1, 1, 1, -1, -100, 100);
   readonly target: THREE.Vector3;
+  /** Room beside the body and below it [pixels of the page]. */
+  inset = { left: 0, bottom: 0 };
   constructor(readonly dimension: 2 | 3, target: [number, number, number], private readonly halfWidth: number,
     private readonly halfHeight: number) {
     this.target = new THREE.Vector3(...target);
@@ -67,13 +69,15 @@ export class Camera {
     this.three.lookAt(this.target);
   }
 
-  /** Fits the frustum to a canvas. */
-  aim(width: number, height: number) {
-    const aspect = width / height;
+  /** Fits the frustum to a canvas that has `ratio` pixels for each of the page. */
+  aim(width: number, height: number, ratio = 1) {
+    const left = this.inset.left * ratio, bottom = this.inset.bottom * ratio;
+    const aspect = (width - left) / (height - bottom);
     let up = this.halfHeight, across = this.halfWidth;
     if (across / up < aspect) across = up * aspect;
     else up = across / aspect;
-    Object.assign(this.three, { left: -across, right: across, top: up, bottom: -up });
+    const pixel = (2 * across) / (width - left);
+    Object.assign(this.three, { left: -across - left * pixel, right: across, top: up, bottom: -up - bottom * pixel });
     this.three.updateProjectionMatrix();
     this.three.updateMatrixWorld();
   }

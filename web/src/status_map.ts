@@ -1,9 +1,12 @@
 // Which contact node is open, sticks or slips, over place and time.
 import uPlot from 'uplot';
+import { areAxesShared, onSharing } from './chart';
 import { ContactLine } from './contact_line';
-import { element } from './dom';
+import { element, swatch } from './dom';
 import { shown } from './numbers';
+import { Drawing } from './on_screen';
 import { Result } from './results';
+import { Column, TableBehind } from './table_behind';
 import { colour, onTheme } from './theme';
 import { Timeline } from './timeline';
 
@@ -18,8 +21,10 @@ export const statusTitle = (there: Set<number>) => (there.has(0) ? 'Open, stick 
 
 export class StatusMap {
   readonly box: HTMLElement;
+  readonly title: string;
   private readonly place = element('div', { class: 'plot' });
   private plot?: uPlot;
+  private readonly drawing: Drawing;
   private readonly status: Float32Array;
 
   /** `nodes`: rows of a step of contact.csv; `ends`: time at the end of each */
@@ -27,28 +32,47 @@ export class StatusMap {
     private readonly ends: number[], private readonly timeline: Timeline) {
     this.status = result.contact!.column('status')!;
     const there = new Set(this.status);
+    this.title = statusTitle(there);
     const key = element('ul', { class: 'legend inline' }, ...statusNames.map((name, i) => there.has(i) &&
-      element('li', {}, element('span', { class: 'swatch', style: `background:${statusColours[i]}` }), name)));
-    this.box = element('figure', { class: 'chart' }, element('figcaption', {}, statusTitle(there)), this.place, key);
-    new ResizeObserver(() => {
-      const width = this.place.clientWidth;
-      if (!this.plot) this.build();
-      else if (width > 0 && Math.abs(width - this.plot.width) > 1) this.plot.setSize({ width, height: 230 });
-    }).observe(this.place);
-    onTheme(() => this.build());
+      element('li', {}, swatch(statusColours[i]), name)));
+    this.box = element('figure', { class: 'chart' }, element('figcaption', {}, this.title), this.place, key,
+      new TableBehind(() => this.title, () => this.columns()).box);
+    this.drawing = new Drawing(this.place, () => this.draw());
+    onTheme(() => this.rebuild());
+    onSharing(() => this.rebuild());
   }
 
-  redraw() { this.plot?.redraw(false); }
+  // A row for each node, a column for each step.
+  private columns(): Column[] {
+    const { order, along, label } = this.line;
+    return [{ name: label, unit: '', values: along }, ...this.ends.map((end, k) => ({ name: `t = ${shown(end)} s`, unit: '',
+      values: order.map((row) => statusNames[this.status[k * this.nodes + row]] ?? '') }))];
+  }
 
-  private build() {
+  redraw() { this.drawing.ask(); }
+
+  private rebuild() {
     this.plot?.destroy();
+    this.plot = undefined;
+    this.drawing.ask();
+  }
+
+  private draw() {
     const width = this.place.clientWidth;
     if (width === 0) return;
+    if (!this.plot) return this.build(width);
+    if (Math.abs(width - this.plot.width) > 1) this.plot.setSize({ width, height: 230 });
+    this.plot.redraw(false);
+  }
+
+  private build(width: number) {
     const axis = { stroke: colour('--muted'), grid: { show: false }, ticks: { stroke: colour('--grid'), width: 1 },
       font: '12px system-ui, sans-serif', labelFont: '12px system-ui, sans-serif',
       values: (_: uPlot, splits: number[]) => splits.map((v) => shown(v, 4)) };
     const { along, label } = this.line;
-    const end = this.ends[this.ends.length - 1];
+    // Beside that of another run over the time of both.
+    const own = this.ends[this.ends.length - 1];
+    const end = areAxesShared('contact') ? Math.max(own, this.timeline.end) : own;
     this.plot = new uPlot({
       width, height: 230, legend: { show: false }, cursor: { show: false },
       scales: { x: { time: false, range: [0, end] }, y: { range: [along[0], along[along.length - 1]] } },

@@ -13,7 +13,7 @@ const switches = [
 export async function inBrowser(options, work, further = []) {
   const profile = mkdtempSync(join(tmpdir(), 'tourmaline-chromium-'));
   const context = await chromium.launchPersistentContext(profile, {
-    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', headless: true, args: [...switches, ...further], ...options,
+    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', headless: true, timeout: 240000, args: [...switches, ...further], ...options,
   });
   try {
     return await work(context);

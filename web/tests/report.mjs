@@ -1,126 +1,13 @@
 // node tests/report.mjs TOURMALINE: runs the paper's case and looks at its page in Chromium, as a reader would.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { cpSync, mkdirSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join, resolve } from 'node:path';
+import { cpSync, mkdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { inBrowser } from './browser.mjs';
-
-const program = resolve(process.argv[2]);
-const cases = resolve(import.meta.dirname ?? new URL('.', import.meta.url).pathname, '../../cases');
-const folder = mkdtempSync(join(tmpdir(), 'tourmaline-report-'));
-let failures = 0;
-
-async function test(claim, work) {
-  try {
-    await work();
-    console.log(`ok    ${claim}`);
-  } catch (error) {
-    failures += 1;
-    console.log(`WRONG ${claim}\n      ${String(error.message).replace(/\n/g, '\n      ')}`);
-  }
-}
-
-function run(name, file, ...settings) {
-  const out = join(folder, name);
-  execFileSync(program, ['run', join(cases, file), '-q', '-o', out, ...settings.flatMap((s) => ['--set', s])]);
-  return out;
-}
-
-/** Rows of nodes.csv as objects. */
-function nodesOf(out) {
-  const [header, ...lines] = readFileSync(join(out, 'nodes.csv'), 'utf8').trim().split('\n');
-  const names = header.split(',');
-  return lines.map((line) => Object.fromEntries(line.split(',').map((v, i) => [names[i], Number(v)])));
-}
-
-/** Opens a page; whatever it complains of or asks the network for is kept. */
-async function open(context, file) {
-  const tab = await context.newPage();
-  const complaints = [];
-  tab.on('console', (m) => ['error', 'warning'].includes(m.type()) && complaints.push(m.text()));
-  tab.on('pageerror', (e) => complaints.push(e.message));
-  tab.on('request', (r) => /^(file|data|blob):/.test(r.url()) || complaints.push(`request of ${r.url()}`));
-  // The processor's time: on a busy machine the clock says nothing of the page.
-  const session = await context.newCDPSession(tab);
-  await session.send('Performance.enable', { timeDomain: 'threadTicks' });
-  await tab.goto('file://' + file);
-  await tab.waitForSelector('#run');
-  await settled(tab);
-  const { metrics } = await session.send('Performance.getMetrics');
-  return { tab, complaints, seconds: metrics.find((m) => m.name === 'TaskDuration').value };
-}
-
-/** Scrolls an element to the middle of the window; its place there. */
-async function centred(tab, selector) {
-  await tab.locator(selector).first().evaluate((e) => e.scrollIntoView({ block: 'center', behavior: 'instant' }));
-  return tab.locator(selector).first().boundingBox();
-}
-
-/** Two frames later everything that was asked for is drawn. */
-const settled = (tab) =>
-  tab.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-
-/** The pixels of a canvas as one text. */
-async function pixels(tab, selector, which = 0) {
-  await settled(tab);
-  return tab.locator(selector).nth(which).evaluate((canvas) => canvas.toDataURL());
-}
-
-const colours = (tab, selector, which = 0) => tab.locator(selector).nth(which).evaluate((canvas) => {
-  const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d', { willReadFrequently: true });
-  copy.drawImage(canvas, 0, 0);
-  const { data } = copy.getImageData(0, 0, canvas.width, canvas.height);
-  const seen = new Set();
-  for (let i = 0; i < data.length; i += 4) if (data[i + 3] > 0) seen.add((data[i] << 16) | (data[i + 1] << 8) | data[i + 2]);
-  return seen.size;
-});
-
-const goTo = (tab, step) => tab.locator('#time').fill(String(step));
-
-/** Moves the pointer over the body until it finds `wanted` nodes; what the page says of each. */
-async function probe(tab, wanted) {
-  const found = new Map();
-  const box = await centred(tab, '.view canvas');
-  for (let k = 0; k < 400 && found.size < wanted; ++k) {
-    const [u, v] = [(0.31 + 0.618034 * k) % 1, (0.17 + 0.7548777 * k) % 1];
-    await tab.mouse.move(box.x + u * box.width, box.y + v * box.height);
-    const said = await tab.locator('.readout').first().evaluate((readout) => ({
-      node: readout.dataset.node,
-      values: [...readout.querySelectorAll('[data-field]')].map((e) =>
-        [e.dataset.field, e.dataset.component, Number(e.dataset.value), e.textContent]),
-    }));
-    if (said.values.length > 0 && said.node !== undefined) found.set(Number(said.node), said.values);
-  }
-  assert.ok(found.size >= wanted, `only ${found.size} nodes were found under the pointer`);
-  return found;
-}
-
-/** "u_x −3.96·10⁻¹¹ m" to a number. */
-function numberIn(text) {
-  const [, number] = text.match(/^\S+ (\S+)/);
-  const plain = number.replace(/−/g, '-').replace(/·10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)/, (_, power) =>
-    'e' + [...power].map((c) => (c === '⁻' ? '-' : '⁰¹²³⁴⁵⁶⁷⁸⁹'.indexOf(c))).join(''));
-  return Number(plain);
-}
-
-/** What the page says of nodes is what nodes.csv says: to single precision inside, to six digits as text. */
-function compare(found, nodes) {
-  for (const [node, values] of found) {
-    const row = nodes[node];
-    for (const [field, component, value, text] of values) {
-      const column = field === 'displacement' ? `u_${component}` : field;
-      if (component === 'size' || !(column in row)) continue;
-      assert.ok(Math.abs(value - row[column]) <= 1.2e-7 * Math.abs(row[column]),
-        `node ${node}: ${column} = ${value}, nodes.csv has ${row[column]}`);
-      assert.ok(Math.abs(numberIn(text) - row[column]) <= 5.1e-6 * Math.abs(row[column]),
-        `node ${node}: the page says "${text}", nodes.csv has ${row[column]}`);
-    }
-  }
-}
-
-const desktop = { viewport: { width: 1280, height: 900 } };
-const phone = { viewport: { width: 400, height: 800 }, hasTouch: true, colorScheme: 'dark' };
+import {
+  run, nodesOf, open, seen, centred, settled, shownOne, pixels, colours,
+  goTo, probe, numberIn, compare, desktop, phone, tableOf, runText, program, cases, folder, test, end,
+} from './harness.mjs';
 
 const conductive = run('conductive', 'ouafik-2020/conductive.toml', 'time.steps=50');
 const page = join(conductive, 'report.html');
@@ -372,8 +259,8 @@ await inBrowser(desktop, async (context) => {
   });
   await test('values on the surface of a solid body are those of nodes.csv', async () =>
     compare(await probe(tab, 3), nodesOf(block)));
-  await test('the contact face shows stick and slip, tractions, slip and temperature', async () => {
-    assert.equal(await tab.locator('#contact canvas.face').count(), 5);
+  await test('the contact face shows stick and slip, tractions, slip, temperature and heat', async () => {
+    assert.equal(await tab.locator('#contact canvas.face').count(), 6);
     for (const i of [1, 3]) assert.ok((await colours(tab, '#contact canvas.face', i)) > 3, `face ${i} is empty`);
     const late = await pixels(tab, '#contact canvas.face', 1);
     await goTo(tab, 1);
@@ -417,21 +304,6 @@ await test('arrows turn with the poling', async () => {
   const [one, other] = [await pictures(join(folder, 'poled1/report.html')), await pictures(join(folder, 'poled-1/report.html'))];
   assert.notEqual(one.light.setting, other.light.setting);
 });
-
-/** Rows of a table of a result folder as objects; what is no number stays text. */
-function tableOf(out, name) {
-  const [header, ...lines] = readFileSync(join(out, name), 'utf8').trim().split('\n');
-  const names = header.split(',');
-  return lines.map((line) => Object.fromEntries(line.split(',').map((v, i) => [names[i], Number.isNaN(Number(v)) ? v : Number(v)])));
-}
-
-function runText(name, text, ...settings) {
-  const file = join(folder, `${name}.toml`);
-  writeFileSync(file, text);
-  const out = join(folder, name);
-  execFileSync(program, ['run', file, '-q', '-o', out, ...settings.flatMap((s) => ['--set', s])]);
-  return out;
-}
 
 const plate = (on) => `mesh.box = { min = [0, 0], max = [0.02, 0.01], cells = [32, 16], cell = "quadrilateral" }
 material.library = "BaTiO3-Liu2014"
@@ -821,6 +693,4 @@ await test('what the run warns of stands first on the page', async () => {
   });
 });
 
-rmSync(folder, { recursive: true, force: true });
-console.log(failures === 0 ? 'all is as it should be' : `${failures} claims are wrong`);
-process.exit(failures === 0 ? 0 : 1);
+end();
