@@ -168,8 +168,9 @@ void add_figures(CLI::App &app, Asked &asked) {
                    "contact.pressure, contact.gap or another contact.COLUMN; may be given several "
                    "times; if not given, what the paper shows")
       ->allow_extra_args(false);
-  command->add_option("--time", asked.time,
-                      "the moment [s]; the nearest field file is taken, if not given the last");
+  command->add_option(
+      "--time", asked.time,
+      "the moment [s], inside the run; the nearest field file is taken, if not given the last");
   command->callback([&asked] { figures(asked); });
 }
 

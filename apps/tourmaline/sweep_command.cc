@@ -70,8 +70,9 @@ void add_sweep(CLI::App &app, int &status) {
       ->add_option(
           "--output", request->outputs,
           "what sweep.csv and sweep.svg show: columns of history.csv, NAME at the end, "
-          "min:NAME, max:NAME, mean:NAME, rms:NAME over all steps, NAME@TIME at a time "
-          "[s]; at_max_FIELD_x, ...: places of extremes. NAME,NAME,... Not the folder, which "
+          "min:NAME, max:NAME, mean:NAME, rms:NAME over all steps, mean:NAME@FROM..TO over a part "
+          "of the time, NAME@TIME at a time [s]; at_max_FIELD_x, ...: places of extremes. "
+          "NAME,NAME,... Not the folder, which "
           "is --folder here")
       ->delimiter(',')
       ->allow_extra_args(false);

@@ -31,10 +31,20 @@ class SoleKeyOf : public Visitor {
   std::string wanted_, path_;
 };
 
+// The only key of these that is a formula, for which a table of values over t may stand as well;
+// the others are names of laws.
+constexpr const char *sole_formula = "value";
+
+// { points = ... } or { table = ... }, which is a value.
+bool is_table_in_time(const toml::table &given) {
+  return given.contains("points") || given.contains("table");
+}
+
 }  // namespace
 
 std::optional<GivenTable> given_table(const toml::node &node, const Key &key) {
-  if (const toml::table *table = node.as_table())
+  const toml::table *table = node.as_table();
+  if (table && !(key.sole == sole_formula && is_table_in_time(*table)))
     return GivenTable(*table);
   if (!key.sole.empty())
     return GivenTable(node, key.sole);

@@ -41,7 +41,7 @@ class UnitOf : public Visitor {
 }  // namespace
 
 std::string unit_of_key(const std::string &path, const Case &asked) {
-  static const std::regex index(R"(\[[0-9]+\]|\.[0-9]+(?=\.|$))");
+  static const std::regex index(R"(\[[^\]]*\]|\.[0-9]+(?=\.|$))");
   UnitOf search(std::regex_replace(path, index, ""));
   Case copy = asked;
   declare(search, copy);

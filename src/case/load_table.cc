@@ -9,7 +9,8 @@
 
 namespace tourmaline::casefile {
 
-LoadTable::LoadTable(Points points) : points_(std::move(points)) {
+LoadTable::LoadTable(Points points, std::string file)
+    : points_(std::move(points)), file_(std::move(file)) {
   if (points_.empty())
     throw CaseError("has no points");
   for (std::size_t i = 0; i < points_.size(); ++i) {

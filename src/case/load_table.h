@@ -16,17 +16,20 @@ class LoadTable {
 
   /// Throws CaseError, without a place, where there are no points, numbers that are not finite, or
   /// times that do not ascend.
-  explicit LoadTable(Points points);
+  explicit LoadTable(Points points, std::string file = {});
 
   double value(double time) const;
   double begin() const { return points_.front().first; }
   double end() const { return points_.back().first; }
   const Points &points() const { return points_; }
+  /// "the table in FILE", or "the table" where the points stand in the case.
+  std::string called() const { return file_.empty() ? "the table" : "the table in " + file_; }
   /// { points = [[t, value], ...] }
   std::string text() const;
 
  private:
   Points points_;
+  std::string file_;
 };
 
 }  // namespace tourmaline::casefile

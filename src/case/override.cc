@@ -12,6 +12,7 @@
 
 #include "case/double_range.h"
 #include "case/given_table.h"
+#include "case/nearest.h"
 #include "case/toml_text.h"
 #include "case/utf8.h"
 #include "tourmaline/error.h"
@@ -24,6 +25,7 @@ namespace {
 struct Override {
   std::string place;  ///< the override itself, which begins every error text
   std::vector<std::string> path;
+  std::vector<bool> in_brackets;  ///< by part of the path
   std::string value;
 };
 
@@ -31,7 +33,7 @@ struct Override {
   throw CaseError(asked.place + ": " + reason);
 }
 
-// Each "[" has its "]", and only digits between.
+// Each "[" has its "]".
 bool has_whole_brackets(std::string_view path) {
   bool inside = false;
   for (const char c : path)
@@ -39,22 +41,24 @@ bool has_whole_brackets(std::string_view path) {
       if (inside != (c == ']'))
         return false;
       inside = !inside;
-    } else if (inside && !std::isdigit(static_cast<unsigned char>(c))) {
-      return false;
     }
   return !inside;
 }
 
-// "boundary[1].potential" -> boundary, 1, potential
-std::vector<std::string> path_of(std::string_view text) {
-  std::vector<std::string> path(1);
+// "boundary[1].potential" -> boundary, 1, potential; names in brackets may have points
+void split_path(std::string_view text, Override &asked) {
+  asked.path.assign(1, "");
+  asked.in_brackets.assign(1, false);
+  bool inside = false;
   for (const char c : text) {
-    if (c == '.' || c == '[')
-      path.emplace_back();
-    else if (c != ']')
-      path.back() += c;
+    inside = c == '[' || (inside && c != ']');
+    if (c == '[' || (c == '.' && !inside)) {
+      asked.path.emplace_back();
+      asked.in_brackets.push_back(c == '[');
+    } else if (c != ']') {
+      asked.path.back() += c;
+    }
   }
-  return path;
 }
 
 std::string trimmed(std::string_view text) {
@@ -65,7 +69,10 @@ std::string trimmed(std::string_view text) {
 }
 
 Override split(const std::string &assignment) {
-  Override asked{.place = "--set " + shortened(readable(assignment)), .path = {}, .value = {}};
+  Override asked{.place = "--set " + shortened(readable(assignment)),
+                 .path = {},
+                 .in_brackets = {},
+                 .value = {}};
   if (!is_utf8(assignment))
     fail(asked, "is not UTF-8");
   const auto equals = assignment.find('=');
@@ -73,8 +80,9 @@ Override split(const std::string &assignment) {
     fail(asked, "has no \"=\"; write key.path=value");
   const std::string key = trimmed(std::string_view(assignment).substr(0, equals));
   if (!has_whole_brackets(key))
-    fail(asked, "entries of lists are counted from 0, as in boundary[0].potential=5");
-  asked.path = path_of(key);
+    fail(asked,
+         "entries of lists are counted from 0, as in boundary[0].potential=5, or go by their name");
+  split_path(key, asked);
   asked.value = trimmed(std::string_view(assignment).substr(equals + 1));
   if (std::find(asked.path.begin(), asked.path.end(), "") != asked.path.end())
     fail(asked, "the key's path has an empty part; write key.path=value");
@@ -134,6 +142,51 @@ std::string joined(const std::vector<std::string> &path, std::size_t parts) {
   for (std::size_t i = 0; i < parts; ++i)
     text += (i == 0 ? "" : ".") + path[i];
   return text;
+}
+
+// What an entry is called: its name, or else what it is on, joined by "+".
+std::string name_of(const toml::node &entry) {
+  const toml::table *table = entry.as_table();
+  if (!table)
+    return "";
+  if (const auto name = (*table)["name"].value<std::string>())
+    return *name;
+  if (const auto on = (*table)["on"].value<std::string>())
+    return *on;
+  std::string all;
+  if (const toml::array *on = (*table)["on"].as_array())
+    for (const toml::node &one : *on)
+      all += (all.empty() ? "" : "+") + one.value_or(std::string());
+  return all;
+}
+
+// A name in brackets becomes the number of its entry.
+void count_name(const toml::node &parent, Override &asked, std::size_t part) {
+  std::string &name = asked.path[part];
+  if (!asked.in_brackets[part] || is_index(name))
+    return;
+  const std::string list = joined(asked.path, part);
+  const toml::array *array = parent.as_array();
+  if (!array)
+    fail(asked,
+         fmt::format("{0} is no list with an entry \"{1}\"; write {0}.KEY", list, shortened(name)));
+  std::vector<std::string> names;
+  for (const toml::node &entry : *array)
+    if (std::string called = name_of(entry); !called.empty())
+      names.push_back(std::move(called));
+  if (std::count(names.begin(), names.end(), name) > 1)
+    fail(asked, fmt::format("several entries of {0} are called \"{1}\"; give the number of one, as "
+                            "{0}[0]",
+                            list, shortened(name)));
+  for (std::size_t i = 0; i < array->size(); ++i)
+    if (name_of(*array->get(i)) == name) {
+      name = std::to_string(i);
+      return;
+    }
+  fail(asked,
+       fmt::format(
+           "no entry of {} is called \"{}\"{}{}", list, shortened(name), did_you_mean(name, names),
+           names.empty() ? "" : "; there are " + fmt::format("{}", fmt::join(names, ", "))));
 }
 
 std::size_t index_in(const toml::array &array, const Override &asked, std::size_t part) {
@@ -202,11 +255,12 @@ void make_table_of_value(toml::node &parent, const Override &asked, std::size_t 
 }  // namespace
 
 void apply_override(toml::table &root, const std::string &assignment) {
-  const Override asked = split(assignment);
+  Override asked = split(assignment);
   toml::table value = value_of(asked);
   toml::node *parent = &root;
   const std::size_t last = asked.path.size() - 1;
   for (std::size_t part = 0; part < last; ++part) {
+    count_name(*parent, asked, part);
     if (!child(*parent, asked, part)) {
       toml::table made = empty(asked, is_index(asked.path[part + 1]));
       put(*parent, asked, part, std::move(*made.get("value")));
@@ -214,6 +268,7 @@ void apply_override(toml::table &root, const std::string &assignment) {
     make_table_of_value(*parent, asked, part);
     parent = child(*parent, asked, part);
   }
+  count_name(*parent, asked, last);
   child(*parent, asked, last);  // complains about a path that goes through a value
   put(*parent, asked, last, std::move(*value.get("value")));
 }

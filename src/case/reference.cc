@@ -39,7 +39,8 @@ longer accepted or means something else; new keys and values do not raise it.
 
 `--set key.path=value` replaces any key from the command line, the value as TOML; what is not TOML is a
 text: `--set time.steps=40 --set mesh.box.cells=[32,32] --set solver.method=monolithic`. Entries of lists
-are counted from 0: `--set "boundary[2].traction=[0,'-1*t']"`.
+are counted from 0, `--set "boundary[2].traction=[0,'-1*t']"`, or go by their `name`, or where they have none by what
+they are `on`, joined by +: `--set "electrode[drive].voltage=5"`, `--set "boundary[top].traction=[0,-1]"`.
 
 ## Formulas
 

@@ -35,9 +35,9 @@ void require_all_times(const Case &asked, const Formula &formula, const LoadTabl
   if (table.begin() <= same && table.end() >= end - same)
     return;
   throw CaseError(fmt::format(
-      "{} = {}: the table goes from t = {} s to {} s, the run from 0 to {} s; give the table "
+      "{} = {}: {} goes from t = {} s to {} s, the run from 0 to {} s; give the table "
       "points at the ends of the run, as nothing says what is outside it",
-      formula.where(), shortened(formula.text()), table.begin(), table.end(), end));
+      formula.where(), shortened(formula.text()), table.called(), table.begin(), table.end(), end));
 }
 
 // Where the slope changes by more than the points' own round-off.
@@ -59,6 +59,20 @@ void check_tables(const Case &asked) {
   for_each_table(asked, [&](const Formula &formula, const LoadTable &table) {
     require_all_times(asked, formula, table);
   });
+}
+
+std::vector<std::string> table_warnings(const Case &asked) {
+  constexpr double far = 100;
+  std::vector<std::string> warnings;
+  for_each_table(asked, [&](const Formula &formula, const LoadTable &table) {
+    if (table.end() > far * asked.time.end)
+      warnings.push_back(
+          fmt::format("{}: {} goes on until t = {:g} s, and the run ends at {:g} s, so that hardly "
+                      "any of it is "
+                      "used; times of tables are in s",
+                      formula.where(), table.called(), table.end(), asked.time.end));
+  });
+  return warnings;
 }
 
 std::vector<double> bends(const Case &asked) {

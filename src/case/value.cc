@@ -266,8 +266,10 @@ LoadTable::Points points_of(const Item &item, const toml::table &given) {
 
 Formula table_in(const Item &item, const toml::table &given) {
   std::shared_ptr<const LoadTable> table;
+  const auto file = given["table"].value<std::string>();
   try {
-    table = std::make_shared<const LoadTable>(points_of(item, given));
+    table = std::make_shared<const LoadTable>(points_of(item, given),
+                                              file ? (item.folder / *file).string() : "");
   } catch (const CaseError &error) {
     if (std::string(error.what()).starts_with(place_of(item.node.source())))
       throw;
@@ -275,7 +277,8 @@ Formula table_in(const Item &item, const toml::table &given) {
   }
   for (const auto &[t, value] : table->points())
     if (const std::string wrong = complaint(item.key.range, value, item.key.unit); !wrong.empty())
-      fail(item, fmt::format("has {} at t = {} s: {}", value, t, wrong));
+      fail(item, fmt::format("{}has {} at t = {} s: {}", file ? table->called() + " " : "", value,
+                             t, wrong));
   return Formula(table, item.where());
 }
 

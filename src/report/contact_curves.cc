@@ -8,6 +8,7 @@
 #include <map>
 #include <string_view>
 
+#include "report/moment.h"
 #include "report/number_text.h"
 #include "report/plot.h"
 #include "tourmaline/error.h"
@@ -85,6 +86,8 @@ std::vector<std::string> columns_of(const Result &result) {
 
 /// The first row of the step whose end is nearest.
 std::size_t first_row(const std::vector<double> &times, std::optional<double> time) {
+  if (time)
+    require_moment(*time, times.back());
   const double wanted = time.value_or(times.back());
   const auto nearest = std::min_element(times.begin(), times.end(), [&](double a, double b) {
     return std::abs(a - wanted) < std::abs(b - wanted);

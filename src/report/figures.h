@@ -15,7 +15,8 @@ struct FigureRequest {
   /// NAME or NAME.COMPONENT, contact.COLUMN for a curve along the contact; empty: setting, deformed
   /// mesh, potential, temperature, von Mises stress
   std::vector<std::string> fields;
-  std::optional<double> time;  ///< the state, or step, nearest to it [s]; not given: the last
+  std::optional<double>
+      time;  ///< the state, or step, nearest to it [s], inside the run; not given: the last
 };
 
 /// Draws views of a result folder into files of `directory`, which is made when missing, without

@@ -12,6 +12,7 @@
 #include "contact/kinds.h"
 #include "output/probe_rows.h"
 #include "report/field_file.h"
+#include "report/moment.h"
 #include "report/number_text.h"
 #include "report/recorded_mesh.h"
 #include "report/text_file.h"
@@ -314,6 +315,7 @@ void say_why_no_fields(Result &result) {
 
 /// The state whose time is nearest, alone.
 std::vector<State> nearest(const std::vector<State> &series, double time) {
+  require_moment(time, series.back().time);
   return {*std::min_element(series.begin(), series.end(), [&](const State &a, const State &b) {
     return std::abs(a.time - time) < std::abs(b.time - time);
   })};

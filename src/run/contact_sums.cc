@@ -77,7 +77,7 @@ std::string name_of_several(const std::vector<casefile::ContactCase> &contacts,
 
 template <int dim>
 void add_contact_sums(const solve::Model<dim> &model, const solve::StepOutcome &outcome,
-                      Quantities &quantities) {
+                      double time, Quantities &quantities) {
   const std::vector<casefile::ContactCase> &contacts = model.asked.contacts;
   for (const solve::StepOutcome::Foundation &is : outcome.foundations) {
     const std::string name =
@@ -85,6 +85,11 @@ void add_contact_sums(const solve::Model<dim> &model, const solve::StepOutcome &
     quantities.insert(quantities.end(), {{"foundation_voltage" + name, is.voltage},
                                          {"foundation_charge" + name, is.charge},
                                          {"foundation_current" + name, is.current}});
+    const casefile::FoundationCircuitCase &circuit = *contacts[is.contact].electric.circuit;
+    const double across = is.voltage - circuit.voltage.value({}, time);
+    if (circuit.resistor)
+      quantities.emplace_back("foundation_resistor_power" + name,
+                              across * across / *circuit.resistor);
   }
   for (std::size_t i = 0; contacts.size() > 1 && i < contacts.size(); ++i) {
     const std::string name = "_" + contacts[i].called();
@@ -129,8 +134,10 @@ std::vector<output::ContactRecord> contact_records(const solve::Model<dim> &mode
   return records;
 }
 
-template void add_contact_sums(const solve::Model<2> &, const solve::StepOutcome &, Quantities &);
-template void add_contact_sums(const solve::Model<3> &, const solve::StepOutcome &, Quantities &);
+template void add_contact_sums(const solve::Model<2> &, const solve::StepOutcome &, double,
+                               Quantities &);
+template void add_contact_sums(const solve::Model<3> &, const solve::StepOutcome &, double,
+                               Quantities &);
 template void add_contact_extremes(const solve::Model<2> &, const std::vector<output::ContactRow> &,
                                    Quantities &);
 template void add_contact_extremes(const solve::Model<3> &, const std::vector<output::ContactRow> &,

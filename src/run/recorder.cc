@@ -121,7 +121,7 @@ output::HistoryRow Recorder<dim>::step(int n, const solve::StepOutcome &outcome,
     row.quantities.emplace_back("max_" + e.field, e.maximum);
   }
   add_contact_extremes(model_, rows, row.quantities);
-  add_contact_sums(model_, outcome, row.quantities);
+  add_contact_sums(model_, outcome, time, row.quantities);
   check.quantities(row.quantities);
   check.quantities({{"residual", row.residual}});
   judgement_.step(n, time, balance_->judged(), measure);

@@ -7,6 +7,7 @@
 #include "body/conductors.h"
 #include "case/regime.h"
 #include "case/sides.h"
+#include "case/tables_in_time.h"
 #include "case/toml_text.h"
 #include "material/composition.h"
 #include "material/constants.h"
@@ -42,6 +43,8 @@ struct Extent {
   std::string words(int dimension, int of) const {
     constexpr const char *kind[] = {"", "length", "area", "volume"};
     constexpr const char *unit[] = {"", "m", "m^2", "m^3"};
+    if (size == 0)
+      return "on the axis, without area";
     return fmt::format("{} {:.6g} {}, centre {}", kind[of], size, unit[of],
                        place(dimension, moment, size));
   }
@@ -192,6 +195,8 @@ std::string survey(const casefile::Case &asked) {
         "\n# Nothing holds the temperature of this static case, and nothing warms the body: it "
         "stays at its initial one.\n";
   std::vector<std::string> warnings = material_warnings(asked);
+  for (const std::string &warning : casefile::table_warnings(asked))
+    warnings.push_back(warning);
   for (const std::string &warning : temperature_warnings(asked))
     warnings.push_back(warning);
   for (const std::string &warning : {slender_warning(asked), contact_edge_warning(asked)})

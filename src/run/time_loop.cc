@@ -8,6 +8,7 @@
 #include "case/interval.h"
 #include "case/resolved.h"
 #include "case/snapping.h"
+#include "case/tables_in_time.h"
 #include "contact/checked_law.h"
 #include "parallel/ranks.h"
 #include "report/page.h"
@@ -387,6 +388,8 @@ std::vector<std::string> TimeLoop<dim>::warnings() const {
   for (const std::string &text : material_warnings(model_.asked))
     add(text);
   for (const std::string &text : casefile::snapping_warnings(model_.asked))
+    add(text);
+  for (const std::string &text : casefile::table_warnings(model_.asked))
     add(text);
   add(contact_edge_warning(model_.asked, model_.body.points(), model_.contact_edges));
   const std::vector<std::string> given = temperature_warnings(model_.asked);

@@ -501,7 +501,23 @@ void Balance<dim>::add_electrodes(const Step &step, Columns &columns) const {
     columns.emplace_back(name + "_voltage", voltages[i]);
     columns.emplace_back(name + "_charge", charges[i]);
     columns.emplace_back(name + "_current", (charges[i] - electrode_charges_[i]) / model_.step);
+    if (const auto &resistor = model_.asked.electrodes[e].resistor) {
+      const double across = voltages[i] - other_end(e, voltages, step.time);
+      columns.emplace_back(name + "_resistor_power", across * across / *resistor);
+    }
   }
+}
+
+template <int dim>
+double Balance<dim>::other_end(std::size_t electrode, const Eigen::VectorXd &voltages,
+                               double time) const {
+  const std::vector<casefile::ElectrodeCase> &all = model_.asked.electrodes;
+  const casefile::ElectrodeCase &from = all[electrode];
+  if (!from.to)
+    return from.voltage ? from.voltage->value({}, time) : 0;
+  const auto to = std::find_if(all.begin(), all.end(),
+                               [&](const auto &other) { return other.name == *from.to; });
+  return voltages[to - all.begin()];
 }
 
 template <int dim>

@@ -70,6 +70,8 @@ class Balance {
   std::vector<Passage> charges_held(const Step &step) const;
   void add_charges(const Step &step, Columns &columns);
   void add_electrodes(const Step &step, Columns &columns) const;
+  // Of an electrode's resistor the voltage that the electrode is not at [V].
+  double other_end(std::size_t electrode, const Eigen::VectorXd &voltages, double time) const;
   std::vector<Passage> heats_held(const Step &step) const;
   void add_heat(const Step &step, Columns &columns);
   void add_friction_heat(const Step &step, Columns &columns) const;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "solve/sources_at_start.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::solve {
@@ -46,14 +47,6 @@ VectorXd electrode_voltages(const Model<dim> &model, std::span<const double> sta
 }
 
 template <int dim>
-VectorXd initial_charges(const Model<dim> &model, std::span<const double> initial) {
-  std::vector<double> products(initial.size());
-  const std::vector<double> no_loads(initial.size(), 0.);
-  model.op.multiply(model.step, initial, products);
-  return electrode_charges<dim>(model, products, no_loads);
-}
-
-template <int dim>
 VectorXd settled_charges(const Model<dim> &model, std::span<const double> settled) {
   std::vector<double> products(settled.size()), loads(settled.size(), 0.);
   model.op.multiply(model.step, settled, products);
@@ -62,9 +55,20 @@ VectorXd settled_charges(const Model<dim> &model, std::span<const double> settle
 }
 
 template <int dim>
+VectorXd initial_charges(const Model<dim> &model, std::span<const double> initial) {
+  // A state from another run is one of equilibrium, with the loads that this one goes on with.
+  if (model.asked.initial.from)
+    return settled_charges(model, initial);
+  std::vector<double> products(initial.size());
+  const std::vector<double> no_loads(initial.size(), 0.);
+  model.op.multiply(model.step, initial, products);
+  return electrode_charges<dim>(model, products, no_loads);
+}
+
+template <int dim>
 std::optional<double> sources_before(const Model<dim> &model, double time) {
   if (model.steps.number(time) == 1 && !model.asked.time.is_dynamic())
-    return std::nullopt;
+    return sources_at_start(model);
   return model.time_before(time);
 }
 

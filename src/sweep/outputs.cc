@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -88,6 +89,8 @@ void add_flows(const casefile::Case &asked, List &list) {
     list.add("V", {"foundation_voltage" + name});
     list.add(charge, {"foundation_charge" + name});
     list.add(whole("A", asked), {"foundation_current" + name});
+    if (contact.electric.circuit->resistor)
+      list.add(heat, {"foundation_resistor_power" + name});
   }
   if (laws.is_warmed_by_friction())
     list.add(heat, {"friction_heat_body", "friction_heat_foundation"});
@@ -96,6 +99,8 @@ void add_flows(const casefile::Case &asked, List &list) {
     list.add("V", {name + "_voltage"});
     list.add(charge, {name + "_charge"});
     list.add(whole("A", asked), {name + "_current"});
+    if (electrode.resistor)
+      list.add(heat, {name + "_resistor_power"});
   }
 }
 
@@ -314,7 +319,7 @@ class Chooser {
     const auto at = name.rfind('@'), colon = name.find(':');
     const bool is_reduced = colon != std::string::npos && reduction_named(name.substr(0, colon));
     if (is_reduced && at != std::string::npos && !find(name.substr(colon + 1)))
-      fail_twice(name, colon, at);
+      return in_window(name, colon, at);
     if (!is_reduced && at != std::string::npos)
       return at_time(name, at);
     if (colon != std::string::npos)
@@ -335,18 +340,42 @@ class Chooser {
          "called so" +
              (meant ? "; did you mean \"" + before + *meant + behind + "\"?" : "") +
              "; allowed: " + joined(names_, false) +
-             ", each also as min:NAME, max:NAME, mean:NAME, rms:NAME, last:NAME or NAME@TIME" +
+             ", each also as min:NAME, max:NAME, mean:NAME, rms:NAME, last:NAME or NAME@TIME, "
+             "the first four also over a part of the time, mean:NAME@FROM..TO" +
              ", and " + joined(names_, true) + "; the folder of a study is said by -o or --folder");
   }
 
-  [[noreturn]] void fail_twice(const std::string &name, std::size_t colon, std::size_t at) const {
+  // WORD:NAME@FROM..TO
+  Output in_window(const std::string &name, std::size_t colon, std::size_t at) const {
     const std::string word = name.substr(0, colon + 1), time = name.substr(at),
                       column = name.substr(colon + 1, at - colon - 1);
+    Reduction reduction = *reduction_named(name.substr(0, colon));
+    const auto dots = time.find("..");
     if (!find(column))
-      fail_unknown(name, word, column, "");
-    fail(name, fmt::format("{0} and {1} each make one number of a column, and here are both; write "
-                           "{0}{2} or {2}{1}",
-                           word, time, column));
+      fail_unknown(name, word, column, dots == std::string::npos ? "" : time);
+    if (dots == std::string::npos)
+      fail(name, fmt::format("{0} and {1} each make one number of a column, and here are both; "
+                             "write {0}{2} or {2}{1}, or {0}{2}@FROM..TO of a part of the time",
+                             word, time, column));
+    if (reduction.kind == Reduction::Kind::last)
+      fail(name, fmt::format("the last value of a part of the time is {}@{}; write that", column,
+                             time.substr(dots + 2)));
+    const auto from = seconds(time.substr(1, dots - 1)), to = seconds(time.substr(dots + 2));
+    if (!from || !to || !(*from >= 0 && *from < *to && *to <= end_))
+      fail(name,
+           fmt::format("behind @ must be two numbers of seconds, FROM..TO, the first at least "
+                       "0, the second above it and at most {}, the end of the runs",
+                       end_));
+    reduction.window = Reduction::Window{*from, *to};
+    return made_of(name, word, column, time, reduction);
+  }
+
+  static std::optional<double> seconds(const std::string &text) {
+    double time = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), time);
+    if (error != std::errc() || end != text.data() + text.size())
+      return std::nullopt;
+    return time;
   }
 
   const Output *find(const std::string &name) const {
@@ -376,14 +405,17 @@ class Chooser {
 
   Output at_time(const std::string &name, std::size_t at) const {
     const std::string text = name.substr(at + 1);
-    double time = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), time);
-    if (error != std::errc() || end != text.data() + text.size() || !(time > 0 && time <= end_))
+    if (text.find("..") != std::string::npos)
+      fail(name, fmt::format("a part of the time has many values; write mean:{0}, or rms:, min: or "
+                             "max:",
+                             name));
+    const std::optional<double> time = seconds(text);
+    if (!time || !(*time > 0 && *time <= end_))
       fail(name, fmt::format("the time behind @ must be a number of seconds, above 0 and at most "
                              "{}, the end of the runs; write NAME@TIME",
                              end_));
     return made_of(name, "", name.substr(0, at), name.substr(at),
-                   {.kind = Reduction::Kind::at, .time = time});
+                   {.kind = Reduction::Kind::at, .time = *time});
   }
 
   std::vector<Output> possible_;
@@ -393,8 +425,7 @@ class Chooser {
 
 bool is_same(const Output &one, const Output &other) {
   const auto column = [](const Output &o) { return o.column.empty() ? o.name : o.column; };
-  return column(one) == column(other) && one.reduction.kind == other.reduction.kind &&
-         one.reduction.time == other.reduction.time;
+  return column(one) == column(other) && one.reduction == other.reduction;
 }
 
 }  // namespace

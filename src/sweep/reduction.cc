@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace tourmaline::sweep {
 
@@ -12,23 +13,47 @@ using Kind = Reduction::Kind;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
+/// What counts of the steps, and their shares in the time of all that counts.
+struct Counted {
+  std::vector<double> values, shares;
+};
+
+Counted counted(const std::optional<Reduction::Window> &window, std::span<const double> times,
+                std::span<const double> values) {
+  Counted found;
+  double before = 0, total = 0;
+  for (std::size_t i = 0; i < values.size(); before = times[i++]) {
+    const double begin = window ? std::max(before, window->from) : before;
+    const double end = window ? std::min(times[i], window->to) : times[i];
+    // Ends of steps are i*k, which a window as somebody writes it need not meet to the last bit.
+    if (window && !(end - begin > 1e-9 * (times[i] - before)))
+      continue;
+    found.values.push_back(values[i]);
+    found.shares.push_back(end - begin);
+    total += end - begin;
+  }
+  for (double &share : found.shares)
+    share /= total;
+  return found;
+}
+
 // Scaled by the greatest, so that no square leaves the range of numbers.
-double rms(std::span<const double> times, std::span<const double> values) {
+double rms(const Counted &steps) {
   double greatest = 0;
-  for (const double value : values)
+  for (const double value : steps.values)
     greatest = std::max(greatest, std::abs(value));
   if (greatest == 0)
     return 0;
-  double sum = 0, before = 0;
-  for (std::size_t i = 0; i < values.size(); before = times[i++])
-    sum += (times[i] - before) * std::pow(values[i] / greatest, 2);
-  return greatest * std::sqrt(sum / times.back());
+  double sum = 0;
+  for (std::size_t i = 0; i < steps.values.size(); ++i)
+    sum += steps.shares[i] * std::pow(steps.values[i] / greatest, 2);
+  return greatest * std::sqrt(sum);
 }
 
-double mean(std::span<const double> times, std::span<const double> values) {
-  double sum = 0, before = 0;
-  for (std::size_t i = 0; i < values.size(); before = times[i++])
-    sum += (times[i] - before) / times.back() * values[i];
+double mean(const Counted &steps) {
+  double sum = 0;
+  for (std::size_t i = 0; i < steps.values.size(); ++i)
+    sum += steps.shares[i] * steps.values[i];
   return sum;
 }
 
@@ -63,25 +88,25 @@ std::optional<Reduction> reduction_named(const std::string &word) {
 
 double reduced(const Reduction &reduction, std::span<const double> times,
                std::span<const double> values) {
-  const bool has_gap =
-      std::any_of(values.begin(), values.end(), [](double value) { return std::isnan(value); });
   if (values.empty() || values.size() != times.size())
     return none;
   if (reduction.kind == Kind::last)
     return values.back();
-  if (has_gap && reduction.kind != Kind::at)
+  if (reduction.kind == Kind::at)
+    return value_at(reduction.time, times, values);
+  const Counted steps = counted(reduction.window, times, values);
+  if (steps.values.empty() || std::any_of(steps.values.begin(), steps.values.end(),
+                                          [](double value) { return std::isnan(value); }))
     return none;
   switch (reduction.kind) {
     case Kind::min:
-      return *std::min_element(values.begin(), values.end());
+      return *std::min_element(steps.values.begin(), steps.values.end());
     case Kind::max:
-      return *std::max_element(values.begin(), values.end());
+      return *std::max_element(steps.values.begin(), steps.values.end());
     case Kind::mean:
-      return mean(times, values);
-    case Kind::rms:
-      return rms(times, values);
+      return mean(steps);
     default:
-      return value_at(reduction.time, times, values);
+      return rms(steps);
   }
 }
 

@@ -19,6 +19,7 @@ namespace tourmaline::casefile {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 
 std::string complaint(const std::function<void()> &act) {
@@ -132,9 +133,47 @@ TEST_F(FileTable, SaysWhatIsWrongInItsFile) {
 
 TEST_F(FileTable, IsRefusedWhereItDoesNotSpanTheRun) {
   EXPECT_THAT(complaint_of("t,F\n0,0\n1.9,1\n"),
-              HasSubstr("the table goes from t = 0 s to 1.9 s, the run from 0 to 2 s"));
-  EXPECT_THAT(complaint_of("t,F\n0.1,0\n3,1\n"), HasSubstr("the table goes from t = 0.1 s to 3 s"));
+              HasSubstr("load.csv goes from t = 0 s to 1.9 s, the run from 0 to 2 s"));
+  EXPECT_THAT(complaint_of("t,F\n0.1,0\n3,1\n"),
+              ContainsRegex("the table in [^ ]*load.csv goes from t = 0.1 s to 3 s"));
   EXPECT_EQ(complaint_of("t,F\n-1,0\n3,1\n"), "none");
+}
+
+TEST_F(FileTable, WithAValueOutOfItsRangeIsNamed) {
+  EXPECT_THAT(complaint_of("t,F\n0,0\n2,1e300\n"),
+              ContainsRegex("the table in [^ ]*load.csv has 1e\\+300 at t = 2 s"));
+}
+
+TEST_F(FileTable, ThatGoesOnFarBeyondTheRunIsWarnedOf) {
+  write("t,F\n0,0\n200,1\n");
+  EXPECT_THAT(table_warnings(read()), ::testing::IsEmpty());
+  write("t,F\n0,0\n201,1\n");
+  EXPECT_THAT(
+      table_warnings(read()),
+      ::testing::ElementsAre(ContainsRegex(
+          "traction\\[1\\]: the table in [^ ]*load.csv goes on until t = 201 s, and the run "
+          "ends at 2 s")));
+}
+
+TEST(PointsOverTime, StandForTheCoefficientOfFriction) {
+  const std::string friction =
+      "contact={on='left', friction={law='coulomb', coefficient={points=[[0, 0.1], [2, 0.3]]}}}";
+  const Case asked = read_text(case_with("0"), "case.toml", {friction});
+  const auto &mu = asked.contacts.at(0).friction.coefficient;
+  ASSERT_TRUE(mu.value);
+  EXPECT_DOUBLE_EQ(mu.value->value({}, 1), 0.2);
+  const std::string text = resolved(asked);
+  EXPECT_EQ(resolved(read_text(text, "resolved.toml")), text);
+  // Both ways to write it are the same case.
+  EXPECT_EQ(resolved(read_text(case_with("0"), "case.toml",
+                               {"contact={on='left', friction={law='coulomb', "
+                                "coefficient={value={points=[[0, 0.1], [2, 0.3]]}}}}"})),
+            text);
+  EXPECT_THAT(complaint([&] {
+                read_text(case_with("0"), "case.toml",
+                          {"contact={on='left', normal={points=[[0, 0.1], [2, 0.3]]}}"});
+              }),
+              HasSubstr("unknown key"));
 }
 
 TEST(PointsOverTime, AreReadAsTheyStand) {

@@ -1,10 +1,13 @@
 #include "tourmaline/case/reader.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 
+#include "case/key_unit.h"
+#include "error_in.h"
 #include "example.h"
 
 namespace tourmaline::casefile {
@@ -61,6 +64,26 @@ TEST(Reader, AFreeComponentHasNoFormula) {
   const Case c = read({"boundary[1].displacement=['free', 0]", "boundary[2].traction=[1, 0]"});
   EXPECT_FALSE(c.boundaries[1].displacement->at(0));
   EXPECT_TRUE(c.boundaries[1].displacement->at(1));
+}
+
+TEST(Reader, EntriesOfListsGoByTheirNamesToo) {
+  const std::string electrodes =
+      "electrode=[{name='a', on='left', voltage=0}, {name='b-1', on='right', resistor=5}]";
+  const Case c =
+      read({"boundary=[{on='right', displacement=[0, 0]}, {on=['bottom', 'top'], "
+            "traction=[1, 2]}]",
+            electrodes, "electrode[b-1].resistor=7", "electrode[a].voltage=3",
+            "probe=[{name='tip.1', at=[0, 0]}]", "probe[tip.1].at=[0.1, 0]",
+            "boundary[bottom+top].traction[1]=4"});
+  EXPECT_EQ(c.electrodes.at(1).resistor, 7);
+  EXPECT_EQ(c.electrodes.at(0).voltage->value({}, 0), 3);
+  EXPECT_EQ(c.probes.at(0).at->front(), 0.1);
+  EXPECT_EQ((*c.boundaries.at(1).traction)[1].value({}, 0), 4);
+  EXPECT_EQ(unit_of_key("electrode[b-1].resistor", c), "ohm m");
+  const std::string twice =
+      error_in(example, {"boundary=[{on='top', traction=[1, 2]}, {on='top', temperature=0}]",
+                         "boundary[top].temperature=4"});
+  EXPECT_THAT(twice, testing::HasSubstr("several entries of boundary are called \"top\""));
 }
 
 TEST(Reader, ReadsTheContact) {

@@ -161,6 +161,8 @@ TEST(Discharge, ThroughAResistorASourceChargesTheSlab) {
     EXPECT_NEAR(h.numbers("electrode_top_voltage")[n], exact, 1e-11);
     EXPECT_NEAR(h.numbers("electrode_top_current")[n],
                 (5 * h.numbers("time")[n] - exact) / resistance, 1e-11 * 5 / resistance);
+    EXPECT_NEAR(h.numbers("electrode_top_resistor_power")[n],
+                std::pow(5 * h.numbers("time")[n] - exact, 2) / resistance, 1e-10 / resistance);
   }
 }
 
@@ -260,12 +262,17 @@ TEST(Device, CurrentsObeyKirchhoffAndOhm) {
                             to_sensor = h.numbers("electrode_sensor_current"),
                             to_film = h.numbers("electrode_film_current");
   const double k = 0.2 / 8, size = largest(to_film) + largest(to_sensor);
+  const std::vector<double> between = h.numbers("electrode_film_resistor_power"),
+                            to_ground = h.numbers("electrode_sensor_resistor_power");
+  EXPECT_THROW(h.numbers("electrode_drive_resistor_power"), std::out_of_range);
   for (std::size_t n = 0; n < sensor.size(); ++n) {
     const double before = n == 0 ? 0 : sensor[n - 1];
     EXPECT_NEAR(to_film[n], (sensor[n] - film[n]) / 3e7, 1e-9 * size) << n;
     EXPECT_NEAR(to_sensor[n], -sensor[n] / 1e7 - 2e-8 * (sensor[n] - before) / k - to_film[n],
                 1e-9 * size)
         << n;
+    EXPECT_NEAR(between[n], std::pow(sensor[n] - film[n], 2) / 3e7, 1e-12 * largest(between)) << n;
+    EXPECT_NEAR(to_ground[n], std::pow(sensor[n], 2) / 1e7, 1e-12 * largest(to_ground)) << n;
   }
 }
 

@@ -87,6 +87,8 @@ TEST(FoundationCircuit, BehindAResistorIsChargedAsTheColumnIs) {
                   [&](int n) { return (charge(n) - charge(n - 1)) / k; });
     expect_column(history.numbers("foundation_voltage"),
                   [&](int n) { return pressed / capacity + per_charge * charge(n); });
+    expect_column(history.numbers("foundation_resistor_power"),
+                  [&](int n) { return std::pow((charge(n) - charge(n - 1)) / k, 2) * ohms; });
     expect_closed_balances(history);
   }
 }

@@ -105,6 +105,15 @@ material = { library = "BaTiO3-Liu2014", poling = [-3, 4] }
   EXPECT_THAT(text, HasSubstr("area 0.0075 m^2, centre (0.0625, 0.05), poled along (-0.6, 0.8)"));
 }
 
+TEST(Regions, TheSurveyTellsOfASideOnTheAxisOfABodyOfRevolution) {
+  const std::string text = run::survey(read(square + R"([[region]]
+where = "1"
+material.library = "BaTiO3-Liu2014"
+)",
+                                            {"model.plane=axisymmetric", "contact.on=bottom"}));
+  EXPECT_THAT(text, HasSubstr("# boundary \"left\": on the axis, without area\n"));
+}
+
 // Layers of a stack under pressure s and voltage V, sides held: in each layer strain and field are
 // uniform, and s and D are common,
 //     s = c33 eps + e33 phi',   D = e33 eps - beta33 phi',   sum of h phi' = V,

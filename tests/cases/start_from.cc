@@ -72,6 +72,40 @@ TEST(StartFrom, ARunCutInTwoEndsAsTheWholeOne) {
   }
 }
 
+// What the state does not hold: a volume charge beside an electrode, and the far end of a
+// capacitor.
+TEST(StartFrom, LoadsAndSourcesGoOn) {
+  const auto slab = [](double begin, double end, int steps) {
+    const std::string t = fmt::format("(t+{})", begin);
+    return fmt::format(R"toml(
+mesh.box = {{ min = [0, 0], max = [0.1, 0.05], cells = [6, 6] }}
+model.thermal = false
+material.library = "PZT-5A"
+time = {{ end = {}, steps = {} }}
+load.charge = "1e-3*{t}"
+electrode = [ {{ name = "earth", on = "bottom", voltage = 0 }},
+              {{ name = "driven", on = "top", capacitor = 2e-8, resistor = 1e8, voltage = "100+50*{t}" }},
+              {{ name = "open", where = "abs(y - 0.025) < 1e-6" }} ]
+[[boundary]]
+on = "bottom"
+displacement = [0, 0]
+)toml",
+                       end, steps, fmt::arg("t", t));
+  };
+  const RunCase whole = run_text(slab(0, 1, 10)), first = run_text(slab(0, 0.5, 5)),
+                second = run_text(slab(0.5, 0.5, 5) + from(first));
+  expect_equal_quantities(second.nodes(), whole.nodes(), {{"u_x", "u_y"}, {"potential"}}, 1e-10);
+  for (const std::string name : {"driven", "open"})
+    for (const char *what : {"_voltage", "_charge", "_current"}) {
+      const std::vector<double> all = whole.history().numbers("electrode_" + name + what),
+                                rest = second.history().numbers("electrode_" + name + what);
+      const double size = largest(whole.history(), "electrode_driven" + std::string(what));
+      for (std::size_t n = 0; n < rest.size(); ++n)
+        EXPECT_NEAR(rest[n], all[n + 5], 1e-10 * size) << name << what << n;
+    }
+  EXPECT_LT(largest(second.history(), "energy_imbalance"), 1e-10);
+}
+
 TEST(StartFrom, OnEveryRoute) {
   const RunCase whole = run_text(dragged(2, 0, 1, 10)), first = run_text(dragged(2, 0, 0.5, 5));
   const std::string second = dragged(2, 0.5, 0.5, 5) + from(first);

@@ -71,6 +71,21 @@ TEST_F(Figures, AFieldAComponentAndAMomentCanBeChosen) {
   EXPECT_FALSE(png(0.07) == png(0.2));
 }
 
+TEST_F(Figures, AMomentOutsideOfTheRunIsRefused) {
+  for (const char *name : {"potential", "contact.gap"})
+    for (const double time : {-0.1, 0.21, 5., std::nan("")})
+      EXPECT_THAT(
+          [&] {
+            write_figures(run.path(), out.path(), {FigureFormat::svg, {name}, time});
+          },
+          ThrowsMessage<CaseError>(
+              HasSubstr("is not in the results, which go from t = 0 to 0.2 s")))
+          << name << " " << time;
+  EXPECT_FALSE(
+      write_figures(run.path(), out.path(), {FigureFormat::svg, {"potential"}, 0.2 * (1 + 1e-15)})
+          .empty());
+}
+
 TEST_F(Figures, AFieldWithComponentsIsAnsweredWithThese) {
   EXPECT_THAT(
       [&] {

@@ -129,6 +129,18 @@ TEST(ChosenOutputs, AColumnIsTakenAsItsNameSays) {
   EXPECT_EQ(chosen[3].name, "slip@0.1");
 }
 
+TEST(ChosenOutputs, APartOfTheTimeStandsBehindAColumn) {
+  const auto chosen = chosen_outputs(
+      {"mean:elastic_energy@0.1..0.2", "rms:elastic_energy@.05..2e-1", "mean:elastic_energy"},
+      paper());
+  EXPECT_EQ(chosen[0].reduction.kind, Reduction::Kind::mean);
+  EXPECT_EQ(chosen[0].reduction.window, (Reduction::Window{0.1, 0.2}));
+  EXPECT_EQ(chosen[0].column, "elastic_energy");
+  EXPECT_EQ(chosen[0].unit, "J/m");
+  EXPECT_EQ(chosen[1].reduction.window, (Reduction::Window{0.05, 0.2}));
+  EXPECT_FALSE(chosen[2].reduction.window);
+}
+
 TEST(ChosenOutputs, NamesOfBoundariesMayHaveAllThatStandsAroundAColumn) {
   casefile::Case odd = paper().back();
   for (casefile::BoundaryCase &boundary : odd.boundaries)
@@ -169,6 +181,14 @@ INSTANTIATE_TEST_SUITE_P(
                         "rms:max_potential@0.1",
                         "rms: and @0.1 each make one number of a column, and here are both"},
                     WrongOutput{"max:slop@0.1", "did you mean \"max:slip\"?"},
+                    WrongOutput{"max:slop@0.1..0.2", "did you mean \"max:slip@0.1..0.2\"?"},
+                    WrongOutput{"max:slip@0.1", "or max:slip@FROM..TO of a part of the time"},
+                    WrongOutput{"slip@0.1..0.2", "write mean:slip@0.1..0.2, or rms:"},
+                    WrongOutput{"last:slip@0.1..0.2", "is slip@0.2; write that"},
+                    WrongOutput{"mean:slip@0.2..0.1", "the second above it"},
+                    WrongOutput{"mean:slip@0.1..0.3", "at most 0.2"},
+                    WrongOutput{"mean:slip@-1..0.1", "at least 0"},
+                    WrongOutput{"mean:slip@0.1..", "must be two numbers of seconds"},
                     WrongOutput{"max:at_max_potential_x", "is a place"},
                     WrongOutput{"at_max_potential_x@0.1", "is a place"}));
 

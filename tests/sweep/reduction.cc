@@ -28,6 +28,22 @@ TEST(Reduction, MeansWeighAStepWithItsLength) {
   EXPECT_DOUBLE_EQ(made("rms"), std::sqrt((9 + 36 + 2 * 2.25) / 4));
 }
 
+TEST(Reduction, OfAWindowStepsCountWithWhatLiesInIt) {
+  const auto in = [](const char *word, double from, double to) {
+    Reduction reduction = *reduction_named(word);
+    reduction.window = Reduction::Window{from, to};
+    return reduced(reduction, times, values);
+  };
+  EXPECT_DOUBLE_EQ(in("mean", 1, 4), (-6 + 2 * 1.5) / 3);
+  EXPECT_DOUBLE_EQ(in("mean", 0.5, 3), (0.5 * 3 - 6 + 1.5) / 2.5);
+  EXPECT_DOUBLE_EQ(in("rms", 1.5, 2.5), std::sqrt((0.5 * 36 + 0.5 * 2.25) / 1));
+  EXPECT_EQ(in("min", 2, 4), 1.5) << "the step that ends where the window begins is not in it";
+  EXPECT_EQ(in("min", 2 * (1 - 1e-15), 4), 1.5);
+  EXPECT_EQ(in("max", 1, 2), -6);
+  EXPECT_EQ(in("max", 0, 4), made("max"));
+  EXPECT_TRUE(std::isnan(in("mean", 5, 6)));
+}
+
 TEST(Reduction, NoSquareLeavesTheRangeOfNumbers) {
   const std::vector<double> large{3e300, 4e300}, small{3e-300, 4e-300}, nothing{0, 0}, ends{1, 2};
   const Reduction rms{.kind = Reduction::Kind::rms};

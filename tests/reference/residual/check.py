@@ -381,6 +381,9 @@ class Check:
                 self.wrong("electrode: given voltage", get("voltage") - source, max(abs(source), 1e-300))
             elif previous is not None and not any(o.get("to") == e["name"] for o in self.case["electrode"]):
                 self.wrong("electrode: open", get("charge") - get("charge", r=previous), self.sizes[1][nodes].sum())
+            if "resistor" in e:
+                across = get("voltage") - (get("voltage", e["to"]) if "to" in e else source)
+                self.wrong("electrode: power in its resistor", get("resistor_power") - across ** 2 / e["resistor"], get("resistor_power"))
             if previous is not None:
                 self.wrong("electrode: current", get("current") * k - get("charge") + get("charge", r=previous), self.sizes[1][nodes].sum())
 
