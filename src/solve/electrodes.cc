@@ -47,6 +47,8 @@ VectorXd electrode_voltages(const Model<dim> &model, std::span<const double> sta
 
 template <int dim>
 VectorXd initial_charges(const Model<dim> &model, std::span<const double> initial) {
+  if (model.asked.initial.from)
+    return settled_charges(model, initial);
   std::vector<double> products(initial.size());
   const std::vector<double> no_loads(initial.size(), 0.);
   model.op.multiply(model.step, initial, products);
@@ -62,9 +64,14 @@ VectorXd settled_charges(const Model<dim> &model, std::span<const double> settle
 }
 
 template <int dim>
+std::optional<double> sources_before_start(const Model<dim> &model) {
+  return model.asked.initial.from ? std::optional(0.) : std::nullopt;
+}
+
+template <int dim>
 std::optional<double> sources_before(const Model<dim> &model, double time) {
   if (model.steps.number(time) == 1 && !model.asked.time.is_dynamic())
-    return std::nullopt;
+    return sources_before_start(model);
   return model.time_before(time);
 }
 
@@ -78,6 +85,8 @@ template VectorXd initial_charges<2>(const Model<2> &, std::span<const double>);
 template VectorXd initial_charges<3>(const Model<3> &, std::span<const double>);
 template VectorXd settled_charges<2>(const Model<2> &, std::span<const double>);
 template VectorXd settled_charges<3>(const Model<3> &, std::span<const double>);
+template std::optional<double> sources_before_start(const Model<2> &);
+template std::optional<double> sources_before_start(const Model<3> &);
 template std::optional<double> sources_before(const Model<2> &, double);
 template std::optional<double> sources_before(const Model<3> &, double);
 
