@@ -223,7 +223,7 @@ void declare_file(Visitor &v, MeshCase &mesh) {
        .unit = "scale",
        .range = positive(sense::length),
        .used = file,
-       .unit_here = fmt::format("{} m", mesh.scale)},
+       .unit_here = mesh.scale == 1 ? "m" : fmt::format("{} m", mesh.scale)},
       mesh.size);
   v.key({.name = "unnamed",
          .description = "what facets of the boundary without a name are; error: a mistake; "

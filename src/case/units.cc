@@ -40,10 +40,30 @@ const ut_system *all_units() {
   return system.get();
 }
 
+// Whether there is a number that is neither an exponent nor the 1 of "1/K": "min 30" is no half an
+// hour.
+bool has_number_of_its_own(std::string_view unit) {
+  if (unit.starts_with("1/"))
+    unit.remove_prefix(1);
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  for (std::size_t i = 0; i < unit.size(); ++i) {
+    if (!is_digit(unit[i]))
+      continue;
+    std::size_t before = i;
+    while (before > 0 &&
+           (unit[before - 1] == '-' || unit[before - 1] == '+' || unit[before - 1] == '^'))
+      --before;
+    if (before == 0 || !(std::isalnum(static_cast<unsigned char>(unit[before - 1])) != 0 ||
+                         unit[before - 1] == ')'))
+      return true;
+  }
+  return false;
+}
+
 // The library would also read moments ("s since 1970-01-01") and logarithms ("lg(re 1 mW)").
 Unit unit_called(const std::string &name) {
   constexpr std::size_t longest = 80;
-  if (name.size() > longest || name.find_first_of("@:") != std::string::npos)
+  if (name.size() > longest || name.find_first_of(std::string_view("@:\0", 3)) != std::string::npos)
     return nullptr;
   Unit unit(ut_parse(all_units(), name.c_str(), UT_UTF8));
   const bool is_moment = unit && name.find("since") != std::string::npos;
@@ -122,6 +142,11 @@ Converted converted(const Quantity &quantity, const std::string &unit, bool is_a
     return {.complaint = "has the unit " + given + ", but must be a number without unit"};
   if (!to)
     return {.complaint = "is in " + unit + ", which no unit is converted to; write the number"};
+  if (from && has_number_of_its_own(quantity.unit))
+    return {.complaint = given +
+                         " is a unit with a number of its own; write one number, then the "
+                         "unit: here it is " +
+                         unit + ", or another of its kind"};
   if (!from)
     return {.complaint = given + " is no unit; here it is " + unit + ", or another of its kind" +
                          did_you_mean(quantity.unit, units_like(to.get()))};

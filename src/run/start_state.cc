@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "body/interpolation.h"
+#include "case/electrodes.h"
 #include "case/place_of_key.h"
 #include "case/toml_text.h"
 #include "mesh/distribute.h"
@@ -15,6 +16,7 @@
 #include "report/field_file.h"
 #include "report/recorded_mesh.h"
 #include "report/table.h"
+#include "solve/electrodes.h"
 #include "tourmaline/case/case.h"
 #include "tourmaline/case/reader.h"
 #include "tourmaline/error.h"
@@ -30,8 +32,12 @@ using casefile::InitialCase;
 namespace {
 
 // How far apart two numbers of one coordinate are at most, and how far a place may lie outside of
-// the other mesh, where both approximate one curved boundary; of the body's size.
-constexpr double same_place = 1e-12, near_boundary = 1e-3;
+// the other mesh, where both approximate one curved boundary; of the body's size, and of its extent
+// where it is thinnest.
+constexpr double same_place = 1e-12, near_boundary = 1e-3, of_thickness = 1e-2;
+// How far two charges or voltages that are one differ at most: by the digits of tables and
+// solutions.
+constexpr double same_charge = 1e-6, same_value = 1e-9;
 
 [[noreturn]] void fail(const InitialCase &initial, const std::string &reason) {
   throw CaseError(fmt::format("{} = {}: {}", casefile::place_of_key(initial.places, "", "from"),
@@ -78,16 +84,18 @@ Recorded of_fields(const fs::path &file) {
         found.unknowns[unknown<dim>(static_cast<body::Node>(i), first + c)] =
             array.values[i * array.components + static_cast<std::size_t>(c)];
   };
-  for (const report::FieldArray &array : fields.arrays) {
-    if (!array.on_points)
-      continue;
-    if (array.name == "displacement")
-      put(array, 0, dim);
-    if (array.name == "potential")
-      put(array, Fields<dim>::potential, 1);
-    if (array.name == "temperature")
-      put(array, Fields<dim>::temperature, 1);
-  }
+  const auto put_called = [&](const std::string &name, int first, std::size_t components) {
+    const auto array = std::ranges::find_if(fields.arrays, [&](const report::FieldArray &one) {
+      return one.on_points && one.name == name && one.components == components;
+    });
+    if (array == fields.arrays.end())
+      throw CaseError(fmt::format("{} has no array {} with {} component{} at its points",
+                                  file.string(), name, components, components == 1 ? "" : "s"));
+    put(*array, first, components == 1 ? 1 : dim);
+  };
+  put_called("displacement", 0, 3);
+  put_called("potential", Fields<dim>::potential, 1);
+  put_called("temperature", Fields<dim>::temperature, 1);
   return found;
 }
 
@@ -147,17 +155,30 @@ casefile::Case case_of(const InitialCase &initial) {
   }
 }
 
+// Along each axis, in ascending order [m].
 template <int dim>
-double size_of(const std::vector<Vector3> &points) {
-  double size = 0;
-  for (int axis = 0; axis < dim; ++axis) {
-    const auto i = static_cast<std::size_t>(axis);
+std::vector<double> extents_of(const std::vector<Vector3> &points) {
+  std::vector<double> extents;
+  for (std::size_t i = 0; i < dim; ++i) {
     const auto [low, high] =
         std::minmax_element(points.begin(), points.end(),
                             [&](const Vector3 &a, const Vector3 &b) { return a[i] < b[i]; });
-    size = std::max(size, (*high)[i] - (*low)[i]);
+    extents.push_back((*high)[i] - (*low)[i]);
   }
-  return size;
+  std::ranges::sort(extents);
+  return extents;
+}
+
+template <int dim>
+double size_of(const std::vector<Vector3> &points) {
+  return extents_of<dim>(points).back();
+}
+
+// A thin body has no curved boundary that would need as much of its length.
+template <int dim>
+double near_boundary_of(const std::vector<Vector3> &points) {
+  const std::vector<double> extents = extents_of<dim>(points);
+  return std::min(near_boundary * extents.back(), of_thickness * extents.front());
 }
 
 double distance(const Vector3 &a, const Vector3 &b) {
@@ -194,13 +215,26 @@ body::Discretisation<dim> mesh_of(const InitialCase &initial, const Recorded &fr
 }
 
 template <int dim>
-[[noreturn]] void fail_outside(const InitialCase &initial, const Vector3 &place, double away) {
+[[noreturn]] void fail_outside(const InitialCase &initial, const char *body, const char *other,
+                               const Vector3 &place, double away) {
   std::string words = fmt::format("{:g}, {:g}", place[0], place[1]);
   if (dim == 3)
     words += fmt::format(", {:g}", place[2]);
-  fail(initial, fmt::format("the body of that run does not reach [{}] m, a place of this one, by "
-                            "{:.3g} m; both must be one body",
-                            words, away));
+  fail(initial, fmt::format("the body of {} does not reach [{}] m, a place of {}, by {:.3g} m; "
+                            "both must be one body",
+                            body, words, other, away));
+}
+
+// A part of the body would have been cut off, and what held it with it.
+template <int dim>
+void require_whole(const solve::Model<dim> &model, const Recorded &from) {
+  constexpr double coarser = 10;  // facets of a coarse mesh leave out more of a circle
+  const double far = coarser * near_boundary_of<dim>(from.points);
+  const std::vector<body::Interpolation> found = body::nearest_places(model.body, from.points);
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (found[i].distance > far)
+      fail_outside<dim>(model.asked.initial, "this case", "that run's", from.points[i],
+                        found[i].distance);
 }
 
 // Places a little outside of the other mesh have the values of the nearest ones in it.
@@ -209,11 +243,11 @@ std::vector<double> interpolated(const InitialCase &initial, const Recorded &fro
                                  const std::vector<Vector3> &points) {
   const body::Discretisation<dim> other = mesh_of<dim>(initial, from);
   std::vector<body::Interpolation> found = body::nearest_places(other, points);
-  const double far = near_boundary * size_of<dim>(from.points);
+  const double far = near_boundary_of<dim>(from.points);
   std::vector<Vector3> nearby;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (found[i].distance > far)
-      fail_outside<dim>(initial, points[i], found[i].distance);
+      fail_outside<dim>(initial, "that run", "this one", points[i], found[i].distance);
     if (found[i].distance > 0)
       nearby.push_back(found[i].place);
   }
@@ -319,6 +353,105 @@ void level_electrodes(const solve::Model<dim> &model, std::vector<double> &state
   }
 }
 
+// What its history says of the last step, or of that one; nothing of the initial state.
+class LastRow {
+ public:
+  explicit LastRow(const InitialCase &initial)
+      : table_(report::read_table(fs::path(*initial.from) / "history.csv")) {
+    const std::vector<double> *steps = table_.find("step");
+    for (std::size_t i = 0; steps && i < steps->size(); ++i)
+      if (!initial.step || (*steps)[i] == *initial.step)
+        row_ = i;
+  }
+
+  std::optional<double> value(const std::string &column) const {
+    const std::vector<double> *values = table_.find(column);
+    return row_ && values ? std::optional((*values)[*row_]) : std::nullopt;
+  }
+
+ private:
+  report::Table table_;
+  std::optional<std::size_t> row_;
+};
+
+LastRow last_row(const InitialCase &initial) {
+  try {
+    return LastRow(initial);
+  } catch (const CaseError &error) {
+    fail(initial, error.what());
+  }
+}
+
+// Where the other end of the electrode's capacitor stands, if that is a given voltage.
+double source_of(const casefile::ElectrodeCase &electrode, double time) {
+  const bool has_source = electrode.capacitor && !electrode.to && electrode.voltage;
+  return has_source ? electrode.voltage->value({}, time) : 0;
+}
+
+// A capacitor's charge is that of both its ends.
+void require_same_source(const InitialCase &initial, const casefile::ElectrodeCase &here,
+                         const casefile::Case &other, const LastRow &last) {
+  if (!here.capacitor || here.to)
+    return;
+  const auto there = std::ranges::find(other.electrodes, here.name, &casefile::ElectrodeCase::name);
+  const std::optional<double> time = last.value("time");
+  const bool was_on = time || other.time.is_dynamic() || other.initial.from;
+  const double before = there != other.electrodes.end() && was_on
+                            ? source_of(*there, time.value_or(0))
+                            : 0,
+               now = source_of(here, 0);
+  if (std::abs(now - before) > same_value * std::max(std::abs(now), std::abs(before)))
+    fail(initial,
+         fmt::format("the other end of the capacitor at electrode \"{}\" was at {:g} V in that "
+                     "run, and is at {:g} V here at t = 0; the capacitor keeps its charge, so it "
+                     "must begin where it was (`voltage` may change behind t = 0, as in \"{:g} + "
+                     "100*(t > 0)\")",
+                     here.name, before, now, before));
+}
+
+// Of what the charge on an electrode at those nodes is summed up from [C].
+template <int dim>
+double size_of_terms(const solve::Model<dim> &model, const std::vector<body::Node> &nodes,
+                     const std::vector<double> &products, const std::vector<double> &state) {
+  std::vector<double> volt(state.size(), 0.);
+  for (const body::Node node : nodes)
+    volt[unknown<dim>(node, Fields<dim>::potential)] = 1;
+  const std::vector<double> of_volt = model.product(volt, false);
+  const double highest = largest<dim>(state, Fields<dim>::potential);
+  double size = 0;
+  for (const body::Node node : nodes) {
+    const std::size_t i = unknown<dim>(node, Fields<dim>::potential);
+    size += std::abs(products[i]) + highest * std::abs(of_volt[i]);
+  }
+  return size;
+}
+
+// Electrodes that keep their charge begin with that of the state, by this case's constants and its
+// loads at t = 0.
+template <int dim>
+void require_same_charges(const solve::Model<dim> &model, const std::vector<double> &state,
+                          const LastRow &last) {
+  const Eigen::VectorXd charges = solve::settled_charges<dim>(model, state);
+  const std::vector<double> products = model.product(state, false);
+  for (std::size_t e = 0; e < model.electrodes.size(); ++e) {
+    const casefile::ElectrodeCase &electrode = model.asked.electrodes[e];
+    const std::optional<double> recorded =
+        last.value(fmt::format("electrode_{}_charge", electrode.name));
+    if (electrode.is_driven() || electrode.charge || !recorded)
+      continue;
+    const double found = charges[static_cast<Eigen::Index>(e)];
+    const double size = std::abs(found) + std::abs(*recorded) +
+                        size_of_terms(model, model.electrodes[e], products, state);
+    if (std::abs(found - *recorded) > same_charge * size)
+      fail(model.asked.initial,
+           fmt::format("electrode \"{}\" had the charge {:g} in that run, and by the materials of "
+                       "this case and its charges and foundations at t = 0 its start has {:g}; "
+                       "what it keeps must be one number: let these begin where they were (they "
+                       "may change behind t = 0, as by a factor (t > 0))",
+                       electrode.name, *recorded, found));
+  }
+}
+
 template <int dim>
 std::vector<double> state_of_other(const solve::Model<dim> &model) {
   const InitialCase &initial = model.asked.initial;
@@ -329,11 +462,21 @@ std::vector<double> state_of_other(const solve::Model<dim> &model) {
   require_recorded(model, other);
   require_one_theory(model, other);
   Recorded from = recorded<dim>(initial);
-  if (!are_nodes_of<dim>(from, model.body.points()))
+  const bool is_same_mesh = are_nodes_of<dim>(from, model.body.points());
+  if (!is_same_mesh)
     from.unknowns = interpolated<dim>(initial, from, model.body.points());
+  if (!is_same_mesh || from.points.size() > model.body.n_nodes())
+    require_whole(model, from);
   from.unknowns.resize(model.n_unknowns());
   require_unknowns<dim>(model.asked, from.unknowns);
   level_electrodes(model, from.unknowns);
+  if (casefile::all_voltages_given(model.asked))
+    return std::move(from.unknowns);
+  const LastRow last = last_row(initial);
+  for (const casefile::ElectrodeCase &electrode : model.asked.electrodes)
+    require_same_source(initial, electrode, other, last);
+  if (is_same_mesh)
+    require_same_charges(model, from.unknowns, last);
   return std::move(from.unknowns);
 }
 

@@ -4,7 +4,6 @@
 
 #include "body/prescribed.h"
 #include "solve/electrodes.h"
-#include "solve/sources_at_start.h"
 
 namespace tourmaline::solve {
 
@@ -30,7 +29,7 @@ void ElectrodeHistory<dim>::begin(std::span<const double> settled) {
   if (at_once.free().empty())
     return;
   const VectorXd now = electrode_voltages(model_, settled);
-  charges_ = at_once.right_side(sources_at_start(model_), 0, charges_, voltages_, now) -
+  charges_ = at_once.right_side(sources_before_start(model_), 0, charges_, voltages_, now) -
              at_once.admittance() * now(at_once.free());
   voltages_ = now;
   voltages_before_ = voltages_;

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "solve/sources_at_start.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::solve {
@@ -47,16 +46,7 @@ VectorXd electrode_voltages(const Model<dim> &model, std::span<const double> sta
 }
 
 template <int dim>
-VectorXd settled_charges(const Model<dim> &model, std::span<const double> settled) {
-  std::vector<double> products(settled.size()), loads(settled.size(), 0.);
-  model.op.multiply(model.step, settled, products);
-  model.loads.integrate(0, loads);
-  return electrode_charges<dim>(model, products, loads);
-}
-
-template <int dim>
 VectorXd initial_charges(const Model<dim> &model, std::span<const double> initial) {
-  // A state from another run is one of equilibrium, with the loads that this one goes on with.
   if (model.asked.initial.from)
     return settled_charges(model, initial);
   std::vector<double> products(initial.size());
@@ -66,9 +56,22 @@ VectorXd initial_charges(const Model<dim> &model, std::span<const double> initia
 }
 
 template <int dim>
+VectorXd settled_charges(const Model<dim> &model, std::span<const double> settled) {
+  std::vector<double> products(settled.size()), loads(settled.size(), 0.);
+  model.op.multiply(model.step, settled, products);
+  model.loads.integrate(0, loads);
+  return electrode_charges<dim>(model, products, loads);
+}
+
+template <int dim>
+std::optional<double> sources_before_start(const Model<dim> &model) {
+  return model.asked.initial.from ? std::optional(0.) : std::nullopt;
+}
+
+template <int dim>
 std::optional<double> sources_before(const Model<dim> &model, double time) {
   if (model.steps.number(time) == 1 && !model.asked.time.is_dynamic())
-    return sources_at_start(model);
+    return sources_before_start(model);
   return model.time_before(time);
 }
 
@@ -82,6 +85,8 @@ template VectorXd initial_charges<2>(const Model<2> &, std::span<const double>);
 template VectorXd initial_charges<3>(const Model<3> &, std::span<const double>);
 template VectorXd settled_charges<2>(const Model<2> &, std::span<const double>);
 template VectorXd settled_charges<3>(const Model<3> &, std::span<const double>);
+template std::optional<double> sources_before_start(const Model<2> &);
+template std::optional<double> sources_before_start(const Model<3> &);
 template std::optional<double> sources_before(const Model<2> &, double);
 template std::optional<double> sources_before(const Model<3> &, double);
 

@@ -23,13 +23,20 @@ Eigen::VectorXd electrode_voltages(const Model<dim> &model, std::span<const doub
 
 /// The charges of the case's initial state, in which there is no load yet: it is switched on at
 /// t = 0, as voltages are. Counted at the electrodes' nodes without the potential that belongs to
-/// it, a volume charge would leave them a charge by the width of a cell.
+/// it, a volume charge would leave them a charge by the width of a cell. The state of another run
+/// is one in which they had been on: its loads are those at t = 0.
 template <int dim>
 Eigen::VectorXd initial_charges(const Model<dim> &model, std::span<const double> initial);
 
 /// Those of a state that is in equilibrium with the loads at t = 0.
 template <int dim>
 Eigen::VectorXd settled_charges(const Model<dim> &model, std::span<const double> settled);
+
+/// The time at which the formulas of circuits' sources say what these were before the start [s]:
+/// t = 0 where the state is another run's, whose sources had come to there; nothing: they were at
+/// 0 V.
+template <int dim>
+std::optional<double> sources_before_start(const Model<dim> &model);
 
 /// Since when the sources of circuits have been what their formulas say, as the step that ends at
 /// `time` sees it [s]; nothing: they are switched on in it, since the first step begins at the

@@ -1,7 +1,6 @@
 #include "solve/free_electrodes.h"
 
 #include "solve/electrodes.h"
-#include "solve/sources_at_start.h"
 
 namespace tourmaline::solve {
 
@@ -41,7 +40,7 @@ VectorXd FreeElectrodesAtStart<dim>::lacks(std::span<const double> state,
     return {};
   const VectorXd now = electrode_voltages(model_, state);
   VectorXd lacks = at_once_.admittance() * now(at_once_.free()) -
-                   at_once_.right_side(sources_at_start(model_), 0, charges_, voltages_, now);
+                   at_once_.right_side(sources_before_start(model_), 0, charges_, voltages_, now);
   for (Index e = 0; e < size(); ++e)
     for (const body::Node node : model_.electrodes[at_once_.free()[static_cast<std::size_t>(e)]])
       lacks[e] += left[unknown<dim>(node, Fields<dim>::potential)];

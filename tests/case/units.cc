@@ -79,6 +79,17 @@ TEST(Quantity, WhatIsNoLengthIsRefused) {
        {"5 s", "5 1/m", "5 kPa", "5 apples", "5 MM", "5 m*x", "5 m @ 3", "5 s since 1970-01-01",
         "5 lg(re 1 m)", "5 m^99999999999", "5 %", "5 m/0", "5 ((((((((m", "5 rad", "5 t"})
     EXPECT_NE(converted(quantity_in(text).value(), "m", false).complaint, "") << text;
+  EXPECT_NE(converted({5, std::string("m\0x", 3)}, "m", false).complaint, "");
+}
+
+// UDUNITS reads "min 30" as half an hour.
+TEST(Quantity, HasOneNumber) {
+  for (const char *text : {"2 min 30", "2 min.5", "2 min/2"})
+    EXPECT_THAT(converted(quantity_in(text).value(), "s", false).complaint,
+                HasSubstr("a number of its own"))
+        << text;
+  for (const char *text : {"2 s1", "2 s^1", "2 1/s-1", "2 s2 Hz"})
+    EXPECT_EQ(converted(quantity_in(text).value(), "s", false).value, 2) << text;
 }
 
 TEST(Quantity, DegreesAreNoDifference) {

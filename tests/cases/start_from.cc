@@ -117,6 +117,24 @@ TEST(StartFrom, OnEveryRoute) {
   expect_same_end(run_text(second, monolithic), third, 1e-8);
 }
 
+// The other end of a capacitor is at a voltage, and charge is given in the body.
+TEST(StartFrom, CapacitorsAndChargesBeginWhereTheyHadComeTo) {
+  const auto sources = [](double begin) {
+    return std::vector<std::string>{
+        fmt::format(
+            "electrode[1]={{name=\"sensor\",on=\"left\",capacitor=2e-9,voltage=\"10*(t+{})\"}}",
+            begin),
+        fmt::format("load.charge=\"1e-6*(t+{})\"", begin)};
+  };
+  const RunCase whole = run_text(dragged(2, 0, 1, 10), sources(0)),
+                first = run_text(dragged(2, 0, 0.5, 5), sources(0));
+  const std::string second = dragged(2, 0.5, 0.5, 5) + from(first);
+  expect_same_end(run_text(second, sources(0.5)), whole, 1e-10);
+  std::vector<std::string> monolithic = sources(0.5);
+  monolithic.push_back("solver.method=\"monolithic\"");
+  expect_same_end(run_text(second, monolithic), whole, 1e-7);
+}
+
 TEST(StartFrom, AnyStepWithFieldsWillDo) {
   const RunCase whole(casefile::read_text(dragged(2, 0, 1, 10), "case.toml", {}));
   const RunCase second = run_text(dragged(2, 0.4, 0.6, 6) + from(whole, "step = 4\n"));
@@ -223,11 +241,23 @@ TEST_F(StartFromComplaint, NamesWhatIsNotThere) {
 TEST_F(StartFromComplaint, SaysWhereTwoBodiesAreNotOne) {
   using ::testing::HasSubstr;
   EXPECT_THAT(complaint({"mesh.box.max=[0.1,0.06]"}), HasSubstr("does not reach ["));
+  EXPECT_THAT(
+      complaint({"mesh.box.max=[0.05,0.05]", "mesh.box.cells=[4,4]"}),
+      HasSubstr("the body of this case does not reach [0.0625, 0] m, a place of that run's"));
+  EXPECT_THAT(complaint({"mesh.box.max=[0.1,0.048]"}), HasSubstr("of this case does not reach ["));
   EXPECT_THAT(complaint({"model.plane=\"stress\""}),
               HasSubstr("model.plane = \"strain\", this one"));
   EXPECT_THAT(complaint({"material.reference_temperature=290"}), HasSubstr("differences to"));
   EXPECT_THAT(complaint({}, "potential = 3"), HasSubstr("without `from`"));
   EXPECT_THAT(complaint({"electrode[1].on=\"top\""}), HasSubstr("must have the same electrodes"));
+}
+
+// A thousandth of its length is a tenth of its thickness.
+TEST(StartFrom, AThickerSheetIsAnotherBody) {
+  const std::string sheet =
+      std::string("mesh.box = { min = [0, 0], max = [0.1, 1e-3], cells = [10, 2] }\n") + linear;
+  const RunCase first = run_text(sheet);
+  EXPECT_THROW(run_text(sheet + from(first), {"mesh.box.max=[0.1,1.09e-3]"}), CaseError);
 }
 
 TEST_F(StartFromComplaint, SaysWhatFilesDoNotHold) {
@@ -240,6 +270,31 @@ TEST_F(StartFromComplaint, SaysWhatFilesDoNotHold) {
   EXPECT_THAT(complaint({"time.regime=\"static\"", "contact.heat=\"insulated\"",
                          "electrode[1]={name=\"sensor\",on=\"left\"}"}),
               HasSubstr("take time.regime = \"quasistatic\""));
+}
+
+TEST_F(StartFromComplaint, SaysWhereChargesWouldJump) {
+  using ::testing::HasSubstr;
+  const std::string sensor = "electrode[1]={name=\"sensor\",on=\"left\",capacitor=2e-9,voltage=";
+  EXPECT_THAT(complaint({sensor + "\"7+t\"}"}),
+              HasSubstr("was at 0 V in that run, and is at 7 V here at t = 0"));
+  EXPECT_EQ(complaint({sensor + "\"7*(t > 0)\"}"}), "");
+  EXPECT_THAT(complaint({"load.charge=1e-6"}), HasSubstr("\"sensor\" had the charge"));
+  EXPECT_THAT(complaint({"material.beta11=2e-8"}), HasSubstr("\"sensor\" had the charge"));
+  EXPECT_EQ(complaint({"load.charge=\"1e-6*(t > 0)\""}), "");
+}
+
+TEST_F(StartFromComplaint, FieldFilesWithoutAFieldAreRefused) {
+  const RunCase whole(casefile::read_text(dragged(2, 0, 0.5, 2), "case.toml", {}));
+  const auto file = whole.folder() / "result_0001.vtu";
+  std::string text = [&] {
+    std::ifstream in(file);
+    return std::string{std::istreambuf_iterator<char>(in), {}};
+  }();
+  const std::string name = "Name=\"displacement\"";
+  text.replace(text.find(name), name.size(), "Name=\"deformation\"");
+  std::ofstream(file) << text;
+  EXPECT_THAT(complaint({"initial.from=\"" + whole.folder().string() + "\""}, "step = 1"),
+              ::testing::HasSubstr("has no array displacement with 3 components"));
 }
 
 TEST_F(StartFromComplaint, DamagedTablesAreRefused) {
