@@ -36,11 +36,11 @@ function ofField(frame: Frame, name: string, state: number): Arrow[] {
 /** The skin's nodes at the places of the contact's. */
 function contactOnSkin(frame: Frame): number[] {
   const { result, grid, size } = frame.body;
-  const places = axes.map((axis) => result.contact!.column(axis)!);
+  const places = axes.map((axis) => result.contact!.column(axis));
   const key = (at: (c: number) => number) => axes.map((_, c) => Math.round((at(c) / size) * 1e6)).join();
   const nodes = new Map<string, number>();
   for (let i = 0; i < grid.points.length / 3; ++i) nodes.set(key((c) => grid.points[3 * i + c]), i);
-  return Array.from({ length: contactNodes(result) }, (_, row) => nodes.get(key((c) => places[c][row])) ?? -1);
+  return Array.from({ length: contactNodes(result) }, (_, row) => nodes.get(key((c) => places[c]?.[row] ?? 0)) ?? -1);
 }
 
 function ofSlip(frame: Frame, time: number): Arrow[] {
@@ -49,10 +49,10 @@ function ofSlip(frame: Frame, time: number): Arrow[] {
   const step = stepAt(stepEnds(result), time);
   if (step < 0) return [];
   const on = contactOnSkin(frame);
-  const parts = axes.map((axis) => result.contact!.column(`slip_${axis}`)!);
+  const parts = axes.map((axis) => result.contact!.column(`slip_${axis}`));
   const every = Math.ceil(on.length / 60);
   return on.flatMap((node, row): Arrow[] => (node < 0 || (result.dimension === 2 && row % every !== 0) ? []
-    : [{ at: axes.map((_, c) => places[3 * node + c]), vector: parts.map((part) => part[step * on.length + row]) }]));
+    : [{ at: axes.map((_, c) => places[3 * node + c]), vector: parts.map((part) => part?.[step * on.length + row] ?? 0) }]));
 }
 
 /** What is drawn, in pixels, and how long the longest vector is. */
