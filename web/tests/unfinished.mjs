@@ -10,7 +10,7 @@ const plain = (text) => text.replace(/\s+/g, ' ').trim();
 
 const failed = join(folder, 'failed');
 const { status, stderr } = spawnSync(program, ['run', join(cases, 'ouafik-2020/conductive.toml'), '-q', '-o', failed,
-  '--set', 'mesh.box.cells=[16, 16]', '--set', 'solver.max_iterations=1'], { encoding: 'utf8' });
+  '--set', 'mesh.box.cells=[32, 32]', '--set', 'solver.max_iterations=1'], { encoding: 'utf8' });
 await test('a run that fails leaves a page that says so in the words of the terminal, with the planned end', async () => {
   assert.equal(status, 3, stderr);
   const said = plain(stderr).replace(/^.*?tourmaline: /, '').replace(/; the results of .*$/, '');
@@ -44,7 +44,7 @@ await test('a run that is stopped leaves a page that says after which step', asy
   });
 });
 await test('a run that then reaches its end says nothing of it', async () => {
-  const again = run('failed', 'ouafik-2020/conductive.toml', 'mesh.box.cells=[16, 16]');
+  const again = run('failed', 'ouafik-2020/conductive.toml', 'mesh.box.cells=[32, 32]');
   assert.ok(!existsSync(join(again, 'unfinished.txt')));
   await inBrowser(desktop, async (context) => {
     const { tab } = await open(context, join(again, 'report.html'));
@@ -80,7 +80,7 @@ await inBrowser(desktop, async (context) => {
     for (let step = 1; step <= 20; ++step) {
       await goTo(tab, step);
       await settled(tab);
-      const said = await chart.locator('tbody tr').evaluateAll((trs) => trs.map((tr) => [...tr.children].map((td) => Number(td.dataset.value))));
+      const said = await chart.locator('details tbody tr').evaluateAll((trs) => trs.map((tr) => [...tr.children].map((td) => Number(td.dataset.value))));
       const rows = tableOf(large, 'contact.csv').filter((row) => row.step === step);
       assert.equal(said.length, rows.length);
       for (const [y, value] of said) {
