@@ -18,7 +18,9 @@ constexpr const char *vtk_type() {
     return "Float64";
   else if constexpr (std::is_same_v<Number, std::int64_t>)
     return "Int64";
-  else
+  else if constexpr (std::is_same_v<Number, std::int32_t>)
+    return "Int32";
+  else if constexpr (std::is_same_v<Number, std::uint8_t>)
     return "UInt8";
 }
 
