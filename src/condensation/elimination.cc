@@ -113,14 +113,13 @@ class Tree {
   void sort_children(int p);
   std::vector<int> postorder() const;
 
-  const Columns &columns_;
   std::vector<std::vector<int>> groups_, children_;
   std::vector<int> parent_;  // kept_: what is kept; -1: none
   std::vector<double> pivots_, below_, peak_;
   int kept_;  // the number of the front of what is kept
 };
 
-Tree::Tree(const GroupedMatrix &matrix, const Columns &columns) : columns_(columns) {
+Tree::Tree(const GroupedMatrix &matrix, const Columns &columns) {
   std::vector<int> front_of(matrix.eliminated());
   for (int g = 0; g < matrix.eliminated(); ++g) {
     if (!columns.continues_child(g))
