@@ -78,7 +78,7 @@ TEST(Resolved, WritesATableAsAValueWhereThatSaysItAll) {
               HasSubstr("\nnormal = \"unilateral\"\n"));
   EXPECT_THAT(
       text({"contact.normal={law='compliance', coefficient=5}"}),
-      HasSubstr("\n[contact.normal]\nlaw = \"compliance\"\ncoefficient = 5\nexponent = 1\n"));
+      HasSubstr("\n[contact.normal]\nlaw = \"compliance\"\nexponent = 1\ncoefficient = 5\n"));
   EXPECT_THAT(text({"contact.friction={law='coulomb', coefficient={value=0.3}}"}),
               HasSubstr("\n[contact.friction]\nlaw = \"coulomb\"\ncoefficient = 0.3\n"));
   EXPECT_THAT(text({"contact.friction={law='coulomb', coefficient={static=0.5, kinetic=0.3, "

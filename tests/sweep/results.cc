@@ -38,8 +38,10 @@ TEST(SweepTable, AValueWithCommasOrQuotesIsOneCell) {
 }
 
 TEST(SweepPlot, TheFirstKeyIsTheAbscissaAndTheOthersMakeLines) {
-  const report::Plot plot =
-      plot_of(results_of({"contact.heat.coefficient=log:1:100:3", "contact.friction.bound=5,15"}));
+  Results results =
+      results_of({"contact.heat.coefficient=log:1:100:3", "contact.friction.bound=5,15"});
+  results.key_unit = "W/(K m^2)";
+  const report::Plot plot = plot_of(results);
   EXPECT_EQ(plot.abscissa_name, "contact.heat.coefficient");
   EXPECT_EQ(plot.abscissa_unit, "W/(K m^2)");
   EXPECT_TRUE(plot.logarithmic);
