@@ -41,7 +41,7 @@ struct Values {
   const Key &key;
 
   Json number() const {
-    const Json plain_number = limited("number", key.range);
+    Json plain_number = limited("number", key.range);
     if (key.unit.empty())
       return plain_number;
     return {{"anyOf", {plain_number, {{"$ref", std::string("#/$defs/") + number_with_unit}}}}};
