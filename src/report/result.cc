@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "case/resolved.h"
 #include "contact/kinds.h"
@@ -14,9 +13,9 @@
 #include "report/field_file.h"
 #include "report/moment.h"
 #include "report/number_text.h"
+#include "report/recorded_boundaries.h"
 #include "report/recorded_mesh.h"
 #include "report/text_file.h"
-#include "report/xml.h"
 #include "tourmaline/case/reader.h"
 #include "tourmaline/error.h"
 
@@ -101,19 +100,11 @@ void remark_on_unfinished(Result &result, const fs::path &folder) {
   result.remarks.insert(result.remarks.begin(), text + (result.asked ? "." : ""));
 }
 
-std::vector<std::string> names_of_contacts(const Result &result) {
-  std::vector<std::string> names;
-  if (result.asked)
-    for (const casefile::ContactCase &contact : result.asked->contacts)
-      names.push_back(contact.called());
-  return names;
-}
-
 void read_tables(Result &result, const fs::path &folder) {
   if (fs::exists(folder / "history.csv"))
     result.history = read_table(folder / "history.csv");
   if (fs::exists(folder / "contact.csv"))
-    result.contact = read_table(folder / "contact.csv", "contact", names_of_contacts(result));
+    result.contact = read_table(folder / "contact.csv", "contact", result.contact_names());
   if (result.asked)
     for (const casefile::ProbeCase &probe : result.asked->probes)
       if (const fs::path file = folder / output::probe_file(probe.name);
@@ -160,32 +151,6 @@ void evaluate_friction_bound(Result &result) {
         {(*x)[i], (*y)[i], z ? (*z)[i] : 0}, (*time)[i]));
 }
 
-struct State {
-  double time;
-  fs::path file;
-};
-
-double time_of(const std::string &text, const fs::path &path) {
-  double time = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), time);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(time))
-    throw CaseError(fmt::format("{}: the time \"{}\" is no number", path.string(), text));
-  return time;
-}
-
-std::vector<State> series_of(const fs::path &folder, const char *list = "result.pvd") {
-  std::vector<State> series;
-  const fs::path path = folder / list;
-  if (!fs::exists(path))
-    return series;
-  const std::string text = read_text_file(path);
-  for_each_element(text, path.string(), [&](const XmlElement &e) {
-    if (e.name == "DataSet")
-      series.push_back({time_of(e.attribute("timestep"), path), folder / e.attribute("file")});
-  });
-  return series;
-}
-
 /// result_0012.vtu: 12
 int step_of(const fs::path &file) {
   const std::string stem = file.stem().string();
@@ -220,10 +185,10 @@ std::size_t numbers_of(const FieldFile &file, const Skin &skin) {
   return numbers;
 }
 
-std::vector<State> thinned(const std::vector<State> &series, std::size_t most) {
+std::vector<RecordedMoment> thinned(const std::vector<RecordedMoment> &series, std::size_t most) {
   if (series.size() <= most || series.empty())
     return series;
-  std::vector<State> kept;
+  std::vector<RecordedMoment> kept;
   for (std::size_t i = 1; i < most; ++i)
     kept.push_back(series[(i - 1) * (series.size() - 1) / (most - 1)]);
   kept.push_back(series.back());
@@ -314,15 +279,16 @@ void say_why_no_fields(Result &result) {
 }
 
 /// The state whose time is nearest, alone.
-std::vector<State> nearest(const std::vector<State> &series, double time) {
+std::vector<RecordedMoment> nearest(const std::vector<RecordedMoment> &series, double time) {
   require_moment(time, series.back().time);
-  return {*std::min_element(series.begin(), series.end(), [&](const State &a, const State &b) {
-    return std::abs(a.time - time) < std::abs(b.time - time);
-  })};
+  return {*std::min_element(series.begin(), series.end(),
+                            [&](const RecordedMoment &a, const RecordedMoment &b) {
+                              return std::abs(a.time - time) < std::abs(b.time - time);
+                            })};
 }
 
 void read_fields(Result &result, const fs::path &folder, const States &states) {
-  std::vector<State> series = series_of(folder);
+  std::vector<RecordedMoment> series = recorded_moments(folder, "result.pvd");
   if (series.empty())
     return say_why_no_fields(result);
   result.n_states = series.size();
@@ -332,13 +298,13 @@ void read_fields(Result &result, const fs::path &folder, const States &states) {
   begin_fields(result, last);
   const std::size_t most =
       std::max<std::size_t>(1, states.most_numbers / numbers_of(last, result.skin));
-  const std::vector<State> kept = thinned(series, most);
+  const std::vector<RecordedMoment> kept = thinned(series, most);
   if (kept.size() < series.size() && kept.size() > 1)
     result.remarks.push_back(fmt::format(
         "Of {} field files {} are shown, to keep the page small; `tourmaline report DIR --size MB` "
         "takes as many as fit. Curves, contact and tables have all steps.",
         series.size(), kept.size()));
-  for (const State &state : kept) {
+  for (const RecordedMoment &state : kept) {
     result.times.push_back(state.time);
     result.steps.push_back(step_of(state.file));
     add_state(result, &state == &kept.back() ? last : read_state(state.file, states), state.file);
@@ -348,147 +314,6 @@ void read_fields(Result &result, const fs::path &folder, const States &states) {
       drop_empty_components(field);
 }
 
-std::vector<NamedFacets> facets_of(const fs::path &path) {
-  std::vector<NamedFacets> boundaries;
-  try {
-    const auto json = nlohmann::json::parse(read_text_file(path));
-    for (const auto &entry : json.at("boundaries"))
-      if (!entry.value("inside", false))
-        boundaries.push_back({entry.at("name").get<std::string>(),
-                              entry.at("facets").get<std::vector<std::vector<std::uint32_t>>>()});
-  } catch (const nlohmann::json::exception &) {
-    throw CaseError(path.string() + ": is not what a run writes there");
-  }
-  return boundaries;
-}
-
-/// The facets that are seen, by places on the skin.
-Boundary seen_boundary(const NamedFacets &named, const Result &result,
-                       const std::map<std::uint32_t, std::uint32_t> &place) {
-  Boundary boundary;
-  boundary.name = named.name;
-  if (result.asked)
-    boundary.conditions = conditions_on(*result.asked, boundary.name, result.friction_name);
-  for (const auto &nodes : named.facets) {
-    std::vector<std::uint32_t> facet;
-    for (const std::uint32_t node : nodes)
-      if (const auto found = place.find(node); found != place.end())
-        facet.push_back(found->second);
-    if (facet.size() == nodes.size())
-      boundary.facets.push_back(std::move(facet));
-  }
-  return boundary;
-}
-
-void add_contact_pieces(Result &result, std::vector<NamedFacets> boundaries) {
-  if (result.dimension != 2 || !result.contact || !result.asked || result.asked->contacts.empty())
-    return;
-  const std::vector<double> *step = result.contact->find("step"), *x = result.contact->find("x"),
-                            *y = result.contact->find("y");
-  if (!step || !x || !y || step->empty())
-    return;
-  std::map<std::string, std::size_t> contact_on;
-  for (std::size_t i = 0; i < result.asked->contacts.size(); ++i)
-    for (const std::string &name : result.asked->contacts[i].on)
-      contact_on.emplace(name, i);
-  std::erase_if(boundaries,
-                [&](const NamedFacets &boundary) { return !contact_on.contains(boundary.name); });
-  for (NamedFacets &boundary : boundaries)
-    boundary.contact = contact_on.at(boundary.name);
-  const std::vector<double> *contact = result.contact->find("contact");
-  std::vector<std::pair<double, double>> places;
-  std::vector<std::size_t> contacts;
-  for (std::size_t i = 0; i < step->size() && (*step)[i] == step->front(); ++i)
-    places.emplace_back((*x)[i], (*y)[i]);
-  for (std::size_t i = 0; contact && i < places.size(); ++i)
-    contacts.push_back(static_cast<std::size_t>((*contact)[i]));
-  result.contact_pieces = contact_pieces(boundaries, places, contacts);
-}
-
-/// The facets by rows of contact.csv, as the files for ParaView have them with all nodes of degree
-/// 2; without these the corners, if they are all the nodes that there are.
-std::vector<ContactFacet> contact_facets(const Result &result, const fs::path &folder,
-                                         const std::vector<NamedFacets> &boundaries,
-                                         std::size_t n_places) {
-  std::vector<ContactFacet> facets;
-  if (const std::vector<State> series = series_of(folder, "contact.pvd"); !series.empty()) {
-    const output::Grid grid = read_field_file(series.front().file).grid;
-    if (grid.points.size() != n_places)
-      return {};
-    for (std::size_t i = 0; i < grid.n_cells(); ++i) {
-      const auto first =
-          grid.connectivity.begin() + static_cast<std::ptrdiff_t>(i * grid.nodes_per_cell);
-      facets.emplace_back(first, first + static_cast<std::ptrdiff_t>(grid.nodes_per_cell));
-    }
-    return facets;
-  }
-  std::set<std::string> touching;
-  for (const casefile::ContactCase &contact : result.asked->contacts)
-    touching.insert(contact.on.begin(), contact.on.end());
-  std::map<std::uint32_t, std::uint32_t> row_of;
-  for (const NamedFacets &boundary : boundaries)
-    if (touching.contains(boundary.name))
-      for (const auto &facet : boundary.facets) {
-        facets.push_back(facet);
-        for (const std::uint32_t node : facet)
-          row_of[node] = 0;
-      }
-  if (row_of.size() != n_places)
-    return {};
-  std::uint32_t next = 0;
-  for (auto &entry : row_of)
-    entry.second = next++;
-  for (ContactFacet &facet : facets)
-    for (std::uint32_t &node : facet)
-      node = row_of.at(node);
-  return facets;
-}
-
-void add_contact_faces(Result &result, const fs::path &folder,
-                       const std::vector<NamedFacets> &boundaries) {
-  if (result.dimension != 3 || !result.contact || !result.asked || result.asked->contacts.empty())
-    return;
-  const std::vector<double> *step = result.contact->find("step"), *x = result.contact->find("x"),
-                            *y = result.contact->find("y"), *z = result.contact->find("z"),
-                            *contact = result.contact->find("contact");
-  if (!step || !x || !y || !z || step->empty())
-    return;
-  std::vector<Vector3> places;
-  std::vector<std::size_t> contacts;
-  for (std::size_t i = 0; i < step->size() && (*step)[i] == step->front(); ++i) {
-    places.push_back({(*x)[i], (*y)[i], (*z)[i]});
-    if (contact)
-      contacts.push_back(static_cast<std::size_t>((*contact)[i]));
-  }
-  result.contact_faces = contact_faces(contact_facets(result, folder, boundaries, places.size()),
-                                       places, contacts, names_of_contacts(result));
-}
-
-void read_boundaries(Result &result, const fs::path &folder) {
-  const fs::path path = folder / "boundaries.json";
-  if (!fs::exists(path))
-    return;
-  std::vector<NamedFacets> boundaries = facets_of(path);
-  std::map<std::uint32_t, std::uint32_t> place;
-  for (std::size_t i = 0; i < result.skin.nodes.size(); ++i)
-    place.emplace(result.skin.names[i], static_cast<std::uint32_t>(i));
-  if (!result.points.empty())
-    for (const NamedFacets &named : boundaries)
-      result.boundaries.push_back(seen_boundary(named, result, place));
-  add_contact_faces(result, folder, boundaries);
-  add_contact_pieces(result, std::move(boundaries));
-}
-
-void remark_on_contact(Result &result) {
-  if (result.contact && result.contact->n_rows() > 0 && result.contact_pieces.empty() &&
-      result.contact_faces.empty())
-    result.remarks.push_back(
-        fmt::format("There are no {} the contact: the folder does not tell its facets "
-                    "(boundaries.json, resolved.toml).",
-                    result.dimension == 2 ? "curves along" : "pictures of"));
-}
-
-/// The greatest value of a column of the history; 0 when it is not there.
 double greatest(const Table &history, const std::string &name) {
   const std::vector<double> *column = history.find(name);
   double most = 0;
@@ -537,6 +362,13 @@ std::string Field::origin() const {
   if (name.starts_with(recovered))
     return "recovered at the nodes";
   return on_points || name == "region" || name == "poling" ? "" : "mean of each cell";
+}
+
+std::vector<std::string> Result::contact_names() const {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; asked && i < asked->contacts.size(); ++i)
+    names.push_back(asked->contacts[i].called());
+  return names;
 }
 
 const Field *Result::field(const std::string &wanted) const {

@@ -73,6 +73,8 @@ struct Result {
   std::vector<int> steps;
   std::vector<Field> fields;
 
+  /// What its contacts are called, in the order of their numbers; none where the case is unknown.
+  std::vector<std::string> contact_names() const;
   const Field *field(const std::string &name) const;
 };
 

@@ -26,16 +26,10 @@ struct Output {
 /// summary.json, then the columns of probes, PROBE.COLUMN, but of those along a line.
 std::vector<Output> outputs_of(const casefile::Case &asked);
 
-/// Those of the given names, which one of the cases has at least; when there are no names, what one
-/// looks at first. NAME or last:NAME is a column in its last row; min:, max:, mean: and rms:NAME
-/// take all of it, or with @FROM..TO behind them a part of the time, NAME@T its value at the time T
-/// [s]. Throws CaseError.
-std::vector<Output> chosen_outputs(const std::vector<std::string> &names,
-                                   const std::vector<casefile::Case> &cases);
+/// The same of several cases; each name once.
+std::vector<Output> outputs_of(const std::vector<casefile::Case> &cases);
 
-/// Their values in a run's folder; NaN where it lacks one. Throws CaseError when the folder's files
-/// cannot be read.
-std::vector<double> read_outputs(const std::filesystem::path &folder,
-                                 const std::vector<Output> &outputs);
+/// How the names of extremes' places begin.
+constexpr const char *of_place = "at_";
 
 }  // namespace tourmaline::sweep

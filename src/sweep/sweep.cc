@@ -18,6 +18,8 @@
 #include "output/status_line.h"
 #include "prepared.h"
 #include "stopwatch.h"
+#include "sweep/chosen_outputs.h"
+#include "sweep/read_outputs.h"
 #include "sweep/processes.h"
 #include "sweep/results.h"
 #include "tourmaline/error.h"

@@ -1,4 +1,5 @@
-#include "sweep/outputs.h"
+#include "sweep/chosen_outputs.h"
+#include "sweep/read_outputs.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -131,8 +131,11 @@ export class Chart {
     if (!this.plot) return this.build(width);
     if (Math.abs(width - this.plot.width) > 1) this.plot.setSize({ width, height: this.plot.height });
     if (this.other) this.plot.setData(this.data(), false);
-    this.other = false;
     this.plot.redraw(false);
+    // The values under a pointer that stays are those of the new moment.
+    const { left, top } = this.plot.cursor;
+    if (this.other && left !== undefined && left >= 0) this.plot.setCursor({ left, top: top ?? 0 }, false);
+    this.other = false;
   }
 
   private build(width: number) {

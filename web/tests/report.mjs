@@ -62,7 +62,7 @@ await inBrowser(desktop, async (context) => {
     const before = await pixels(tab, '.view canvas');
     await tab.locator('#stretch').fill('0');
     const flat = await pixels(tab, '.view canvas');
-    await tab.locator('.tick input').first().uncheck();
+    await tab.locator('.tick', { hasText: 'mesh' }).locator('input').uncheck();
     const bare = await pixels(tab, '.view canvas');
     await goTo(tab, 10);
     const all = await pixels(tab, '.view canvas');
@@ -196,11 +196,11 @@ await inBrowser(desktop, async (context) => {
   await test('their colours mean the same until they are told not to', async () => {
     const [left, right] = await ends();
     assert.equal(left, right);
-    await tab.locator('.tick input').nth(1).uncheck();
+    await tab.locator('.tick', { hasText: 'same colours' }).locator('input').uncheck();
     await settled(tab);
     const [alone, other] = await ends();
     assert.notEqual(alone, other);
-    await tab.locator('.tick input').nth(1).check();
+    await tab.locator('.tick', { hasText: 'same colours' }).locator('input').check();
   });
   await test('moment and camera move together', async () => {
     const before = await images();
