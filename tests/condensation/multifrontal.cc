@@ -233,5 +233,42 @@ TEST(Trapezoid, HasItsPanelsOneAfterAnotherAndEachEntryOnce) {
   }
 }
 
+// Fronts that are so high are worked on by all threads at once, in tiles.
+TEST(Trapezoid, HasTheSameBitsForAnyNumberOfThreads) {
+  constexpr int height = 1300, columns = 300, positive = 170, below = height - columns;
+  const MatrixXd some = MatrixXd::Random(height, 40);
+  MatrixXd front = some * some.transpose() / 200;
+  front.diagonal().array() += 2;
+  front.bottomRightCorner(height - positive, height - positive) *= -1;
+  std::vector<std::vector<double>> results;
+  for (const int threads : {1, 2, 5}) {
+    const std::size_t of_l = Trapezoid::at(nullptr, height, columns).size();
+    std::vector<double> room(of_l + Trapezoid::at(nullptr, below, below).size());
+    const Trapezoid l = Trapezoid::at(room.data(), height, columns),
+                    rest = Trapezoid::at(room.data() + of_l, below, below);
+    for (int j = 0; j < height; ++j)
+      for (int i = j; i < height; ++i)
+        *(j < columns ? l.at(i, j) : rest.at(i - columns, j - columns)) = front(i, j);
+    EXPECT_EQ(factorise(l, rest, positive, threads), -1);
+    std::vector<double> x(5000 + height, 1.);
+    substitute_forward(l, x.data(), threads);
+    substitute_backward(l, x.data(), threads);
+    room.insert(room.end(), x.begin(), x.end());
+    results.push_back(std::move(room));
+  }
+  EXPECT_EQ(results[1], results[0]);
+  EXPECT_EQ(results[2], results[0]);
+  // What is left is the Schur complement.
+  const MatrixXd schur =
+      front.bottomRightCorner(below, below) -
+      front.bottomLeftCorner(below, columns) *
+          front.topLeftCorner(columns, columns).lu().solve(front.topRightCorner(columns, below));
+  const std::size_t of_l = Trapezoid::at(nullptr, height, columns).size();
+  const Trapezoid rest = Trapezoid::at(results[0].data() + of_l, below, below);
+  for (int j = 0; j < below; j += 97)
+    for (int i = j; i < below; i += 13)
+      EXPECT_NEAR(*rest.at(i, j), schur(i, j), 1e-12 * schur.cwiseAbs().maxCoeff());
+}
+
 }  // namespace
 }  // namespace tourmaline::condensation
