@@ -19,8 +19,8 @@
 #include "prepared.h"
 #include "stopwatch.h"
 #include "sweep/chosen_outputs.h"
-#include "sweep/read_outputs.h"
 #include "sweep/processes.h"
+#include "sweep/read_outputs.h"
 #include "sweep/results.h"
 #include "tourmaline/error.h"
 
