@@ -28,7 +28,7 @@ struct Facet {
   std::size_t contact = 0;
 };
 
-using Part = std::vector<Facet>;
+using Patch = std::vector<Facet>;
 
 Vector3 extent_between(const Vector3 &low, const Vector3 &high) {
   return {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
@@ -61,7 +61,7 @@ Facet facet_of(const ContactFacet &nodes, const std::vector<Vector3> &places,
 }
 
 /// Facets that have nodes in common and are of one contact, by the least of their rows.
-std::vector<Part> connected(const Part &facets) {
+std::vector<Patch> connected(const Patch &facets) {
   std::vector<std::size_t> root(facets.size());
   std::iota(root.begin(), root.end(), 0);
   const auto find = [&](std::size_t i) {
@@ -73,7 +73,7 @@ std::vector<Part> connected(const Part &facets) {
   for (std::size_t i = 0; i < facets.size(); ++i)
     for (const std::uint32_t row : *facets[i].nodes)
       root[find(i)] = find(first_with.try_emplace({row, facets[i].contact}, i).first->second);
-  std::map<std::size_t, Part> parts;
+  std::map<std::size_t, Patch> parts;
   std::map<std::size_t, std::uint32_t> least;
   for (std::size_t i = 0; i < facets.size(); ++i) {
     const std::size_t part = find(i);
@@ -82,10 +82,10 @@ std::vector<Part> connected(const Part &facets) {
     const auto known = least.try_emplace(part, row).first;
     known->second = std::min(known->second, row);
   }
-  std::map<std::pair<std::uint32_t, std::size_t>, Part> ordered;
+  std::map<std::pair<std::uint32_t, std::size_t>, Patch> ordered;
   for (auto &[part, members] : parts)
     ordered[{least[part], part}] = std::move(members);
-  std::vector<Part> result;
+  std::vector<Patch> result;
   for (auto &entry : ordered)
     result.push_back(std::move(entry.second));
   return result;
@@ -102,7 +102,7 @@ void add(ContactFace &face, std::uint32_t row, double x, double y) {
 }
 
 /// Seen along an axis.
-ContactFace plan(const Part &part, const std::vector<Vector3> &places, int axis) {
+ContactFace plan(const Patch &part, const std::vector<Vector3> &places, int axis) {
   const int a = axis == 0 ? 1 : 0, b = axis == 2 ? 1 : 2;
   ContactFace face;
   face.across = fmt::format("{} [m]", axis_names[a]);
@@ -128,7 +128,7 @@ ContactFace plan(const Part &part, const std::vector<Vector3> &places, int axis)
 }
 
 /// The axis along which nothing of a part is hidden.
-std::optional<int> open_axis(const Part &part) {
+std::optional<int> open_axis(const Patch &part) {
   std::optional<int> best;
   double most = least_facing;
   for (int axis = 0; axis < 3; ++axis) {
@@ -153,7 +153,7 @@ struct Cylinder {
 };
 
 /// The point in which the normals of all facets meet, if the nodes are all as far from it.
-std::optional<Cylinder> cylinder_of(const Part &part, const std::vector<Vector3> &places,
+std::optional<Cylinder> cylinder_of(const Patch &part, const std::vector<Vector3> &places,
                                     int axis) {
   Cylinder found{axis, (axis + 1) % 3, (axis + 2) % 3, 0, 0, 0};
   const auto [a, b] = std::pair(found.a, found.b);
@@ -187,7 +187,7 @@ std::optional<Cylinder> cylinder_of(const Part &part, const std::vector<Vector3>
 }
 
 /// Where the greatest gap between nodes ends; of equal ones that at the least angle from 0 on.
-double seam_of(const Part &part, const std::vector<Vector3> &places, const Cylinder &cylinder) {
+double seam_of(const Patch &part, const std::vector<Vector3> &places, const Cylinder &cylinder) {
   constexpr double turn = 2 * std::numbers::pi, same = 1e-6;
   std::vector<double> angles;
   for (const Facet &facet : part)
@@ -205,7 +205,7 @@ double seam_of(const Part &part, const std::vector<Vector3> &places, const Cylin
   return seam;
 }
 
-ContactFace unrolled(const Part &part, const std::vector<Vector3> &places,
+ContactFace unrolled(const Patch &part, const std::vector<Vector3> &places,
                      const Cylinder &cylinder) {
   constexpr double turn = 2 * std::numbers::pi;
   const double seam = seam_of(part, places, cylinder);
@@ -233,7 +233,7 @@ ContactFace unrolled(const Part &part, const std::vector<Vector3> &places,
   return face;
 }
 
-std::vector<ContactFace> laid_out(const Part &part, const std::vector<Vector3> &places) {
+std::vector<ContactFace> laid_out(const Patch &part, const std::vector<Vector3> &places) {
   if (const auto axis = open_axis(part))
     return {plan(part, places, *axis)};
   for (int axis = 0; axis < 3; ++axis)
@@ -241,7 +241,7 @@ std::vector<ContactFace> laid_out(const Part &part, const std::vector<Vector3> &
       return {unrolled(part, places, *cylinder)};
   std::vector<ContactFace> faces;
   for (int axis = 0; axis < 3; ++axis) {
-    Part side;
+    Patch side;
     for (const Facet &facet : part) {
       int most = 0;
       for (int c = 1; c < 3; ++c)
@@ -250,7 +250,7 @@ std::vector<ContactFace> laid_out(const Part &part, const std::vector<Vector3> &
       if (most == axis)
         side.push_back(facet);
     }
-    for (const Part &piece : connected(side))
+    for (const Patch &piece : connected(side))
       faces.push_back(plan(piece, places, axis));
   }
   return faces;
@@ -266,11 +266,11 @@ std::vector<ContactFace> contact_faces(const std::vector<ContactFacet> &facets,
                                        const std::vector<Vector3> &places,
                                        const std::vector<std::size_t> &contacts,
                                        const std::vector<std::string> &names) {
-  Part all;
+  Patch all;
   for (const ContactFacet &facet : facets)
     all.push_back(facet_of(facet, places, contacts));
   std::vector<ContactFace> faces;
-  for (const Part &part : connected(all))
+  for (const Patch &part : connected(all))
     for (ContactFace &face : laid_out(part, places)) {
       if (names.size() > 1)
         face.contact = names.at(part.front().contact);
