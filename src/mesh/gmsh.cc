@@ -162,7 +162,7 @@ std::string without_options(const std::string &file) {
   return fmt::format("/proc/self/fd/{}", descriptor);
 }
 
-void open(Format format, const casefile::MeshCase &asked, double bytes) {
+void load(Format format, const casefile::MeshCase &asked, double bytes) {
   // A format-2 file may give elements of one entity to different groups, which libgmsh would give
   // to all of them. With the two tags switched an entity is a group.
   gmsh::option::setNumber("Mesh.SwitchElementTags", format == Format::msh2 ? 1 : 0);
@@ -183,7 +183,7 @@ MeshFile read_with_libgmsh(Format format, const casefile::MeshCase &asked, bool 
                            double bytes) {
   const Session session(confined);
   try {
-    open(format, asked, bytes);
+    load(format, asked, bytes);
     return listed(format, asked);
   } catch (const std::string &error) {  // libgmsh's own kind of exception
     Session::check();

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "report/number_text.h"
+#include "report/vectors.h"
 
 namespace tourmaline::report {
 namespace {
@@ -37,18 +38,6 @@ double tenth_at(double b, double c) {
     if (root > 0)
       first = std::min(first, root);
   return first;
-}
-
-Vector3 from_to(const Vector3 &a, const Vector3 &b) {
-  return {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-}
-
-Vector3 cross(const Vector3 &a, const Vector3 &b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double dot(const Vector3 &a, const Vector3 &b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 /// Displacement of one of the skin's nodes in one state.

@@ -3,39 +3,27 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/vectors.h"
+
 namespace tourmaline::report {
 namespace {
 
-using Triple = std::array<double, 3>;
-
-double dot(const Triple &a, const Triple &b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Triple cross(const Triple &a, const Triple &b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Triple unit(const Triple &a) {
+Vector3 unit(const Vector3 &a) {
   const double length = std::max(std::sqrt(dot(a, a)), 1e-300);
   return {a[0] / length, a[1] / length, a[2] / length};
 }
 
-Triple minus(const Triple &a, const Triple &b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
 /// Right, up, away: the rows of the rotation into the view. The page looks from the same side.
-std::array<Triple, 3> directions(int dimension) {
+std::array<Vector3, 3> directions(int dimension) {
   if (dimension == 2)
     return {{{1, 0, 0}, {0, 1, 0}, {0, 0, -1}}};
-  const Triple to_eye = unit({-5, -7, 4.5});
-  const Triple right = unit(cross({0, 0, 1}, to_eye));
+  const Vector3 to_eye = unit({-5, -7, 4.5});
+  const Vector3 right = unit(cross({0, 0, 1}, to_eye));
   return {{right, cross(to_eye, right), {-to_eye[0], -to_eye[1], -to_eye[2]}}};
 }
 
-Triple deformed(const Result &result, std::size_t node, double scale) {
-  Triple place = result.points[node];
+Vector3 deformed(const Result &result, std::size_t node, double scale) {
+  Vector3 place = result.points[node];
   const Field *u = result.field("displacement");
   for (std::size_t c = 0; u && c < u->values.size(); ++c) {
     const std::size_t first = u->values[c].size() - result.points.size();
@@ -53,7 +41,7 @@ std::array<double, 3> seen(int dimension, const Vector3 &vector) {
 
 std::array<std::array<double, 3>, 3> solid_axes() {
   const auto rows = directions(3);
-  std::array<Triple, 3> axes;
+  std::array<Vector3, 3> axes;
   for (int axis = 0; axis < 3; ++axis)
     axes[axis] = {rows[0][axis], rows[1][axis], rows[2][axis]};
   return axes;
@@ -65,7 +53,7 @@ View view_of(const Result &result, double scale) {
   view.low = {1e300, 1e300};
   view.high = {-1e300, -1e300};
   for (std::size_t node = 0; node < result.points.size(); ++node) {
-    const Triple place = deformed(result, node, scale);
+    const Vector3 place = deformed(result, node, scale);
     view.places.push_back({dot(rows[0], place), dot(rows[1], place), dot(rows[2], place)});
     for (int i = 0; i < 2; ++i) {
       view.low[i] = std::min(view.low[i], view.places.back()[i]);
@@ -73,8 +61,8 @@ View view_of(const Result &result, double scale) {
     }
   }
   for (const auto &t : result.skin.triangles) {
-    const Triple normal = unit(cross(minus(view.places[t[1]], view.places[t[0]]),
-                                     minus(view.places[t[2]], view.places[t[0]])));
+    const Vector3 normal = unit(cross(from_to(view.places[t[0]], view.places[t[1]]),
+                                      from_to(view.places[t[0]], view.places[t[2]])));
     view.light.push_back(result.dimension == 2 ? 1 : 0.62 + 0.38 * std::abs(normal[2]));
   }
   return view;

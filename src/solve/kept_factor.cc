@@ -168,10 +168,10 @@ VectorXd diagonal_of(const InterfaceSystem &system, const MatrixXd &a) {
 }
 
 /// A part of the solution and M times it, which has the size 1.
-struct Direction {
+struct PartOfSolution {
   VectorXd x, product;
 
-  void add(double factor, const Direction &other) {
+  void add(double factor, const PartOfSolution &other) {
     x += factor * other.x;
     product += factor * other.product;
   }
@@ -270,11 +270,11 @@ std::optional<KeptFactor::Solved> KeptFactor::iterate(const InterfaceSystem &sys
   const VectorXd diagonal = diagonal_of(system, a);
   const CopiedSystem m(system, a, copied_);
   VectorXd x = VectorXd::Zero(system.size()), left = b;
-  std::vector<Direction> directions;
+  std::vector<PartOfSolution> directions;
   while (left.norm() > reduction * b.norm() && directions.size() < most_products) {
-    Direction next{nearly_solved(system, diagonal, left), {}};
+    PartOfSolution next{nearly_solved(system, diagonal, left), {}};
     next.product = m * next.x;
-    for (const Direction &before : directions)
+    for (const PartOfSolution &before : directions)
       next.add(-before.product.dot(next.product), before);
     next.scale(1 / next.product.norm());
     const double share = next.product.dot(left);
