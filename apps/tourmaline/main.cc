@@ -1,4 +1,6 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <csignal>
 #include <cstdlib>
 #include <exception>
@@ -7,6 +9,7 @@
 #include <new>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "case/json_schema.h"
@@ -21,6 +24,7 @@
 #include "printable_output.h"
 #include "report/figures.h"
 #include "report/page.h"
+#include "run/dense_kernels.h"
 #include "run/process.h"
 #include "run/survey.h"
 #include "sweep_command.h"
@@ -215,7 +219,9 @@ int obey(int argc, char **argv) {
   Asked asked;
   int status = done;
   CLI::App app("Frictional contact of thermo-piezoelectric bodies.", "tourmaline");
-  app.set_version_flag("--version", "tourmaline " TOURMALINE_VERSION);
+  app.set_version_flag("--version", "tourmaline " TOURMALINE_VERSION
+                                    "\ndense kernels of OpenBLAS: " +
+                                        tourmaline::run::dense_kernels());
   app.set_help_all_flag("--help-all", "the help of all commands");
   app.require_subcommand(1);
   app.failure_message([](const CLI::App *, const CLI::Error &error) {
@@ -284,6 +290,12 @@ int report(int status, const std::string &text) {
   return status;
 }
 
+/// Whether what is asked for factorises, or says with what it would.
+bool uses_dense_kernels(int argc, char **argv) {
+  constexpr std::array<std::string_view, 3> asked{"run", "sweep", "--version"};
+  return argc > 1 && std::ranges::find(asked, argv[1]) != asked.end();
+}
+
 // OpenBLAS, started halfway, would wait for its threads for ever at an ordered end.
 void require_room_or_end() {
   try {
@@ -301,6 +313,8 @@ int main(int argc, char **argv) {
   std::signal(SIGXFSZ, SIG_IGN);
   try {
     require_room_or_end();
+    if (uses_dense_kernels(argc, argv))
+      tourmaline::run::start_again_with_better_kernels(argv);
     // MPI runs until an error has been told: a rank that ended before the first one has spoken
     // would take it along.
     if (tourmaline::parallel::is_launched())

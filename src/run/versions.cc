@@ -5,8 +5,9 @@
 #include <fmt/format.h>
 #include <metis.h>
 
+#include "run/dense_kernels.h"
+
 extern "C" char *openblas_get_config();
-extern "C" char *openblas_get_corename();
 
 namespace tourmaline::run {
 
@@ -18,7 +19,7 @@ std::map<std::string, std::string> component_versions() {
   return {{"deal.II", DEAL_II_PACKAGE_VERSION},
           {"MUMPS", MUMPS_VERSION},
           {"METIS", fmt::format("{}.{}.{}", METIS_VER_MAJOR, METIS_VER_MINOR, METIS_VER_SUBMINOR)},
-          {"BLAS", fmt::format("{} ({})", openblas_get_config(), openblas_get_corename())}};
+          {"BLAS", fmt::format("{} ({})", openblas_get_config(), dense_kernels())}};
 }
 
 }  // namespace tourmaline::run

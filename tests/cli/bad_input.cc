@@ -314,6 +314,14 @@ TEST_F(Program, HelpAndVersionGoToStandardOutput) {
   }
 }
 
+TEST_F(Program, KernelsThatTheUserHasSetAreUsedAndNamed) {
+  setenv("OPENBLAS_CORETYPE", "Nehalem", 1);
+  const int status = run("--version");
+  unsetenv("OPENBLAS_CORETYPE");
+  ASSERT_EQ(status, 0) << complained_;
+  EXPECT_THAT(said_, HasSubstr("OpenBLAS: Nehalem"));
+}
+
 TEST_F(Program, HelpListsEveryCommand) {
   ASSERT_EQ(run("--help"), 0);
   for (const char *command :
