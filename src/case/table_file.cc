@@ -122,7 +122,8 @@ class TableReader {
     const Fields others(names.begin() + 1, names.end());
     if (found == names.end())
       fail(fmt::format("has no column {}; there are {} over {}{}", toml_text(*column_),
-                       names_listed(others), toml_text(names.front()), did_you_mean(*column_, others)));
+                       names_listed(others), toml_text(names.front()),
+                       did_you_mean(*column_, others)));
     if (std::count(names.begin() + 1, names.end(), *column_) > 1)
       fail(fmt::format("has several columns {}; give each a name of its own", toml_text(*column_)));
     at_ = static_cast<std::size_t>(found - names.begin());
