@@ -21,6 +21,8 @@ using Json = nlohmann::json;
 
 /// Of one page, on the skin: some 25 MB in a browser. 50 states of 64 x 64 squares have 10 million.
 constexpr std::size_t most_numbers = 12'000'000;
+/// Behind the skin of solid bodies, which are packed to a byte or two each.
+constexpr std::size_t most_inner_numbers = 4'000'000;
 
 template <typename Number>
 std::vector<float> as_floats(const std::vector<Number> &numbers) {
@@ -35,11 +37,15 @@ Json indices(Packing &packing, const std::vector<std::array<std::uint32_t, n>> &
   return packing.integers(flat);
 }
 
+Json places_json(Packing &packing, const std::vector<Vector3> &places) {
+  std::vector<float> flat;
+  for (const Vector3 &place : places)
+    flat.insert(flat.end(), place.begin(), place.end());
+  return packing.floats(flat, 1);
+}
+
 Json grid_json(Packing &packing, const Result &result) {
-  std::vector<float> points;
-  for (const Vector3 &point : result.points)
-    points.insert(points.end(), point.begin(), point.end());
-  return {{"points", packing.floats(points, 1)},
+  return {{"points", places_json(packing, result.points)},
           {"nodes", packing.integers(result.skin.names)},
           {"cells", packing.integers(result.skin.cells)},
           {"triangles", indices(packing, result.skin.triangles)},
@@ -47,20 +53,39 @@ Json grid_json(Packing &packing, const Result &result) {
           {"edges", indices(packing, result.skin.edges)}};
 }
 
-/// The unknowns are exact to single precision, so that they can be compared with nodes.csv; what is
-/// derived from them is rounded.
-Json field_json(Packing &packing, const Field &field, std::size_t states) {
+Json solid_json(Packing &packing, const Result &result) {
+  if (!result.solid)
+    return nullptr;
+  return {{"points", places_json(packing, result.solid->points)},
+          {"nodes", packing.integers(result.solid->names)},
+          {"corners", result.solid->corners},
+          {"parts", packing.integers(result.solid->parts)},
+          {"partCells", packing.integers(result.solid->part_cells)}};
+}
+
+Json components_json(Packing &packing, const Field &field, std::size_t states,
+                     const std::vector<std::vector<float>> &components) {
   Json values = Json::array();
-  for (const std::vector<float> &component : field.values)
+  for (const std::vector<float> &component : components)
     values.push_back(field.is_unknown() ? packing.floats(component, states)
                                         : packing.levels(component, states));
-  return {{"name", field.name},
-          {"unit", field.unit},
-          {"on", field.on_points ? "points" : "cells"},
-          {"origin", field.origin()},
-          {"belowRoundOff", field.below_round_off},
-          {"components", field.components},
-          {"values", values}};
+  return values;
+}
+
+/// The unknowns are exact to single precision, so that they can be compared with nodes.csv; what is
+/// derived from them is rounded.
+Json field_json(Packing &packing, const Field &field, const Result &result) {
+  const std::size_t states = result.times.size();
+  Json json{{"name", field.name},
+            {"unit", field.unit},
+            {"on", field.on_points ? "points" : "cells"},
+            {"origin", field.origin()},
+            {"belowRoundOff", field.below_round_off},
+            {"components", field.components},
+            {"values", components_json(packing, field, states, field.values)}};
+  if (result.solid)
+    json["inner"] = components_json(packing, field, states, field.inner);
+  return json;
 }
 
 Json table_json(Packing &packing, const Table &table) {
@@ -168,9 +193,10 @@ Json result_json(Packing &packing, const Result &result) {
     json["summary"] = nullptr;
   if (!result.points.empty())
     json["grid"] = grid_json(packing, result);
+  json["solid"] = solid_json(packing, result);
   for (const Field &field : result.fields)
     if (is_shown(field, result))
-      json["fields"].push_back(field_json(packing, field, result.times.size()));
+      json["fields"].push_back(field_json(packing, field, result));
   json["poling"] = poling_json(packing, result);
   json["parts"] = parts_json(result, json["summary"]);
   for (const Boundary &boundary : result.boundaries)
@@ -243,12 +269,15 @@ struct Page {
   std::size_t bytes() const { return results.size() + numbers.size() + page_template().size(); }
 };
 
-Page made(const std::vector<std::filesystem::path> &folders, std::size_t numbers) {
+/// `numbers` on skins and behind them are shared out among the folders.
+Page made(const std::vector<std::filesystem::path> &folders, std::size_t numbers,
+          std::size_t inner_numbers) {
   Packing packing;
   Json results = Json::array();
   Page page;
   for (const std::filesystem::path &folder : folders) {
-    const Result result = read_result(folder, {numbers / folders.size(), {}});
+    const Result result = read_result(folder, {.most_numbers = numbers / folders.size(),
+                                               .most_inner = inner_numbers / folders.size()});
     page.has_all = page.has_all && result.times.size() == result.n_states;
     page.has_least = page.has_least && result.times.size() <= 1;
     results.push_back(result_json(packing, result));
@@ -261,13 +290,14 @@ Page made(const std::vector<std::filesystem::path> &folders, std::size_t numbers
   return page;
 }
 
-/// The page with the most moments that was found to fit.
+/// The page with the most moments that was found to fit; with what lies behind the skins, too, if
+/// that fits.
 Page fitted(const std::vector<std::filesystem::path> &folders, std::size_t most_bytes) {
   // A number takes some 0.8 bytes of a page, more or less as it changes from moment to moment.
   auto numbers = static_cast<double>(most_bytes) / 0.8;
   std::optional<Page> best;
   for (int attempt = 0; attempt < 5; ++attempt) {
-    Page page = made(folders, static_cast<std::size_t>(numbers));
+    Page page = made(folders, static_cast<std::size_t>(numbers), 0);
     const double share = static_cast<double>(page.bytes()) / static_cast<double>(most_bytes);
     const bool fits = share <= 1, is_last = page.has_all || share > 0.8;
     if (!fits && page.has_least)
@@ -281,7 +311,16 @@ Page fitted(const std::vector<std::filesystem::path> &folders, std::size_t most_
       break;
     numbers *= 0.95 / share;
   }
-  return best ? *std::move(best) : made(folders, 0);
+  if (!best)
+    return made(folders, 0, 0);
+  if (best->has_all) {
+    const double left = static_cast<double>(most_bytes) - static_cast<double>(best->bytes());
+    Page page =
+        made(folders, static_cast<std::size_t>(numbers), static_cast<std::size_t>(left / 0.8));
+    if (page.bytes() <= most_bytes)
+      return page;
+  }
+  return *std::move(best);
 }
 
 }  // namespace
@@ -291,7 +330,8 @@ void write_page(const std::vector<std::filesystem::path> &folders,
   if (folders.empty() || folders.size() > 2)
     throw CaseError(fmt::format("a report shows one folder, or two side by side; {} were given",
                                 folders.size()));
-  const Page page = most_bytes > 0 ? fitted(folders, most_bytes) : made(folders, most_numbers);
+  const Page page = most_bytes > 0 ? fitted(folders, most_bytes)
+                                   : made(folders, most_numbers, most_inner_numbers);
   constexpr std::string_view end = "</body>";
   const std::string_view shell = page_template();
   const std::size_t at = shell.rfind(end);

@@ -185,6 +185,14 @@ std::size_t numbers_of(const FieldFile &file, const Skin &skin) {
   return numbers;
 }
 
+std::size_t inner_numbers_of(const FieldFile &file, const Skin &skin) {
+  std::size_t numbers = 0;
+  for (const FieldArray &array : file.arrays)
+    numbers += array.components * (array.on_points ? file.grid.points.size() - skin.nodes.size()
+                                                   : file.grid.n_cells() - skin.cells.size());
+  return numbers;
+}
+
 std::vector<RecordedMoment> thinned(const std::vector<RecordedMoment> &series, std::size_t most) {
   if (series.size() <= most || series.empty())
     return series;
@@ -235,7 +243,15 @@ void begin_fields(Result &result, const FieldFile &file) {
   for (const FieldArray &array : file.arrays)
     result.fields.push_back({array.name, unit_of(array.name), array.on_points,
                              component_names(array.name, array.components),
+                             std::vector<std::vector<float>>(array.components),
                              std::vector<std::vector<float>>(array.components)});
+}
+
+void append(const FieldArray &array, const std::vector<std::uint32_t> &places,
+            std::vector<std::vector<float>> &values) {
+  for (std::size_t c = 0; c < array.components; ++c)
+    for (const std::uint32_t place : places)
+      values[c].push_back(static_cast<float>(array.values.at(place * array.components + c)));
 }
 
 void add_state(Result &result, const FieldFile &file, const fs::path &path) {
@@ -250,11 +266,10 @@ void add_state(Result &result, const FieldFile &file, const fs::path &path) {
     throw CaseError(path.string() + ": does not hold the arrays of the other field files");
   for (std::size_t i = 0; i < file.arrays.size(); ++i) {
     const FieldArray &array = file.arrays[i];
-    const auto &places = array.on_points ? result.skin.nodes : result.skin.cells;
-    for (std::size_t c = 0; c < array.components; ++c)
-      for (const std::uint32_t place : places)
-        result.fields[i].values[c].push_back(
-            static_cast<float>(array.values.at(place * array.components + c)));
+    append(array, array.on_points ? result.skin.nodes : result.skin.cells, result.fields[i].values);
+    if (result.solid)
+      append(array, array.on_points ? result.solid->nodes : result.solid->cells,
+             result.fields[i].inner);
   }
 }
 
@@ -304,6 +319,9 @@ void read_fields(Result &result, const fs::path &folder, const States &states) {
         "Of {} field files {} are shown, to keep the page small; `tourmaline report DIR --size MB` "
         "takes as many as fit. Curves, contact and tables have all steps.",
         series.size(), kept.size()));
+  if (result.dimension == 3 &&
+      inner_numbers_of(last, result.skin) * kept.size() <= states.most_inner)
+    result.solid = solid_of(last.grid, result.skin);
   for (const RecordedMoment &state : kept) {
     result.times.push_back(state.time);
     result.steps.push_back(step_of(state.file));

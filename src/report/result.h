@@ -10,6 +10,7 @@
 #include "report/contact_line.h"
 #include "report/legend.h"
 #include "report/skin.h"
+#include "report/solid.h"
 #include "report/table.h"
 #include "tourmaline/case/case.h"
 
@@ -23,6 +24,7 @@ struct Field {
   bool on_points = true;
   std::vector<std::string> components;  ///< x, y, ...; xx, yy, ...; one empty name for a scalar
   std::vector<std::vector<float>> values;
+  std::vector<std::vector<float>> inner;  ///< the same behind the skin, where the result has that
   /// Its differences are smaller than round-off in the run's energies.
   bool below_round_off = false;
 
@@ -65,6 +67,7 @@ struct Result {
   std::vector<std::string> remarks;
 
   Skin skin;
+  std::optional<Solid> solid;             ///< where it was asked for
   std::size_t n_points = 0, n_cells = 0;  ///< of the body
   std::vector<Vector3> points;            ///< of the skin's nodes [m]
   std::vector<Boundary> boundaries;
@@ -83,8 +86,10 @@ struct Result {
 /// [s].
 struct States {
   std::size_t most_numbers = 0;
-  std::optional<double> time;
+  std::optional<double> time = std::nullopt;
   bool means_of_recovered = false;  ///< means over cells, too, of what is recovered at the nodes
+  /// What lies behind the skin of a solid body is read, too, where that is at most so many numbers.
+  std::size_t most_inner = 0;
 };
 
 /// Reads the folder that a run left. Throws CaseError when it is no result folder or a file in it

@@ -66,19 +66,6 @@ Corners key_of(const Face &face, const std::vector<std::uint32_t> &names) {
   return key;
 }
 
-/// Of each point the first one at its place.
-std::vector<std::uint32_t> names_of(const std::vector<Vector3> &points) {
-  std::vector<std::uint32_t> order(points.size()), names(points.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return points[a] != points[b] ? points[a] < points[b] : a < b;
-  });
-  for (std::size_t i = 0; i < order.size(); ++i)
-    names[order[i]] =
-        i > 0 && points[order[i]] == points[order[i - 1]] ? names[order[i - 1]] : order[i];
-  return names;
-}
-
 std::vector<Face> all_faces(const output::Grid &grid) {
   std::vector<Face> faces;
   for (std::size_t c = 0; c < grid.n_cells(); ++c)
@@ -154,9 +141,21 @@ void add_sides(Skin &skin, const std::vector<std::uint32_t> &nodes) {
 
 }  // namespace
 
+std::vector<std::uint32_t> node_names(const std::vector<Vector3> &points) {
+  std::vector<std::uint32_t> order(points.size()), names(points.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return points[a] != points[b] ? points[a] < points[b] : a < b;
+  });
+  for (std::size_t i = 0; i < order.size(); ++i)
+    names[order[i]] =
+        i > 0 && points[order[i]] == points[order[i - 1]] ? names[order[i - 1]] : order[i];
+  return names;
+}
+
 Skin skin_of(const output::Grid &grid) {
   std::vector<Face> faces = all_faces(grid);
-  const std::vector<std::uint32_t> names = names_of(grid.points);
+  const std::vector<std::uint32_t> names = node_names(grid.points);
   if (grid.dimension == 3)
     faces = outer(faces, names);
   Skin skin;

@@ -20,6 +20,9 @@ struct Skin {
   std::size_t n_facets = 0;  ///< of the whole boundary: sides of plane cells, faces of solid ones
 };
 
+/// Of each point the first one at its place, whose row of nodes.csv is theirs.
+std::vector<std::uint32_t> node_names(const std::vector<Vector3> &points);
+
 /// Points at one place, of which there is one for each region that meets there, belong to one node:
 /// the first of them has its number.
 Skin skin_of(const output::Grid &grid);

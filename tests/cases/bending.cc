@@ -9,7 +9,7 @@
 #include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 using ::testing::HasSubstr;
@@ -249,4 +249,4 @@ boundary = [ { on = "left", displacement = [0, "free"], potential = 0 },
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -6,7 +6,7 @@
 
 #include "run_case.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 Table probe(const RunCase &run, const std::string &name) {
@@ -256,4 +256,4 @@ boundary = [ { on = "clamp", displacement = [0, 0], potential = 0, temperature =
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -12,7 +12,7 @@
 #include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 // By linear interpolation between the steps; before the first one the value at its end.
@@ -265,4 +265,4 @@ boundary = [ { on = "top", displacement = [0, 0], potential = 0, temperature = 0
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -4,7 +4,7 @@
 
 #include "read_table.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 
 /// Of energy, forces, charge and heat, in every step of history.csv.
 inline void expect_closed_balances(const Table &history, double tolerance = 1e-10) {
@@ -13,4 +13,4 @@ inline void expect_closed_balances(const Table &history, double tolerance = 1e-1
     EXPECT_LT(largest(history, column), tolerance) << column;
 }
 
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

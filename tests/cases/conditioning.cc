@@ -11,7 +11,7 @@
 #include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 const std::string beam = "tests/cases/ill_conditioned/beam.toml";
@@ -270,4 +270,4 @@ INSTANTIATE_TEST_SUITE_P(Routes, NotFinite,
                                            "solver.body=\"iterative\""));
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -6,7 +6,7 @@
 #include "closed_balances.h"
 #include "run_case.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 namespace fs = std::filesystem;
@@ -229,4 +229,4 @@ INSTANTIATE_TEST_SUITE_P(Cases, ContactLaws, ::testing::ValuesIn(laws_cases()),
                          });
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

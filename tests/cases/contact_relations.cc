@@ -11,7 +11,7 @@
 #include "equal_quantities.h"
 #include "run_case.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 void expect_balances(const RunCase &run, double tolerance = 1e-10) {
@@ -475,4 +475,4 @@ contact = { on = "bottom", normal = "unilateral" }
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -8,7 +8,7 @@
 
 #include "read_table.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 
 /// Whether any row of contact.csv has it.
 inline bool has_status(const Table &contact, const std::string &status) {
@@ -21,4 +21,4 @@ inline void expect_every_status(const Table &contact) {
     EXPECT_TRUE(has_status(contact, status)) << status;
 }
 
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

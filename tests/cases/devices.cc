@@ -8,7 +8,7 @@
 #include "run_case.h"
 #include "tourmaline/case/case.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 RunCase device(const std::string &name, const std::vector<std::string> &overrides = {}) {
@@ -437,4 +437,4 @@ TEST(BimorphInPlaneStress, BendsByTheClosedFormWithoutCoupling) {
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -7,7 +7,7 @@
 #include "run_case.h"
 #include "tourmaline/error.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 // Four cells in contact on all sides leave one node to take their mass, about which the body turns.
@@ -60,4 +60,4 @@ TEST(DynamicCases, WhatHasNoMeaningIsToldInOneSentence) {
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

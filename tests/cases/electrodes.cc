@@ -9,7 +9,7 @@
 #include "run_case.h"
 #include "tourmaline/case/case.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 constexpr double c33 = 162e9, e33 = 18.6, beta33 = 12.6e-9;  // BaTiO3-Liu2014
@@ -437,4 +437,4 @@ TEST(Joined, TwoSidesOfOneElectrodeAreTwoElectrodesWithAWireBetweenThem) {
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -8,7 +8,7 @@
 
 #include "read_table.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 
 /// Columns that are measured by the largest of them: a component may be nothing but round-off.
 using Quantity = std::vector<std::string>;
@@ -27,4 +27,4 @@ inline void expect_equal_quantities(const Table &found, const Table &expected,
   }
 }
 
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

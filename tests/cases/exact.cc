@@ -8,7 +8,7 @@
 
 #include "run_case.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 // BaTiO3-Liu2014.
@@ -354,4 +354,4 @@ TEST_P(SolidPatchTest, LinearFieldsAreReproducedOnAGradedMesh) {
 INSTANTIATE_TEST_SUITE_P(Solids, SolidPatchTest, ::testing::Values("tetrahedron", "hexahedron"));
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

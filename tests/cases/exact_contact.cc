@@ -11,7 +11,7 @@
 #include "closed_balances.h"
 #include "run_case.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 constexpr double c33 = 162e9, c44 = 43e9, e33 = 18.6, e15 = 11.6;
@@ -294,4 +294,4 @@ TEST(HertzLine, TheModuliWithAndWithoutCouplingAreToldApart) {
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -10,7 +10,7 @@
 #include "run_case.h"
 #include "tourmaline/error.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 using Overrides = std::vector<std::string>;
@@ -303,4 +303,4 @@ TEST(EveryRoute, LetsHeatAndChargeCrossAContactOfASolidByItsState) {
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -5,7 +5,7 @@
 #include "run_case.h"
 #include "tourmaline/error.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 double largest_of(const std::vector<double> &values) {
@@ -64,4 +64,4 @@ TEST(Factorisations, TheOwnOneIsOfTheDirectBodyOnly) {
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -11,7 +11,7 @@
 #include "run_case.h"
 #include "tourmaline/error.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 using Overrides = std::vector<std::string>;
@@ -306,4 +306,4 @@ TEST(FoundationCircuit, ThatContradictsItselfIsRefused) {
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -13,7 +13,7 @@
 #include "run_case.h"
 #include "thrown_block.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 double at(const Table &table, const char *column, double time) {
@@ -245,4 +245,4 @@ TEST(ThrownBlock, EveryNormalLawCloses) {
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

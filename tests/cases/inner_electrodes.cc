@@ -9,7 +9,7 @@
 #include "run_case.h"
 #include "tourmaline/error.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 double last(const RunCase &run, const std::string &column) {
@@ -164,4 +164,4 @@ TEST(InnerElectrodes, ThatCoverNothingAreRefused) {
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

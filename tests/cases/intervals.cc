@@ -6,7 +6,7 @@
 #include "run_case.h"
 #include "tourmaline/case/case.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 const std::string three_sizes =
@@ -140,4 +140,4 @@ heat = { law = "insulated", friction_share = 1 }
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -8,7 +8,7 @@
 #include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 // A component is measured by the largest of its vector: it may be nothing but round-off.
@@ -294,4 +294,4 @@ TEST(Iterative, TheBackwardErrorIsMeasured) {
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

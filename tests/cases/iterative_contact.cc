@@ -11,7 +11,7 @@
 #include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 using Overrides = std::vector<std::string>;
@@ -191,4 +191,4 @@ TEST(ContactIteratively, WhatLetsTheBodyGoIsNamed) {
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -7,7 +7,7 @@
 #include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 using ::testing::HasSubstr;
@@ -214,4 +214,4 @@ TEST_F(MeshFileCase, TheResolvedCaseFindsTheMeshFromAnotherFolder) {
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -5,7 +5,7 @@
 #include "run_case.h"
 #include "tourmaline/case/case.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 casefile::Case foil(const std::string &cells, const std::string &conditions,
@@ -63,4 +63,4 @@ INSTANTIATE_TEST_SUITE_P(OfTheBody, EachRoute,
                                            "solver.body=\"iterative\""));
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -8,7 +8,7 @@
 #include "tourmaline/error.h"
 #include "tourmaline/run/simulation.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 using contact::Tangent;
@@ -149,4 +149,4 @@ TEST(OwnLaws, NeedANameOfOneLineAndAContact) {
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -9,7 +9,7 @@
 #include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 class Paper : public ::testing::TestWithParam<int> {
@@ -290,4 +290,4 @@ fields = false
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

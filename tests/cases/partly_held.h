@@ -1,6 +1,6 @@
 #pragma once
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 
 /// Bodies with symmetry planes and rollers: nodes of which some displacement components are
 /// prescribed and others are free, in contact and beside it. Loads and bound are such that some
@@ -56,4 +56,4 @@ boundary = [
 contact = { on = "left", friction = { law = "tresca", bound = 15 }, heat = { law = "exchange", coefficient = 1, foundation_temperature = -27 } }
 )toml";
 
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

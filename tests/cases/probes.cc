@@ -5,7 +5,7 @@
 #include "run_case.h"
 #include "tourmaline/error.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 using ::testing::HasSubstr;
@@ -132,4 +132,4 @@ boundary = [{ on = "inner", displacement = [0, 0], potential = 0, temperature = 
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

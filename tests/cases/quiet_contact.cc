@@ -7,7 +7,7 @@
 #include "run_case.h"
 #include "tourmaline/error.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 const std::string square = R"toml(
@@ -163,4 +163,4 @@ friction = { law = "tresca", bound = 1e4 }
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 
 /// A CSV file by columns, cells as text.
 struct Table {
@@ -74,4 +74,4 @@ inline double difference(const Table &ours, const Table &theirs, const std::stri
   return scale > 0 ? worst / scale : worst;
 }
 
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

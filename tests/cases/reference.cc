@@ -3,7 +3,7 @@
 
 #include "run_case.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 struct Reference {
@@ -91,4 +91,4 @@ std::vector<std::string> third_program_cases() {
 INSTANTIATE_TEST_SUITE_P(Variations, ThirdProgram, ::testing::ValuesIn(third_program_cases()));
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -4,7 +4,7 @@
 
 #include "run_case.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 Table probe(const RunCase &run, const std::string &name) {
@@ -122,4 +122,4 @@ region = "two"
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 
 /// A warmed block of BaTiO3 that a foundation rubs, as it moves along, and leaves.
 constexpr const char *rubbed_block = R"toml(
@@ -17,4 +17,4 @@ friction = { law = "coulomb", coefficient = 0.3 }
 heat = { law = "exchange", coefficient = 2e4, foundation_temperature = "20*t" }
 )toml";
 
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -8,7 +8,7 @@
 #include "tourmaline/mesh/gmsh.h"
 #include "tourmaline/run/simulation.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 
 /// A case of the repository, run with overrides into a folder that goes away with the object.
 class RunCase {
@@ -42,4 +42,4 @@ inline RunCase run_text(const std::string &text, const std::vector<std::string> 
                                      folder / "case.toml", overrides, mesh::read_mesh_file));
 }
 
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -11,7 +11,7 @@
 #include "equal_quantities.h"
 #include "run_case.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 /// Squares of a grid as a mesh in Gmsh's format, the sides of the body in groups of given names.
@@ -437,4 +437,4 @@ friction = { law = "tresca", bound = 1e4 }
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

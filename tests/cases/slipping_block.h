@@ -1,6 +1,6 @@
 #pragma once
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 
 /// A block of tetrahedra whose contact slips in different directions.
 constexpr const char *slipping_block = R"toml(
@@ -26,4 +26,4 @@ friction = { law = "tresca", bound = 0.05 }
 heat = { law = "exchange", coefficient = 1, foundation_temperature = -27 }
 )toml";
 
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -8,7 +8,7 @@
 #include "closed_balances.h"
 #include "run_case.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 using Vector = std::array<double, 3>;
@@ -101,4 +101,4 @@ TEST(Sleeve, SlipTurnsAndTheTractionStaysAgainstIt) {
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

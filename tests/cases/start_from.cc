@@ -13,7 +13,7 @@
 #include "run_case.h"
 #include "tourmaline/error.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 // A block that is pressed and warmed, drags along a moving foundation and opens at one end, with an
@@ -322,4 +322,4 @@ TEST_F(StartFromComplaint, ARunThatGoesOnKnowsTheFilesItBeganWith) {
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -8,7 +8,7 @@
 #include "elastic_body.h"
 #include "run_case.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 // A load, a voltage and a weight that are there at t = 0 accelerate from there on: no step knows
@@ -171,4 +171,4 @@ TEST(MovingSupport, IsAskedOnlyInsideTheRun) {
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

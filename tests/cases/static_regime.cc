@@ -9,7 +9,7 @@
 #include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 // t goes to 2; `of_t` says how the loads have it.
@@ -167,4 +167,4 @@ boundary = [ { on = "right", displacement = [0, 0], potential = 0 },
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 
 /// A damped block of BaTiO3 that is thrown obliquely on its foundation, and rubs, in two or three
 /// dimensions.
@@ -28,4 +28,4 @@ heat = {{ law = "exchange", coefficient = 2e4, foundation_temperature = 0, frict
                      box, dim == 2 ? "[0.5, -1]" : "[0.5, 0.2, -1]");
 }
 
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -10,7 +10,7 @@
 #include "equal_quantities.h"
 #include "run_case.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 using std::numbers::pi;
@@ -226,4 +226,4 @@ electrode = [ { name = "base", on = "bottom", voltage = 0 }, { name = "top", on 
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

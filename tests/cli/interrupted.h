@@ -12,7 +12,7 @@
 /// Runs that are killed, stopped or refused, and go on with --resume.
 class Interrupted : public Program {
  protected:
-  Interrupted() { std::ofstream(here() / "block.toml") << tourmaline::testing::slipping_block; }
+  Interrupted() { std::ofstream(here() / "block.toml") << tourmaline::verified::slipping_block; }
 
   /// Summary of a run but for what every run has of its own.
   static nlohmann::json without_times(const std::filesystem::path &file) {

@@ -5,7 +5,7 @@
 
 #include "tourmaline/contact/friction_law.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 
 /// Somebody's law in space, with more friction along one line of the foundation than across it:
 /// lambda in the ellipse lambda.shape^-1 lambda <= 1, shape [N^2/m^4].
@@ -62,4 +62,4 @@ class Ellipse : public contact::FrictionLaw {
   Eigen::Matrix2d shape_;
 };
 
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -2,7 +2,7 @@
 
 #include "tourmaline/case/case.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 
 /// A ceramic as a data sheet has it, in Pa and C/m^2.
 inline casefile::MaterialCase ceramic() {
@@ -25,4 +25,4 @@ inline casefile::MaterialCase ceramic() {
   return asked;
 }
 
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -5,7 +5,7 @@
 #include <random>
 #include <utility>
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 
 /// The same numbers from a seed with every standard library.
 class Random {
@@ -36,4 +36,4 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <numeric>
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 using Index = std::vector<int>;  // of a vertex or cell in the grid, by axis
@@ -131,4 +131,4 @@ SampleMesh random_mesh(const MeshShape &shape, Random &random) {
   return mesh;
 }
 
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

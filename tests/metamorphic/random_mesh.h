@@ -3,7 +3,7 @@
 #include "random.h"
 #include "sample.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 
 /// What a random mesh is made like.
 struct MeshShape {
@@ -19,4 +19,4 @@ struct MeshShape {
 /// Vertices inside are moved at random, those of the boundary stay on it.
 SampleMesh random_mesh(const MeshShape &shape, Random &random);
 
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

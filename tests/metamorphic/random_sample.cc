@@ -6,7 +6,7 @@
 #include "random_mesh.h"
 #include "tourmaline/case/case.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 // The sizes at which what the loads do in a body of BaTiO3 of `length` [m] is alike.
@@ -335,4 +335,4 @@ Sample with_other_loads(Sample sample, Random &random) {
   return sample;
 }
 
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

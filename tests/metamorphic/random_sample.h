@@ -3,7 +3,7 @@
 #include "random.h"
 #include "sample.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 
 /// What a relation asks of its cases.
 struct Wish {
@@ -19,4 +19,4 @@ Sample random_sample(Random &random, const Wish &wish = {});
 /// The same with other loads.
 Sample with_other_loads(Sample sample, Random &random);
 
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

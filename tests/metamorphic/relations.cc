@@ -10,7 +10,7 @@
 #include "result.h"
 #include "transformations.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 // Of a quantity's size, in a small body whose solution is certain to the last digits.
@@ -185,4 +185,4 @@ TEST(RandomCases, StickAtOnePlaceWhileTheySlipAtAnother) {
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

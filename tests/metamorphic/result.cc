@@ -2,7 +2,7 @@
 
 #include "../cases/run_case.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 using Eigen::MatrixXd;
@@ -219,4 +219,4 @@ void expect_same(const Result &expected, const Result &actual, double tolerance)
     expect_same_status(expected, actual, partner.at("contact"), tolerance);
 }
 
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

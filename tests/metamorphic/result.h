@@ -2,7 +2,7 @@
 
 #include "sample.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 
 /// How a case follows from another: by a turn, or a mirror, and by units.
 struct Image {
@@ -38,4 +38,4 @@ Result superposed(const Result &one, double a, const Result &other, double b);
 /// are no more than that have any status.
 void expect_same(const Result &expected, const Result &actual, double tolerance);
 
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

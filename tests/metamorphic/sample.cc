@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 
 double Units::factor(const Dimension &of) const {
   return std::pow(length, of.length) * std::pow(force, of.force) * std::pow(voltage, of.voltage) *
@@ -188,4 +188,4 @@ std::string Sample::text() const {
   return out;
 }
 
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 
 /// Exponents of length, force, voltage, temperature and time in a unit.
 struct Dimension {
@@ -79,4 +79,4 @@ struct Sample {
   std::string text() const;  ///< the case file, whose mesh file is `sample.msh`
 };
 
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

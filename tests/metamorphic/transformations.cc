@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 Eigen::MatrixXd axes_to_axes(int dimension, Random &random) {
@@ -154,4 +154,4 @@ Sample superposed(const Sample &one, double a, const Sample &other, double b) {
   return sum;
 }
 
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

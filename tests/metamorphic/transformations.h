@@ -3,7 +3,7 @@
 #include "random.h"
 #include "sample.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 
 /// An orthogonal matrix that takes the case's supports to ones that a case file can say: where
 /// components are free, axes go to axes.
@@ -20,4 +20,4 @@ Sample renumbered(Sample sample, Random &random);
 /// `a` times the loads of the one and `b` times those of the other.
 Sample superposed(const Sample &one, double a, const Sample &other, double b);
 
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

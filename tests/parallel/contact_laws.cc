@@ -8,7 +8,7 @@
 #include "../cases/slipping_block.h"
 #include "ranks.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 // A warmed block of BaTiO3 that a foundation rubs, as it moves along, and leaves.
@@ -169,4 +169,4 @@ TEST_P(Ranks, ABodyThatItsContactLetsGoIsToldOnce) {
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

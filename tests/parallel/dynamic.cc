@@ -3,7 +3,7 @@
 #include "../cases/thrown_block.h"
 #include "ranks.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 class ThrownOnRanks : public Ranks {
@@ -33,4 +33,4 @@ TEST_P(ThrownOnRanks, ABlockBouncesTheSameIteratively) {
 INSTANTIATE_TEST_SUITE_P(Two, ThrownOnRanks, ::testing::Values(2));
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

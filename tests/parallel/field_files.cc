@@ -8,7 +8,7 @@
 #include "ranks.h"
 #include "report/field_file.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 using output::content_of;
@@ -126,4 +126,4 @@ contact = { on = "left", friction = { law = "tresca", bound = 15 } }
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

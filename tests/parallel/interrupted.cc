@@ -8,7 +8,7 @@
 #include "../cases/thrown_block.h"
 #include "ranks.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 using output::content_of;
@@ -112,4 +112,4 @@ TEST_P(Interrupted, ADynamicRunGoesOnToTheSameBytes) {
 INSTANTIATE_TEST_SUITE_P(Two, Interrupted, ::testing::Values(2));
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -7,7 +7,7 @@
 #include "../cases/partly_held.h"
 #include "../cases/slipping_block.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 // A dielectric between two ceramic layers poled against each other, one electrode in a circuit.
@@ -192,4 +192,4 @@ TEST_P(Ranks, AFailedSolveIsToldOnce) {
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

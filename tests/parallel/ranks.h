@@ -13,7 +13,7 @@
 #include "../cases/read_table.h"
 #include "../output/temporary_folder.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 
 struct Outcome {
   int status;
@@ -106,4 +106,4 @@ class Ranks : public ::testing::TestWithParam<int> {
                              "--set time.steps=5 ";
 };
 
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

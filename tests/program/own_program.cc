@@ -10,7 +10,7 @@
 #include "../cases/read_table.h"
 #include "../output/temporary_folder.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 using output::content_of;
@@ -154,4 +154,4 @@ TEST_F(OwnProgram, AnErrorOfAllRanksIsNotThatOfOneAlone) {
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

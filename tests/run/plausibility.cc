@@ -23,8 +23,8 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using tourmaline::testing::ceramic;
-using tourmaline::testing::RunCase;
+using tourmaline::verified::ceramic;
+using tourmaline::verified::RunCase;
 namespace fs = std::filesystem;
 
 const fs::path repository(TOURMALINE_SOURCE_DIR);

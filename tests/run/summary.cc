@@ -2,7 +2,7 @@
 
 #include "../cases/run_case.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 TEST(Summary, EveryRouteCountsTheSameUnknowns) {
@@ -18,4 +18,4 @@ TEST(Summary, EveryRouteCountsTheSameUnknowns) {
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

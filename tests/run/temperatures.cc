@@ -15,7 +15,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
-using tourmaline::testing::RunCase;
+using tourmaline::verified::RunCase;
 
 // A square of 293 K, held and grounded on its right.
 casefile::Case square(std::vector<std::string> overrides) {

@@ -11,7 +11,7 @@
 #include "rows_by_place.h"
 #include "tourmaline/error.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 using std::numbers::pi;
@@ -297,4 +297,4 @@ TEST(Axisymmetric, WhatHasNoMeaningAroundAnAxisIsRefused) {
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

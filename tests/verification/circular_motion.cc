@@ -9,7 +9,7 @@
 
 #include "../cases/run_case.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 using std::numbers::pi;
@@ -143,4 +143,4 @@ TEST(CircularMotion, SlipLagsBehindThePlateByTheAngleOfTheClosedForm) {
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

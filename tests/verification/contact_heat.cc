@@ -4,7 +4,7 @@
 #include "richer_paper.h"
 #include "tourmaline/case/case.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 const std::string no_exchange = "contact.heat.coefficient=0";
@@ -56,4 +56,4 @@ TEST(HeatAtTheContact, WhereNoHeatCrossesAnyBoundaryTheEntropyStaysWhatItWas) {
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

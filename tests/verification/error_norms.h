@@ -4,7 +4,7 @@
 #include "mesh/mesh.h"
 #include "problem.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 
 /// Norms of the error over those of the solution, for u, phi and theta: of the values (L2) and of
 /// the gradients (H1).
@@ -93,4 +93,4 @@ Errors errors_of_run(const Problem<dim> &problem, const RunCase &run) {
       .of(body, last_state<dim>(run.nodes()));
 }
 
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -3,7 +3,7 @@
 #include "../cases/run_case.h"
 #include "rows_by_place.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 const std::string no_fields = "output.fields=false";
@@ -110,4 +110,4 @@ TEST_P(Extrusion, InPlaneStrainASolidDoesWhatThePlaneCaseDoes) {
 INSTANTIATE_TEST_SUITE_P(Routes, Extrusion, ::testing::Values("condensed", "monolithic"));
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -5,7 +5,7 @@
 
 #include "richer_paper.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 
 /// How the tables of a case follow from those of another: places and displacements by `turn` (a
 /// signed permutation), then `shift`; numbers by the ratios of units.
@@ -112,4 +112,4 @@ inline void expect_image(const RunCase &run, const RunCase &other, const Image &
   }
 }
 
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -8,7 +8,7 @@
 #include "mesh/mesh.h"
 #include "tourmaline/case/case.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 // On quadrilaterals: squares cut into triangles have no mirror image among the meshes.
@@ -103,4 +103,4 @@ TEST(Numbering, CellsListedInAnotherOrderChangeNothingButRoundOff) {
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -8,7 +8,7 @@
 #include "../cases/run_case.h"
 #include "tourmaline/error.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 using ::testing::Contains;
@@ -119,4 +119,4 @@ TEST(LeftOut, WhatIsSaidOfAFieldThatIsNotThereIsRefused) {
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

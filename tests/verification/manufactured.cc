@@ -4,7 +4,7 @@
 #include "study.h"
 #include "tourmaline/case/case.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 using casefile::CellShape;
@@ -87,4 +87,4 @@ TEST(ManufacturedSolutionInBariumTitanate, InSiUnitsErrorsFallWithTheOrdersOfThe
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

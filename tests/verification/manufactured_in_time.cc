@@ -3,7 +3,7 @@
 
 #include "study.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 using casefile::CellShape;
@@ -39,4 +39,4 @@ TEST(ManufacturedInTime, HalvingTheStepHalvesTheErrorOfEveryFieldInThreeDimensio
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

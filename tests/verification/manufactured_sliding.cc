@@ -4,7 +4,7 @@
 #include "study.h"
 #include "tourmaline/case/case.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 using casefile::CellShape;
@@ -140,4 +140,4 @@ INSTANTIATE_TEST_SUITE_P(
     name_of);
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

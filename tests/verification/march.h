@@ -4,7 +4,7 @@
 
 #include "solve/condensed_route.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 
 /// The last state of a model, and what happened at its contact in each step.
 struct March {
@@ -37,4 +37,4 @@ March march(const solve::Model<dim> &model) {
   return at;
 }
 
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

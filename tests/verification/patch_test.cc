@@ -6,7 +6,7 @@
 #include "mesh/mesh.h"
 #include "study.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 using casefile::CellShape;
@@ -69,4 +69,4 @@ INSTANTIATE_TEST_SUITE_P(
     name_of);
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -8,7 +8,7 @@
 #include "rows_by_place.h"
 #include "tourmaline/error.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 constexpr double thickness = 0.004;
@@ -150,4 +150,4 @@ TEST(PlaneStress, IsRefusedInThreeDimensionsAndUnderAnotherName) {
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

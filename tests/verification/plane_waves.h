@@ -11,7 +11,7 @@
 /// theta, in directions k of their own. The chain rule gives every derivative as a number times f'
 /// or f'', so the right-hand sides of (4)-(6) and the natural conditions are short sums, written as
 /// formulas of a case.
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 
 template <int dim>
 using Vector = Eigen::Matrix<double, dim, 1>;
@@ -165,4 +165,4 @@ class Manufactured {
   Waves<dim> waves_;
 };
 
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -10,7 +10,7 @@
 /// solution follow from (1)-(6), (8), (11), (13). All couplings are active: the poling axis is
 /// tilted, so every in-plane (2D) or every (3D) entry of the tensors is there, and the pyroelectric
 /// vector has a part across that axis.
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 
 /// Courses whose rates are exact in backward Euler; they differ, so that no field's rate follows
 /// from another's.
@@ -178,4 +178,4 @@ Problem<dim> held_on_all_sides(const Profile &profile) {
   return problem;
 }
 
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

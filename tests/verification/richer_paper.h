@@ -7,7 +7,7 @@
 
 /// The paper's conductive case, made richer: both components of traction, a pyroelectric vector
 /// with a part across the poling axis, a bound at which some nodes stick and others slip.
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 
 /// Seen: at most 1e-13, in the slip rate, which is a difference of displacements; a changed sign or
 /// term is of order 1.
@@ -41,4 +41,4 @@ inline bool sticks_and_slips(const std::vector<std::string> &status) {
   return contains<std::string>(status, "stick") && contains<std::string>(status, "slip");
 }
 
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -12,7 +12,7 @@
 #include "richer_paper.h"
 #include "tourmaline/case/case.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 template <int dim>
@@ -255,4 +255,4 @@ TEST(RotationInSpace, OfMeshMaterialAndLoadsRotatesTheResult) {
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

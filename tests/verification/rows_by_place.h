@@ -5,7 +5,7 @@
 
 #include "../cases/read_table.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 
 using Place = std::array<double, 3>;
 
@@ -39,4 +39,4 @@ struct Rows {
   std::vector<Place> place;
 };
 
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -8,7 +8,7 @@
 
 #include "../cases/run_case.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 constexpr double c11 = 166e9, c12 = 77e9, c66 = (c11 - c12) / 2;  // BaTiO3-Liu2014 [Pa]
@@ -174,4 +174,4 @@ TEST(Ring, PressedOnAShaftItHasThePressureOfLame) {
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

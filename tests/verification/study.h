@@ -4,7 +4,7 @@
 
 #include "error_norms.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 
 /// One kind of element on a sequence of meshes, by their intervals along an axis.
 struct Study {
@@ -91,4 +91,4 @@ void expect_orders(const Study &study, Problem<dim> problem) {
   expect_orders_of_the_element(study, errors);
 }
 
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -4,7 +4,7 @@
 
 #include "richer_paper.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 // Loads grow smoothly from nothing. Nodes change from stick to slip between two steps, which lets
@@ -31,4 +31,4 @@ TEST(TimeStep, HalvedHalvesTheErrorOfASlidingBody) {
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -9,7 +9,7 @@
 #include "../cases/run_case.h"
 #include "rows_by_place.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 using std::numbers::pi;
@@ -99,4 +99,4 @@ TEST(TurnedAboutTheContactNormal, ATubesLoadsBySomeOfItsFifteenDegreesTheAnswerT
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

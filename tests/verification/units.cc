@@ -2,7 +2,7 @@
 
 #include "image.h"
 
-namespace tourmaline::testing {
+namespace tourmaline::verified {
 namespace {
 
 // The paper's case in millimetres, newtons, seconds, kelvins and volts. Energy is then in N mm = mJ
@@ -47,4 +47,4 @@ TEST(Units, EnergiesOfOneMillimetreOfDepthInMillijoulesAreThoseOfOneMetreInJoule
 }
 
 }  // namespace
-}  // namespace tourmaline::testing
+}  // namespace tourmaline::verified

@@ -91,10 +91,10 @@ export class Body {
   private spread = false;
   private coloured = '';
 
-  /** `shape`: whose displacements deform it */
-  constructor(readonly result: Result, private readonly shape = result) {
+  /** `shape`: whose displacements deform it; `whole`: what it is a part of, at whose place and as large it stands */
+  constructor(readonly result: Result, private readonly shape = result, private readonly whole?: Body) {
     this.grid = result.grid!;
-    [this.centre, this.extents] = extentOf(this.grid.points);
+    [this.centre, this.extents] = whole ? [whole.centre, whole.extents] : extentOf(this.grid.points);
     this.size = Math.max(...this.extents);
     this.places = new Float32Array(this.grid.points.length);
     this.material = new THREE.ShaderMaterial({
@@ -125,6 +125,16 @@ export class Body {
     return this.shape.field('displacement')?.values('size').greatest ?? 0;
   }
 
+  /** Where it begins and ends along an axis, undeformed [m]. */
+  ends(axis: number): [number, number] {
+    return [this.centre[axis] - this.extents[axis] / 2, this.centre[axis] + this.extents[axis] / 2];
+  }
+
+  /** Gives back what the graphics hold of it. */
+  dispose() {
+    for (const geometry of [this.smooth, this.flat, this.lines, this.ridges, this.isolineObject.geometry]) geometry?.dispose();
+  }
+
   /** Whether its extents, in units of the largest one, are those of the other body, to a hundredth. */
   isShapedLike(other: Body): boolean {
     return this.result.dimension === other.result.dimension &&
@@ -133,7 +143,7 @@ export class Body {
 
   /** Magnification of displacements that shows them well and folds no cell. */
   get suitableScale(): number {
-    this.scale ??= suitableMagnification(this.grid, this.size, this.shape.field('displacement'), this.shape.field('strain'));
+    this.scale ??= this.whole?.suitableScale ?? suitableMagnification(this.grid, this.size, this.shape.field('displacement'), this.shape.field('strain'));
     return this.scale;
   }
 

@@ -9,6 +9,8 @@ import { Display } from './display';
 import { drawOverlay } from './overlay';
 import { keepCamera } from './view_camera';
 import { changed, keepControl } from './address';
+import { cutBody } from './cut_body';
+import { CutPlane } from './cut_plane';
 import { Camera, fitted } from './stage';
 import { Frame } from './frame';
 import { Pen, Point } from './pen';
@@ -31,6 +33,8 @@ import { camerasOf } from './overview';
 import { Timeline } from './timeline';
 
 interface View {
+  /** the body, and what of it is shown */
+  whole: Body;
   result: Result;
   body: Body;
   picture: Picture;
@@ -71,6 +75,7 @@ export class Explorer {
   private readonly fieldChoice: ReturnType<typeof choice>;
   readonly display: Display;
   private readonly probing: Probing;
+  private readonly cut: CutPlane;
   private readonly hand = new HandRange(() => this.refresh());
   /** what the readouts tell of, and whether a ring marks it */
   private probed?: Probed & { view: View; ring: boolean };
@@ -92,7 +97,8 @@ export class Explorer {
     this.fieldChoice.select.id = 'field';
     this.componentChoice = choice('Component', [], '', (c) => { this.component = c; this.useHand(); this.probing.update(); this.refresh(); });
     this.componentChoice.select.id = 'component';
-    this.display.box.append(this.probing.control);
+    this.cut = new CutPlane(bodies, () => this.recut());
+    this.display.box.append(this.cut.box, this.probing.control);
     this.box = element('div', {}, this.toolbar(), this.display.box,
       element('div', { class: `views views-${bodies.length}` }, ...this.views.map((v) => this.frame(v))), this.probing.box);
     this.choose(this.field);
@@ -123,6 +129,23 @@ export class Explorer {
     });
   }
 
+  /** Shows what the plane leaves of the bodies. */
+  private recut() {
+    const { plane } = this.cut, own = this.views.filter((view) => view.less === undefined);
+    for (const view of own) this.become(view, plane ? cutBody(view.whole, plane) : view.whole);
+    for (const view of this.views.filter((v) => v.less !== undefined))
+      this.become(view, plane ? differenceOf(own[0].body, own[1].body)!.body : view.whole);
+    this.probed = undefined;
+    this.probing.become(own.map((view) => view.body));
+    this.refresh();
+  }
+
+  private become(view: View, body: Body) {
+    if (view.body !== view.whole && view.body !== body) view.body.dispose();
+    view.body = view.picture.body = body;
+    view.result = body.result;
+  }
+
   refresh() {
     for (const view of this.views) view.drawing.ask();
     changed();
@@ -130,6 +153,7 @@ export class Explorer {
 
   /** What of it stands in the address. */
   private keepAll() {
+    this.cut.keep();
     keepControl('field', this.fieldChoice.select);
     keepControl('component', this.componentChoice.select, () => this.views[0].result.field(this.field)!.components[0]);
     this.box.querySelectorAll<HTMLInputElement>('.toolbar:not(.further) :is(#range, #stretch, #magnification, .tick input, .hand input)')
@@ -171,7 +195,7 @@ export class Explorer {
     canvas.addEventListener('focus', () => (controls.enableZoom = true));
     canvas.addEventListener('blur', () => (controls.enableZoom = false));
     const view: View = {
-      result: body.result, body, picture, camera, controls, less, bar: new ColourBar(),
+      whole: body, result: body.result, body, picture, camera, controls, less, bar: new ColourBar(),
       note: element('p', { class: 'note' }), readout: element('div', { class: 'readout', role: 'status' }),
       drawing: new Drawing(canvas, () => this.draw(view)),
     };
@@ -252,13 +276,14 @@ export class Explorer {
     for (const view of views) {
       const field = this.fieldOf(view);
       if (!field?.has(this.component)) continue;
-      const values = field.values(this.component);
       const state = stateAt(view.result, this.timeline.time);
       if (this.rangeOver === 'step' && state < 0) continue;
-      include(found.all, this.rangeOver === 'step' ? values.of(state) : values);
-      // Nothing is cut off an unknown.
-      include(found.usual, field.isUnknown ? found.all : values.usual(peaks, this.rangeOver === 'step' ? state : undefined));
-      found.error = Math.max(found.error, values.error);
+      for (const values of field.ranges(this.component)) {
+        include(found.all, this.rangeOver === 'step' ? values.of(state) : values);
+        // Nothing is cut off an unknown.
+        include(found.usual, field.isUnknown ? found.all : values.usual(peaks, this.rangeOver === 'step' ? state : undefined));
+        found.error = Math.max(found.error, values.error);
+      }
     }
     return found;
   }

@@ -11,7 +11,7 @@ import { colour } from './theme';
 
 export class Picture {
   readonly canvas = element('canvas', {});
-  constructor(readonly body: Body, readonly camera: Camera, private readonly boundaries?: Map<string, string>) {}
+  constructor(public body: Body, readonly camera: Camera, private readonly boundaries?: Map<string, string>) {}
 
   show(look: Look, upon?: (pen: Pen, frame: Frame) => void) {
     const size = fitted(this.canvas);

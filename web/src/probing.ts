@@ -35,7 +35,7 @@ export class Probing {
   private readonly pinChart: Chart;
   private readonly plane: boolean;
 
-  constructor(private readonly bodies: Body[], private readonly timeline: Timeline, private readonly question: () => Question,
+  constructor(private bodies: Body[], private readonly timeline: Timeline, private readonly question: () => Question,
     private readonly refresh: () => void) {
     this.plane = bodies.every((b) => b.result.dimension === 2);
     const options = { title: '', xLabel: '', unit: '', sync: 'probing' };
@@ -71,6 +71,14 @@ export class Probing {
     this.dragged = undefined;
     if (Math.hypot(to[0] - from[0], to[1] - from[1]) > 0.02) this.lay(body, camera, from, to);
     this.tell();
+  }
+
+  /** Of other parts of the same bodies; a line over what was seen before is gone. */
+  become(bodies: Body[]) {
+    this.bodies = bodies;
+    this.locators.clear();
+    if (!this.plane) this.lines.clear();
+    this.update();
   }
 
   /** With another field or moment. */

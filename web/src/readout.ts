@@ -16,6 +16,7 @@ function item(value: string, unit: string, label: string, data: Record<string, u
 /** Writes into `readout` what is known of a place at a moment. */
 export function tell(readout: HTMLElement, body: Body, { hit, node }: Probed, time: number, field?: Field, component = '') {
   const { grid, result } = body;
+  if (node !== undefined && grid.nodes[node] < 0) node = undefined;  // where a cut meets the side of a cell
   if (node !== undefined) readout.dataset.node = String(grid.nodes[node]);
   else delete readout.dataset.node;
   const state = stateAt(result, time);

@@ -15,7 +15,7 @@ interface PackedResult {
   times: number[];
   steps: number[];
   fields: { name: string; unit: string; on: 'points' | 'cells'; origin: string; belowRoundOff: boolean;
-    components: string[]; values: Packed[] }[];
+    components: string[]; values: Packed[]; inner?: Packed[] }[];
   boundaries: { name: string; kind: string; conditions: string[]; sizes: Packed; nodes: Packed }[];
   contactPieces: { name: string; abscissa: string; origin: string; rows: Packed; along: Packed }[];
   contactFaces: { contact: string; place: string; across: string; up: string; origin: string;
@@ -24,6 +24,7 @@ interface PackedResult {
   unnamed: string;
   poling: Packed | null;
   grid?: Record<'points' | 'nodes' | 'cells' | 'triangles' | 'triangleCells' | 'edges', Packed>;
+  solid?: Record<'points' | 'nodes' | 'parts' | 'partCells', Packed> & { corners: number };
   history?: PackedTable;
   contact?: PackedTable;
   probes?: { name: string; table: PackedTable }[];
@@ -35,11 +36,22 @@ interface PackedResult {
 /** The skin of a body: nodes, triangles and the cells that they belong to, sides of cells. */
 export interface Grid {
   points: Float32Array;
-  nodes: Uint32Array;
+  /** rows of nodes.csv; of a cut -1 where it is no node */
+  nodes: Uint32Array | Int32Array;
   cells: Uint32Array;
   triangles: Uint32Array;
   triangleCells: Uint32Array;
   edges: Uint32Array;
+}
+
+/** What lies behind the skin of a solid body; nodes and cells are numbered on from those of the skin. */
+export interface Solid {
+  points: Float32Array;
+  nodes: Uint32Array;
+  /** of each part, a tetrahedron or hexahedron; of all cells */
+  corners: number;
+  parts: Uint32Array;
+  partCells: Uint32Array;
 }
 
 /** A connected piece of the contact of a plane body; `rows` of one step of contact.csv. */
@@ -133,6 +145,7 @@ export class Field {
   /** components that can be shown; "size" is the length of a vector */
   readonly components: string[];
   private readonly unpacked = new Map<string, Values>();
+  private readonly unpackedInner = new Map<string, Values>();
 
   constructor(readonly description: FieldDescription) {
     const packed = description;
@@ -158,18 +171,36 @@ export class Field {
 
   has(component: string): boolean { return this.components.includes(component); }
 
-  protected component(name: string): Values {
-    const packed = this.description.values[this.description.components.indexOf(name)];
-    return new Values(unpack(packed), packed.columns, packed.coding === 'levels' ? packed.step! / 2 : 0);
+  /** What the colours of a component must cover. */
+  ranges(component: string): Values[] { return [this.values(component)]; }
+
+  /** On the skin and behind it, where the page holds that. */
+  insideToo(component: string): [skin: Values, inner: Values] {
+    let inner = this.unpackedInner.get(component);
+    if (!inner) {
+      const { components, inner: packed } = this.description;
+      inner = component === 'size' ? sizes(components.map((c) => this.insideToo(c)[1])) : unpacked(packed![components.indexOf(component)]);
+      this.unpackedInner.set(component, inner);
+    }
+    return [this.values(component), inner];
   }
 
-  private size(): Values {
-    const parts = this.description.components.map((c) => this.values(c));
-    const data = new Float32Array(parts[0].data.length);
-    for (const { data: part } of parts) for (let i = 0; i < data.length; ++i) data[i] += part[i] * part[i];
-    for (let i = 0; i < data.length; ++i) data[i] = Math.sqrt(data[i]);
-    return new Values(data, parts[0].places, Math.max(...parts.map((p) => p.error)));
+  protected component(name: string): Values {
+    return unpacked(this.description.values[this.description.components.indexOf(name)]);
   }
+
+  private size(): Values { return sizes(this.description.components.map((c) => this.values(c))); }
+}
+
+function unpacked(packed: Packed): Values {
+  return new Values(unpack(packed), packed.columns, packed.coding === 'levels' ? packed.step! / 2 : 0);
+}
+
+function sizes(parts: Values[]): Values {
+  const data = new Float32Array(parts[0].data.length);
+  for (const { data: part } of parts) for (let i = 0; i < data.length; ++i) data[i] += part[i] * part[i];
+  for (let i = 0; i < data.length; ++i) data[i] = Math.sqrt(data[i]);
+  return new Values(data, parts[0].places, Math.max(...parts.map((p) => p.error)));
 }
 
 export class Table {
@@ -188,6 +219,8 @@ export class Table {
 export class Result {
   readonly fields: Field[];
   readonly grid?: Grid;
+  /** of a solid body, where the page has room for it */
+  readonly solid?: Solid;
   readonly boundaries: Boundary[];
   readonly contactPieces: ContactPiece[];
   readonly contactFaces: ContactFacePart[];
@@ -212,6 +245,14 @@ export class Result {
         triangleCells: unpackIntegers(packed.grid.triangleCells),
         edges: unpackIntegers(packed.grid.edges),
       };
+    if (packed.solid)
+      this.solid = {
+        points: unpack(packed.solid.points),
+        nodes: unpackIntegers(packed.solid.nodes),
+        corners: packed.solid.corners,
+        parts: unpackIntegers(packed.solid.parts),
+        partCells: unpackIntegers(packed.solid.partCells),
+      };
     this.boundaries = packed.boundaries.map((b) => ({ ...b, facets: facetsOf(b.sizes, b.nodes) }));
     this.contactPieces = packed.contactPieces.map((p) => ({ ...p, rows: unpackIntegers(p.rows), along: unpack(p.along) }));
     this.contactFaces = packed.contactFaces.map((f) => ({ ...f, sizes: unpackIntegers(f.sizes), rows: unpackIntegers(f.rows),
@@ -229,8 +270,14 @@ export class Result {
 
   /** The same body with other fields, and without a contact. */
   withFields(title: string, name: string, fields: Field[]): Result {
-    return Object.create(this, Object.fromEntries(
-      Object.entries({ title, name, fields, contact: undefined, probes: [] }).map(([key, value]) => [key, { value }])));
+    return this.but({ title, name, fields, contact: undefined, probes: [] });
+  }
+
+  /** What a cut leaves of it. */
+  cut(grid: Grid, fields: Field[]): Result { return this.but({ grid, fields, boundaries: [] }); }
+
+  private but(others: Record<string, unknown>): Result {
+    return Object.create(this, Object.fromEntries(Object.entries(others).map(([key, value]) => [key, { value }])));
   }
 
   /** Which of several contacts a row belongs to; empty where there is but one. */

@@ -1,0 +1,132 @@
+// node tests/cuts.mjs TOURMALINE: planes through solid bodies, what they show of the inside.
+import assert from 'node:assert/strict';
+import { join } from 'node:path';
+import { execFileSync } from 'node:child_process';
+import { inBrowser } from './browser.mjs';
+import { centred, compare, desktop, end, nodesOf, numberIn, open, pixels, program, run, runText, settled, test } from './harness.mjs';
+
+const set = async (tab, axis, at, otherSide) => {
+  await tab.locator('#cut').selectOption(axis);
+  await tab.locator('#cut-at').fill(String(at));
+  await tab.locator('#cut-side').setChecked(otherSide);
+  await settled(tab);
+};
+
+/** What the page says of places under the pointer whose coordinate along `axis` is `at`. */
+async function onCut(tab, axis, at, wanted) {
+  const found = [];
+  const box = await centred(tab, '.view canvas');
+  for (let k = 0; k < 400 && found.length < wanted; ++k) {
+    const [u, v] = [(0.31 + 0.618034 * k) % 1, (0.17 + 0.7548777 * k) % 1];
+    await tab.mouse.move(box.x + u * box.width, box.y + v * box.height);
+    const said = await tab.locator('.readout').first().evaluate((readout) => ({
+      node: readout.dataset.node, text: readout.querySelector('.value')?.textContent ?? '',
+      values: [...readout.querySelectorAll('[data-field]')].map((e) => [e.dataset.field, e.dataset.component, Number(e.dataset.value), e.textContent]),
+    }));
+    const place = said.text.match(/at (\S+), (\S+), (\S+)/)?.slice(1).map((text) => numberIn(`x ${text}`));
+    if (place && Math.abs(place[axis] - at) < 1e-4 * 0.1) found.push({ ...said, place });
+  }
+  assert.ok(found.length >= wanted, `only ${found.length} places of the cut were found under the pointer`);
+  return found;
+}
+
+const twisted = (name, cell, degree) => run(name, 'block-3d/twisted.toml', `mesh.box.cells=${degree === 2 ? '[4, 4, 4]' : '[8, 8, 8]'}`,
+  `mesh.box.cell="${cell}"`, `mesh.degree=${degree}`, 'time.steps=2');
+
+for (const [cell, degree] of [['hexahedron', 1], ['tetrahedron', 1], ['hexahedron', 2], ['tetrahedron', 2]]) {
+  const out = twisted(`${cell}${degree}`, cell, degree);
+  await inBrowser(desktop, async (context) => {
+    const { tab, complaints } = await open(context, join(out, 'report.html'));
+    await test(`${cell} of degree ${degree}: a plane through nodes inside shows what nodes.csv has`, async () => {
+      const nodes = nodesOf(out), whole = await pixels(tab, '.view canvas');
+      for (const [axis, name, other] of [[0, 'x', true], [1, 'y', true], [2, 'z', false]]) {
+        await set(tab, name, 0.5, other);
+        assert.notEqual(await pixels(tab, '.view canvas'), whole);
+        const found = new Map((await onCut(tab, axis, 0.05, 60)).filter((s) => s.node !== undefined).map((s) => [Number(s.node), s.values]));
+        const inner = [...found.keys()].filter((i) => ['x', 'y', 'z'].every((c) => nodes[i][c] > 1e-6 && nodes[i][c] < 0.1 - 1e-6));
+        assert.ok(inner.length > 0, `no node inside was met, of ${found.size}`);
+        for (const i of inner) assert.ok(Math.abs(nodes[i][name] - 0.05) < 1e-9);
+        compare(found, nodes);
+      }
+      await tab.locator('#cut').selectOption('');
+      assert.equal(await pixels(tab, '.view canvas'), whole);
+    });
+    await test(`${cell} of degree ${degree}: the browser has nothing to complain of`, async () => assert.deepEqual(complaints, []));
+  });
+}
+
+/** A capacitor: V = 1000 z exactly, 0 to 100 V. */
+const linear = (cell, degree) => runText(`linear-${cell}${degree}`, `
+[mesh]
+box = { min = [0, 0, 0], max = [0.1, 0.1, 0.1], cells = [5, 4, 3], cell = "${cell}" }
+degree = ${degree}
+[material]
+young = 1e11
+poisson = 0.3
+eps11 = 1e-9
+k11 = 1
+density = 1000
+specific_heat = 1000
+reference_temperature = 293
+[time]
+end = 1
+steps = 1
+[[boundary]]
+on = "left"
+displacement = [0, 0, 0]
+temperature = 0
+[[boundary]]
+on = "bottom"
+potential = 0
+[[boundary]]
+on = "top"
+potential = 100
+`);
+
+for (const [cell, degree] of [['hexahedron', 1], ['tetrahedron', 2]])
+  await inBrowser(desktop, async (context) => {
+    const { tab } = await open(context, join(linear(cell, degree), 'report.html'));
+    await test(`${cell} of degree ${degree}: a linear field is linear on any cut`, async () => {
+      await tab.locator('#field').selectOption('potential');
+      for (const [axis, name, share, other] of [[0, 'x', 0.37, true], [1, 'y', 0.61, true], [2, 'z', 0.445, false]]) {
+        await set(tab, name, share, other);
+        for (const { place, values } of await onCut(tab, axis, share * 0.1, 20)) {
+          const [, , value] = values.find(([field]) => field === 'potential');
+          assert.ok(Math.abs(value - 1000 * place[2]) < 2e-3, `V = ${value} at ${place}`);
+        }
+      }
+    });
+    await test(`${cell} of degree ${degree}: the address brings a cut back`, async () => {
+      await set(tab, 'y', 0.61, true);
+      await tab.waitForFunction(() => location.hash.includes('cut-at'));
+      const before = await pixels(tab, '.view canvas');
+      await tab.reload();
+      await tab.waitForSelector('#run');
+      await settled(tab);
+      assert.equal(await tab.locator('#cut').inputValue(), 'y');
+      assert.equal(await pixels(tab, '.view canvas'), before);
+    });
+  });
+
+await inBrowser(desktop, async (context) => {
+  const folders = ['hexahedron', 'tetrahedron'].map((cell) => twisted(`other-${cell}`, cell, 1));
+  const page = join(folders[0], 'two.html');
+  execFileSync(program, ['report', ...folders, '-o', page]);
+  const { tab, complaints } = await open(context, page);
+  await test('two bodies and their difference are cut at one place', async () => {
+    await tab.locator('#difference').check();
+    await settled(tab);
+    const whole = await Promise.all([0, 1, 2].map((i) => pixels(tab, '.view canvas', i)));
+    await set(tab, 'x', 0.5, true);
+    for (let i = 0; i < 3; ++i) assert.notEqual(await pixels(tab, '.view canvas', i), whole[i]);
+    assert.deepEqual(complaints, []);
+  });
+  await test('a page without room for the inside says so', async () => {
+    const small = join(folders[0], 'small.html');
+    execFileSync(program, ['report', folders[0], '-o', small, '--size', '1']);
+    const { tab: without } = await open(context, small);
+    assert.equal(await without.locator('#cut').isDisabled(), true);
+    assert.match(await without.locator('.cut .control').getAttribute('title'), /--size/);
+  });
+});
+end();
