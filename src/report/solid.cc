@@ -6,15 +6,15 @@ namespace tourmaline::report {
 namespace {
 
 using output::VtkCell;
-using Part = std::vector<unsigned int>;
+using Local = std::vector<unsigned int>;
 
-std::vector<Part> eighths_of_hexahedron() {
+std::vector<Local> eighths_of_hexahedron() {
   // Nodes of a triquadratic cell in rows along x, rows along y, layers along z.
   constexpr unsigned int lattice[27] = {0,  8,  1,  11, 24, 9,  3, 10, 2,  16, 22, 17, 20, 26,
                                         21, 19, 23, 18, 4,  12, 5, 15, 25, 13, 7,  14, 6};
-  std::vector<Part> parts;
+  std::vector<Local> parts;
   for (const int first : {0, 1, 3, 4, 9, 10, 12, 13}) {
-    Part part;
+    Local part;
     for (const int step : {0, 1, 4, 3, 9, 10, 13, 12})
       part.push_back(lattice[first + step]);
     parts.push_back(part);
@@ -23,8 +23,8 @@ std::vector<Part> eighths_of_hexahedron() {
 }
 
 /// Linear cells that fill a cell, by its local nodes.
-const std::vector<Part> &parts_of(VtkCell cell) {
-  static const std::map<VtkCell, std::vector<Part>> parts{
+const std::vector<Local> &parts_of(VtkCell cell) {
+  static const std::map<VtkCell, std::vector<Local>> parts{
       {VtkCell::tetrahedron, {{0, 1, 2, 3}}},
       {VtkCell::hexahedron, {{0, 1, 2, 3, 4, 5, 6, 7}}},
       {VtkCell::quadratic_tetrahedron,
@@ -70,7 +70,7 @@ Solid solid_of(const output::Grid &grid, const Skin &skin) {
   }
   solid.corners = parts_of(grid.cell).front().size();
   for (std::size_t c = 0; c < grid.n_cells(); ++c)
-    for (const Part &part : parts_of(grid.cell)) {
+    for (const Local &part : parts_of(grid.cell)) {
       solid.part_cells.push_back(cells.place[c]);
       for (const unsigned int corner : part)
         solid.parts.push_back(nodes.place[grid.connectivity[c * grid.nodes_per_cell + corner]]);
