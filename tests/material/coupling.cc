@@ -21,7 +21,7 @@ using ::testing::Not;
 
 // k^2 = 1 - eps33^S/eps33^T for a field along the axis, and the like for one across it.
 TEST(CouplingFactor, IsThatOfTheMostCoupledDirection) {
-  const Constants c = constants_of(testing::ceramic());
+  const Constants c = constants_of(verified::ceramic());
   const Tensor clamped = clamped_part(c);
   const double along = clamped(2, 2) / (c.permittivity(2, 2) + clamped(2, 2)),
                across = clamped(0, 0) / (c.permittivity(0, 0) + clamped(0, 0));
@@ -31,7 +31,7 @@ TEST(CouplingFactor, IsThatOfTheMostCoupledDirection) {
 
 // An eps^T that is not positive definite by itself is no doing of piezoelectric constants.
 TEST(CouplingFactor, PermittivityOfItselfIsStillNamedAsSuch) {
-  casefile::MaterialCase asked = testing::ceramic();
+  casefile::MaterialCase asked = verified::ceramic();
   asked.constants.erase("eps11");
   asked.constants.erase("eps33");
   asked.permittivity_T = {{1e-8, 2e-8, 0}, {2e-8, 1e-8, 0}, {0, 0, 1e-8}};

@@ -266,7 +266,7 @@ contact::Friction ellipse_at(const contact::ContactPlace &place) {
 }
 
 double largest_of(const std::vector<double> &values) {
-  return testing::largest(values);
+  return verified::largest(values);
 }
 
 template <int dim>
@@ -316,9 +316,9 @@ class HeldFriction : public ::testing::TestWithParam<std::tuple<Variant, const c
       options.friction_name = "ellipse";
     }
     run::simulate(c, folder.path(), options);
-    const Table contact = testing::read_table(folder / "contact.csv"),
-                nodes = testing::read_table(folder / "nodes.csv"),
-                history = testing::read_table(folder / "history.csv");
+    const Table contact = verified::read_table(folder / "contact.csv"),
+                nodes = verified::read_table(folder / "nodes.csv"),
+                history = verified::read_table(folder / "history.csv");
     const std::size_t n = reference.nodes().size();
     for (int k = 1; k <= c.time.steps; ++k) {
       SCOPED_TRACE("step " + std::to_string(k));

@@ -86,7 +86,7 @@ double slip_size(const Table &contact) {
   double size = 0;
   for (const char *column : {"slip_x", "slip_y", "slip_z"})
     if (contact.columns.contains(column))
-      size = std::max(size, testing::largest(contact.numbers(column)));
+      size = std::max(size, verified::largest(contact.numbers(column)));
   return size;
 }
 
@@ -150,10 +150,10 @@ INSTANTIATE_TEST_SUITE_P(
         Variant{"EndHeldAlongTheContact", plane, {bottom_only, bottom_moves_along}},
         Variant{"EndHeldAcrossTheContact", plane, {bottom_only, bottom_moves_across}},
         Variant{"Tetrahedra", block, {}}, Variant{"Hexahedra", block, {"mesh.box.cell=hexahedron"}},
-        Variant{"PlaneBetweenRollers", testing::plane_between_rollers, {}},
-        Variant{"QuarterBlock", testing::quarter_block, {}},
-        Variant{"Rollers", testing::rollers, {}},
-        Variant{"SleeveWithRims", testing::rimmed_sleeve, {}}, Variant{"Ring", ring, {}},
+        Variant{"PlaneBetweenRollers", verified::plane_between_rollers, {}},
+        Variant{"QuarterBlock", verified::quarter_block, {}},
+        Variant{"Rollers", verified::rollers, {}},
+        Variant{"SleeveWithRims", verified::rimmed_sleeve, {}}, Variant{"Ring", ring, {}},
         Variant{"RingOfQuadraticQuadrilaterals",
                 ring,
                 {"mesh.annulus.cell=quadrilateral", "mesh.degree=2"}},
@@ -209,14 +209,14 @@ TEST(PiecewiseConstantMultipliers, LeaveNoMeanNormalDisplacementOnAnyFacet) {
   const testing::RunCase run(asked(plane, piecewise_constant));
   const Table contact = run.contact();
   const std::vector<double> normal = contact.numbers("normal_displacement");
-  const double size = testing::largest(run.nodes().numbers("u_x"));
+  const double size = verified::largest(run.nodes().numbers("u_x"));
   constexpr std::size_t nodes = 9;
   for (std::size_t i = 0; i + 1 < normal.size(); ++i)
     if (i % nodes + 1 < nodes) {  // two ends of one facet, in one step
       EXPECT_LT(std::abs(normal[i] + normal[i + 1]) / 2, 1e-12 * size);
     }
   // Only the means vanish; docs/monolithic.md.
-  EXPECT_GT(testing::largest(normal), 1e-3 * size);
+  EXPECT_GT(verified::largest(normal), 1e-3 * size);
 }
 
 TEST(PiecewiseConstantMultipliers, WorkOnTheSquareFacetsOfHexahedra) {
