@@ -66,18 +66,18 @@ TEST(ProgressBar, ItFillsFromTheLeft) {
 }
 
 TEST(ProgressLine, InAPipeAShortRunSaysNothing) {
-  verified::internal::CaptureStderr();
+  testing::internal::CaptureStderr();
   {
     Progress progress(20, 1, false);
     progress.stage("mesh");
     progress.step(row(1));
     progress.done();
   }
-  EXPECT_EQ(verified::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 TEST(ProgressLine, InAPipeALineFollowsEveryPause) {
-  verified::internal::CaptureStderr();
+  testing::internal::CaptureStderr();
   {
     Progress progress(20, 1, false, std::chrono::milliseconds(100));
     for (int i = 1; i <= 3; ++i) {
@@ -86,20 +86,20 @@ TEST(ProgressLine, InAPipeALineFollowsEveryPause) {
       progress.step(row(2 * i));
     }
   }
-  const std::string text = verified::internal::GetCapturedStderr();
+  const std::string text = testing::internal::GetCapturedStderr();
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3);
   EXPECT_THAT(text, testing::StartsWith("step 2/20  t = 0.02 s  Newton 2  stick 30  slip 3  "));
   EXPECT_EQ(text.find('\r'), std::string::npos);
 }
 
 TEST(ProgressLine, WhenQuietNothingIsSaidInAPipe) {
-  verified::internal::CaptureStderr();
+  testing::internal::CaptureStderr();
   {
     Progress progress(20, 1, true, std::chrono::milliseconds(0));
     progress.stage("mesh");
     progress.step(row(1));
   }
-  EXPECT_EQ(verified::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 TEST(ProgressLine, WhenQuietNothingIsSaidOnATerminal) {
