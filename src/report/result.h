@@ -24,7 +24,8 @@ struct Field {
   bool on_points = true;
   std::vector<std::string> components;  ///< x, y, ...; xx, yy, ...; one empty name for a scalar
   std::vector<std::vector<float>> values;
-  std::vector<std::vector<float>> inner;  ///< the same behind the skin, where the result has that
+  std::vector<std::vector<float>> inner =
+      {};  ///< the same behind the skin, where the result has that
   /// Its differences are smaller than round-off in the run's energies.
   bool below_round_off = false;
 
