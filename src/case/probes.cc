@@ -35,7 +35,9 @@ std::string regions_words(const std::vector<RegionCase> &regions, const std::str
     if (const std::string name = called(region); !name.empty())
       names.push_back(name);
   if (regions.empty())
-    return "; the case has no [[region]]";
+    return "; the case has no [[region]]: give it one with that `name`, with `where` or, of a mesh "
+           "file, with `on`; "
+           "where = \"1\" is the whole body, and what gives no material has the case's";
   if (names.empty())
     return "; give the [[region]] that is meant a `name`";
   return fmt::format("; there are {}{}", fmt::join(names, ", "), did_you_mean(wanted, names));
@@ -62,6 +64,12 @@ void check_regions(const ProbeCase &probe, const std::vector<RegionCase> &region
 
 std::string called(const RegionCase &region) {
   return region.name ? *region.name : fmt::format("{}", fmt::join(region.on, "+"));
+}
+
+std::string listed_as(const RegionCase &region) {
+  if (!region.name && region.inside)
+    return region.inside->text();
+  return region.name ? *region.name : fmt::format("{}", fmt::join(region.on, ", "));
 }
 
 void check_probes(const Case &asked) {

@@ -75,8 +75,9 @@ void declare(Visitor &v, ProbeCase &probe, const MeshCase &mesh, int dimension,
                : "";
   });
   v.optional({.name = "region",
-              .description = "region, or list of regions, by `name` or the names in a mesh file: "
-                             "volume, stored energies, means and extremes of the fields"},
+              .description =
+                  "region, or list of regions, by `name` or `on` of the [[region]]s of the case: "
+                  "volume, stored energies, means and extremes of the fields"},
              probe.region);
   v.one_group({{"at"}, {"from", "to", "points"}, {"on"}, {"region"}});
   v.check("", [&] { return kind_complaint(probe); });

@@ -4,6 +4,8 @@
 #include <array>
 #include <set>
 
+#include "case/probes.h"
+
 namespace tourmaline::report {
 namespace {
 
@@ -82,23 +84,13 @@ std::string name_of_unnamed(const Result &result) {
   return result.dimension == 2 ? "other sides" : "other faces";
 }
 
-namespace {
-
-std::string name_of(const casefile::RegionCase &region) {
-  std::string names;
-  for (const std::string &name : region.on)
-    names += (names.empty() ? "" : ", ") + name;
-  return region.inside ? region.inside->text() : names;
-}
-
-}  // namespace
-
 std::vector<Part> parts_of(const Result &result) {
   std::vector<Part> parts;
   if (!result.asked || result.asked->regions.size() < 2)
     return parts;
   for (const casefile::RegionCase &region : result.asked->regions)
-    parts.push_back({name_of(region), region.material.library.value_or("material of the case")});
+    parts.push_back(
+        {casefile::listed_as(region), region.material.library.value_or("material of the case")});
   return parts;
 }
 

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "body/conductors.h"
+#include "case/probes.h"
 #include "case/regime.h"
 #include "case/sides.h"
 #include "case/tables_in_time.h"
@@ -31,6 +33,11 @@ struct Extent {
 
   template <int dim>
   void add(const body::Quadrature<dim> &part) {
+    double whole = 0;
+    for (const double jxw : part.jxw)
+      whole += jxw;
+    if (whole == 0)
+      return;  // on the axis, where it has no centre
     const Place centre = part.centre();
     for (const double jxw : part.jxw) {
       size += jxw;
@@ -39,11 +46,11 @@ struct Extent {
     }
   }
 
-  // `of` so many dimensions.
-  std::string words(int dimension, int of) const {
+  // `of` so many dimensions; `nothing`: what is less is round-off.
+  std::string words(int dimension, int of, double nothing = 0) const {
     constexpr const char *kind[] = {"", "length", "area", "volume"};
     constexpr const char *unit[] = {"", "m", "m^2", "m^3"};
-    if (size == 0)
+    if (size <= nothing)
       return "on the axis, without area";
     return fmt::format("{} {:.6g} {}, centre {}", kind[of], size, unit[of],
                        place(dimension, moment, size));
@@ -80,15 +87,6 @@ std::vector<Region> regions_of(const body::Discretisation<dim> &body,
       region.poling[axis] += (region.extent.size - before) * poling[axis];
   });
   return regions;
-}
-
-std::string names(const casefile::RegionCase &region) {
-  if (region.inside)
-    return region.inside->text();
-  std::string text;
-  for (const std::string &name : region.on)
-    text += (text.empty() ? "" : ", ") + name;
-  return text;
 }
 
 // In a comment a line break would end it.
@@ -135,23 +133,28 @@ std::string survey_in(const casefile::Case &asked) {
   std::string text = fmt::format("# Boundaries and regions of this case, {}\n",
                                  dim == 3 ? "a solid" : in_words(asked.model));
   const int solid = asked.is_per_depth() ? 2 : 3;
-  for (const std::string &name : casefile::side_names(asked.mesh)) {
-    Extent extent;
-    body.for_each_facet({name}, [&](const body::Quadrature<dim> &facet) { extent.add(facet); });
-    text +=
-        fmt::format("# boundary {}: {}\n", casefile::toml_text(name), extent.words(dim, solid - 1));
+  const std::vector<std::string> names = casefile::side_names(asked.mesh);
+  std::vector<Extent> sides(names.size());
+  double largest = 0;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    body.for_each_facet({names[i]},
+                        [&](const body::Quadrature<dim> &facet) { sides[i].add(facet); });
+    largest = std::max(largest, sides[i].size);
   }
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += fmt::format("# boundary {}: {}\n", casefile::toml_text(names[i]),
+                        sides[i].words(dim, solid - 1, 1e-12 * largest));
   const auto regions =
       regions_of(body, composition, std::max<std::size_t>(1, asked.regions.size()));
   const std::vector<casefile::MaterialCase> materials = material::materials_of(asked);
   for (std::size_t i = 0; i < regions.size(); ++i) {
     const bool whole = asked.regions.empty();
     const casefile::MaterialCase &material = materials[i];
-    text +=
-        fmt::format("# region {}: {}, {}{}\n",
-                    whole ? "(the whole body)" : casefile::toml_text(names(asked.regions[i])),
-                    one_line(material.library.value_or("material of the case")),
-                    regions[i].extent.words(dim, solid), poling_words(material, regions[i], dim));
+    text += fmt::format(
+        "# region {}: {}, {}{}\n",
+        whole ? "(the whole body)" : casefile::toml_text(casefile::listed_as(asked.regions[i])),
+        one_line(material.library.value_or("material of the case")),
+        regions[i].extent.words(dim, solid), poling_words(material, regions[i], dim));
   }
   return text;
 }
@@ -182,7 +185,8 @@ std::vector<output::MaterialRecord> materials_of(const casefile::Case &asked) {
   const std::vector<casefile::MaterialCase> materials = material::materials_of(asked);
   std::vector<output::MaterialRecord> all;
   for (std::size_t i = 0; i < materials.size(); ++i)
-    all.push_back(record_of(asked.regions.empty() ? "" : names(asked.regions[i]), materials[i]));
+    all.push_back(record_of(asked.regions.empty() ? "" : casefile::listed_as(asked.regions[i]),
+                            materials[i]));
   return all;
 }
 
