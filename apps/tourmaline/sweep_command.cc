@@ -69,7 +69,9 @@ void add_sweep(CLI::App &app, int &status) {
   command
       ->add_option(
           "--output", request->outputs,
-          "what sweep.csv and sweep.svg show: columns of history.csv, NAME at the end, "
+          "what sweep.csv and sweep.svg show: columns of history.csv, or of probes that are no "
+          "lines as "
+          "PROBE.COLUMN, NAME or last:NAME at the end, "
           "min:NAME, max:NAME, mean:NAME, rms:NAME over all steps, mean:NAME@FROM..TO over a part "
           "of the time, NAME@TIME at a time [s]; at_max_FIELD_x, ...: places of extremes. "
           "NAME,NAME,... Not the folder, which "

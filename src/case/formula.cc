@@ -164,12 +164,24 @@ Formula::Formula(double number, std::string where) : number_(number), where_(std
 namespace {
 
 // What would be read otherwise than it is meant.
+constexpr const char *with_comma =
+    "not a formula: a comma outside of a function; decimals take a point";
+
+// "1,5 V": as a formula it would be its unit that is wrong.
+bool begins_with_decimal_comma(const std::string &text) {
+  const std::size_t first = text.find_first_not_of(" \t+-"),
+                    comma = text.find_first_not_of("0123456789", std::min(first, text.size()));
+  return comma != std::string::npos && comma > first && text[comma] == ',';
+}
+
 std::string misreading(const std::string &text) {
   const auto is_control = [](unsigned char c) { return std::iscntrl(c) != 0 && !std::isspace(c); };
   if (std::any_of(text.begin(), text.end(), is_control))
     return "not a formula: it has a control character";
   if (std::string small = too_small(text); !small.empty())
     return small;
+  if (begins_with_decimal_comma(text))
+    return with_comma;
   if (has_assignment(text))
     return "not a formula: a single \"=\"; two values are compared with \"==\"";
   constexpr int deepest = 200, most_conditions = 1000;
@@ -198,7 +210,7 @@ Formula::Formula(const std::string &text, std::string where, const Range &range,
     parser.SetExpr(text);
     parser.Eval();  // the first evaluation is the one that parses
     if (parser.GetNumResults() != 1)
-      fail(where_, text, "not a formula: a comma outside of a function; decimals take a point");
+      fail(where_, text, with_comma);
     for (const auto &[name, address] : parser.GetUsedVar())
       uses_[static_cast<std::size_t>(address - expression->variables.data())] = true;
     parser.SetExpr(with_branches(text));

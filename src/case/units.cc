@@ -90,6 +90,17 @@ std::vector<std::string> units_like(const ut_unit *wanted) {
   return names;
 }
 
+// "pa" is a picoyear.
+std::string meant_letters(const std::string &given, const std::vector<std::string> &units) {
+  const auto lower = [](std::string text) {
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+  };
+  const auto found = std::ranges::find_if(
+      units, [&](const std::string &unit) { return lower(unit) == lower(given); });
+  return found == units.end() ? "" : "; did you mean \"" + *found + "\"?";
+}
+
 // The nearest number of 15 digits, where it is as near as round-off.
 double without_round_off(double value) {
   const double decimal = std::stod(fmt::format("{:.15g}", value));
@@ -151,7 +162,8 @@ Converted converted(const Quantity &quantity, const std::string &unit, bool is_a
     return {.complaint = given + " is no unit; here it is " + unit + ", or another of its kind" +
                          did_you_mean(quantity.unit, units_like(to.get()))};
   if (!are_of_one_kind(from.get(), to.get()))
-    return {.complaint = given + " is a unit of another kind; here it is " + unit};
+    return {.complaint = given + " is a unit of another kind; here it is " + unit +
+                         meant_letters(quantity.unit, units_like(to.get()))};
   const std::unique_ptr<cv_converter, Free> converter(ut_get_converter(from.get(), to.get()));
   if (!converter)
     return {.complaint = given + " cannot be converted to " + unit};

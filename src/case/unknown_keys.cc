@@ -57,6 +57,7 @@ class TablesWith : public Visitor {
   explicit TablesWith(std::string name) : name_(std::move(name)) {}
 
   std::vector<std::string> found;
+  bool is_of_top = false;  ///< a table of the file itself
 
   void key(const Key &key, Value) override {
     if (key.name == name_)
@@ -67,6 +68,7 @@ class TablesWith : public Visitor {
     const std::string outside = path_;
     if (!key.sole.empty() && key.name == name_)
       found.push_back(path_);
+    is_of_top = is_of_top || (path_.empty() && key.name == name_);
     path_ += (path_.empty() ? "" : ".") + key.name;
     body(*this);
     path_ = outside;
@@ -78,11 +80,16 @@ class TablesWith : public Visitor {
   std::string name_, path_;
 };
 
-// A key that has strayed into another table.
-std::string found_elsewhere(const std::string &name) {
+// A key that has strayed into another table; `nearest`: what else may be meant.
+std::string found_elsewhere(const std::string &name, const std::string &nearest) {
   Case scratch;
   TablesWith tables(name);
   declare(tables, scratch);
+  if (tables.is_of_top)
+    return fmt::format(
+        "; {0} is a table of its own: write {0} = ... before the first [table], or [{0}]", name);
+  if (!nearest.empty())
+    return nearest;
   const std::string words = fmt::format("{}", fmt::join(tables.found, "], ["));
   return words.empty() ? "" : fmt::format("; there is one of that name in [{}]", words);
 }
@@ -115,7 +122,7 @@ struct Unknown {
       list = fmt::format("; allowed: {}", fmt::join(allowed, ", "));
     const std::string near =
         meant.empty() ? did_you_mean(name, allowed) : "; did you mean \"" + meant + "\"?";
-    return place + ": unknown key" + list + (near.empty() ? found_elsewhere(name) : near);
+    return place + ": unknown key" + list + found_elsewhere(name, near);
   }
 };
 

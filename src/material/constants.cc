@@ -241,7 +241,8 @@ std::string remedy(const std::string &files, bool some_have_entries, bool some_h
   return fmt::format(". Give them{}{}", files.empty() ? beside : " in " + files + ", or" + beside,
                      some_have_none ? ", or a library entry that has them (`tourmaline materials` "
                                       "lists them)"
-                                    : "");
+                                    : "") +
+         "; a field that [model] leaves out (`thermal = false`, `electric = false`) needs none";
 }
 
 }  // namespace

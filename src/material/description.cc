@@ -133,7 +133,10 @@ std::string to_add(const MaterialCase &given) {
     text += fmt::format("  {}{}{}{}\n", gap.words.empty() ? "" : gap.words + ": ", keys,
                         gap.reason.empty() ? "" : "; ", gap.reason);
   }
-  return text.empty() ? "" : "\nDoes not run as it is; beside `library` a case must give:\n" + text;
+  return text.empty() ? ""
+                      : "\nDoes not run as it is; beside `library` a case must give:\n" + text +
+                            "but nothing that belongs to a field that it leaves out (`thermal = "
+                            "false` or `electric = false` in [model])\n";
 }
 
 std::string warnings(const MaterialCase &given, const std::optional<Forms> &forms) {

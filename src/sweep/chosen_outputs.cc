@@ -76,7 +76,8 @@ class Chooser {
                                  const std::string &column, const std::string &behind) const {
     const auto meant = casefile::nearest(column, names_);
     fail(name,
-         "no column of history.csv or of a probe, as PROBE.COLUMN, and no place of an extreme is "
+         "no column of history.csv or of a probe that is no line, as PROBE.COLUMN, and no place of "
+         "an extreme is "
          "called so" +
              (meant ? "; did you mean \"" + before + *meant + behind + "\"?" : "") +
              "; allowed: " + joined(names_, false) +

@@ -99,7 +99,7 @@ Spacing read_spacing(const std::string &assignment, const std::vector<std::strin
   const std::optional<double> first = number_in(parts[1]), last = number_in(parts[2]),
                               n = number_in(parts[3]);
   if (!first || !last || !n)
-    fail(assignment, "A, B and N must be numbers in " + form);
+    fail(assignment, "A, B and N must be numbers, without units, in " + form);
   if (!(*n >= 2 && *n <= most_values) || *n != std::floor(*n))
     fail(assignment, fmt::format("N must be an integer from 2 to {} in {}", most_values, form));
   const Spacing spacing{parts[0] == "log", *first, *last, static_cast<int>(*n)};

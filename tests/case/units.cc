@@ -89,6 +89,18 @@ TEST(Quantity, WhatIsNoLengthIsRefused) {
 }
 
 // UDUNITS reads "min 30" as half an hour.
+TEST(Quantity, LettersOfTheWrongSizeAreMetWithTheUnitThatIsMeant) {
+  EXPECT_THAT(error_in(example, {"contact.friction.bound=5 pa"}),
+              HasSubstr("is a unit of another kind; here it is N/m^2; did you mean \"Pa\"?"));
+}
+
+TEST(Quantity, DecimalsWithACommaAreSaidToBeThat) {
+  for (const char *text : {"1,5 kPa", "1,5", "-2,0 N/m^2"})
+    EXPECT_THAT(error_in(example, {std::string("contact.friction.bound=") + text}),
+                HasSubstr("decimals take a point"))
+        << text;
+}
+
 TEST(Quantity, HasOneNumber) {
   for (const char *text : {"2 min 30", "2 min.5", "2 min/2"})
     EXPECT_THAT(converted(quantity_in(text).value(), "s", false).complaint,

@@ -42,6 +42,13 @@ TEST(UnknownKeys, AreAllNamedAtOnceWithPlaceAndNearestName) {
   EXPECT_THAT(error, Not(HasSubstr("\n")));
 }
 
+TEST(UnknownKeys, ATableBehindAnotherOneIsSentToTheTop) {
+  EXPECT_THAT(error_in(example +
+                       std::string("\n[[boundary]]\non = \"top\"\ninitial = { potential = 1 }\n")),
+              HasSubstr("initial is a table of its own: write initial = ... before the first "
+                        "[table], or [initial]"));
+}
+
 TEST(UnknownKeys, OfTheCommandLineStandBehindThoseOfTheFile) {
   const std::string error = error_in(changed("steps = 20", "steps = 20\nstpes = 3"),
                                      {"solver.methud=condensed", "tittle=x"});

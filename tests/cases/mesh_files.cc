@@ -3,6 +3,8 @@
 
 #include <fstream>
 
+#include "report/result.h"
+#include "run/survey.h"
 #include "run_case.h"
 #include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
@@ -89,6 +91,51 @@ TEST_F(MeshFileCase, ASquareFromGmshGivesTheResultsOfTheSameBox) {
       EXPECT_NEAR(a[i], b[i], 1e-9 * size) << column << " at node " << i;
   }
   EXPECT_EQ(file.contact().numbers("x").size(), box.contact().numbers("x").size());
+}
+
+// Facets of a plane body do not tell the shape of its cells.
+TEST_F(MeshFileCase, AResultOnQuadrilateralsWithIncompatibleModesIsReadAgain) {
+  put("square.geo", square + of_equal_squares);
+  const casefile::Case asked = casefile::read_text(
+      rubbed, (folder_ / "case.toml").string(), {"mesh.modes=incompatible"}, mesh::read_mesh_file);
+  const auto results = folder_ / "results";
+  run::simulate(asked, results, {.quiet = true});
+  const report::Result result = report::read_result(results, {1'000'000, {}});
+  EXPECT_EQ(result.remarks, std::vector<std::string>());
+  EXPECT_EQ(result.contact_pieces.size(), 1);
+  EXPECT_TRUE(result.asked);
+  const casefile::Case next = casefile::read_text(
+      rubbed, (folder_ / "next.toml").string(), {"mesh.modes=incompatible", "initial.from=results"},
+      mesh::read_mesh_file);
+  EXPECT_NO_THROW(run::simulate(next, folder_ / "next", {.quiet = true}));
+}
+
+// A side that lies on the axis in part, where it has neither area nor centre.
+TEST_F(MeshFileCase, TheSurveyOfABodyOfRevolutionHasNumbersForEveryBoundary) {
+  put("half.geo", R"(
+Point(1) = {0, 0, 0}; Point(2) = {0.1, 0, 0}; Point(3) = {0.1, 0.1, 0}; Point(4) = {0, 0.1, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
+Physical Curve("foot") = {1}; Physical Curve("rest") = {2, 3, 4}; Physical Curve("axis") = {4};
+Physical Surface("body") = {1};
+)");
+  const std::string text = run::survey(read(R"(
+mesh.file = "half.geo"
+mesh.size = 0.05
+model.plane = "axisymmetric"
+material.library = "BaTiO3-Liu2014"
+time = { end = 1, steps = 1 }
+[[boundary]]
+on = "foot"
+displacement = [0, 0]
+potential = 0
+temperature = 0
+)"));
+  EXPECT_THAT(text, ::testing::Not(HasSubstr("nan")));
+  // 2 pi r h and pi r^2, whose centres stand at r and 2/3 r, at h/2 and h.
+  EXPECT_THAT(text,
+              HasSubstr("# boundary \"rest\": area 0.0942478 m^2, centre (0.08889, 0.06667)"));
+  EXPECT_THAT(text, HasSubstr("# boundary \"axis\": on the axis, without area"));
 }
 
 // A linear state is in the space of every mesh and obeys the equations: it must come back to

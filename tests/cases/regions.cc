@@ -114,6 +114,19 @@ material.library = "BaTiO3-Liu2014"
   EXPECT_THAT(text, HasSubstr("# boundary \"left\": on the axis, without area\n"));
 }
 
+TEST(Regions, AreListedByTheirNames) {
+  const std::string text = run::survey(read(square + R"([[region]]
+name = "foot"
+where = "y < 0.05"
+material.library = "steel"
+[[region]]
+where = "y >= 0.05"
+material.library = "BaTiO3-Liu2014"
+)"));
+  EXPECT_THAT(text, HasSubstr("# region \"foot\": steel"));
+  EXPECT_THAT(text, HasSubstr("# region \"y >= 0.05\": BaTiO3"));
+}
+
 // Layers of a stack under pressure s and voltage V, sides held: in each layer strain and field are
 // uniform, and s and D are common,
 //     s = c33 eps + e33 phi',   D = e33 eps - beta33 phi',   sum of h phi' = V,

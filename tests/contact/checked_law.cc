@@ -157,7 +157,7 @@ TEST(CheckedLaws, OfTrescasKindHaveAFiniteBound) {
 
 /// The status that follows from the traction, where a law does not say its own.
 TEST(FrictionLaw, SticksWhereItsTractionIsTheTrialValue) {
-  struct Plain : testing::Ellipse {
+  struct Plain : verified::Ellipse {
     using Ellipse::Ellipse;
     ContactStatus status(const Tangent &x) const override { return FrictionLaw::status(x); }
   };

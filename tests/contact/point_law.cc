@@ -17,7 +17,7 @@ Friction tresca(double bound) {
 // Half axes a and b, at 30 degrees to the components.
 Friction ellipse(double a, double b) {
   const Eigen::Matrix2d axes = Eigen::Rotation2Dd(std::acos(-1) / 6).toRotationMatrix();
-  return OwnLaw{std::make_shared<testing::Ellipse>(
+  return OwnLaw{std::make_shared<verified::Ellipse>(
       axes * Eigen::Vector2d(a * a, b * b).asDiagonal() * axes.transpose())};
 }
 

@@ -17,7 +17,7 @@ using contact::Tangent;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using testing::Table;
+using verified::Table;
 
 /// The step (31)-(36) written out anew, small and slow: all unknowns in one dense matrix,
 /// prescribed values and u_nu = 0 by multipliers, and the whole tangential traction of every
@@ -262,7 +262,7 @@ Eigen::Matrix2d ellipse_in(const Eigen::MatrixXd &basis) {
 }
 
 contact::Friction ellipse_at(const contact::ContactPlace &place) {
-  return contact::OwnLaw{std::make_shared<testing::Ellipse>(ellipse_in(place.directions))};
+  return contact::OwnLaw{std::make_shared<verified::Ellipse>(ellipse_in(place.directions))};
 }
 
 double largest_of(const std::vector<double> &values) {
@@ -323,10 +323,10 @@ class HeldFriction : public ::testing::TestWithParam<std::tuple<Variant, const c
     for (int k = 1; k <= c.time.steps; ++k) {
       SCOPED_TRACE("step " + std::to_string(k));
       const double time = reference.model().time(k);
-      std::vector<std::shared_ptr<testing::Ellipse>> own;
+      std::vector<std::shared_ptr<verified::Ellipse>> own;
       for (const auto &at : reference.nodes())
         if constexpr (dim == 3)
-          own.push_back(std::make_shared<testing::Ellipse>(ellipse_in(at.tangent)));
+          own.push_back(std::make_shared<verified::Ellipse>(ellipse_in(at.tangent)));
       const double bound = c.contacts.front().friction.bound.value({}, time);
       reference.projection = [&](std::size_t i, const Tangent &x) -> Tangent {
         if (variant.own_law)

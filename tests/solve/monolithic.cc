@@ -18,7 +18,7 @@ using contact::AugmentedLagrangian;
 using contact::Local;
 using contact::LocalMatrix;
 using contact::Tresca;
-using testing::Table;
+using verified::Table;
 
 // A block clamped on the right and pulled along its contact on the left, where some nodes stick and
 // others slip; in 3D in both tangential directions.
@@ -101,7 +101,7 @@ void expect_equal_columns(const Table &ours, const Table &theirs, double toleran
     }
 }
 
-void expect_equal_runs(const testing::RunCase &ours, const testing::RunCase &theirs) {
+void expect_equal_runs(const verified::RunCase &ours, const verified::RunCase &theirs) {
   // 1e-9: two solutions of one system by different eliminations, whose condition is about 1e4.
   expect_equal_columns(ours.nodes(), theirs.nodes(), 1e-9);
   ASSERT_EQ(exists(ours.folder() / "contact.csv"), exists(theirs.folder() / "contact.csv"));
@@ -124,11 +124,11 @@ class BothRoutes : public ::testing::TestWithParam<Variant> {};
 
 TEST_P(BothRoutes, GiveTheSameFieldsTractionsAndStatuses) {
   const auto &[name, text, overrides] = GetParam();
-  const testing::RunCase newton(asked(text, with(overrides, monolithic)));
-  const testing::RunCase condensed(asked(text, overrides));
+  const verified::RunCase newton(asked(text, with(overrides, monolithic)));
+  const verified::RunCase condensed(asked(text, overrides));
   expect_equal_runs(newton, condensed);
   // What supports bear at prescribed components is no error of the solution.
-  for (const testing::RunCase *run : {&newton, &condensed})
+  for (const verified::RunCase *run : {&newton, &condensed})
     EXPECT_LT(run->summary()["backward_error"], 1e-12);
 }
 
@@ -162,12 +162,12 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto &variant) { return variant.param.name; });
 
 TEST(Monolithic, TheAnswerDoesNotDependOnROverSixDecades) {
-  const testing::RunCase condensed(asked(plane, {}));
+  const verified::RunCase condensed(asked(plane, {}));
   // Around c / L = 1.6e11 / 0.1 N/m^3, and that times the step of 0.02 s.
   for (const char *decade : {"e9", "e10", "e11", "e12", "e13", "e14", "e15"}) {
     SCOPED_TRACE(decade);
     const std::string r = std::string("1.6") + decade, r_tau = std::string("0.032") + decade;
-    const testing::RunCase run(asked(plane, {"solver.method=monolithic", "solver.r_normal=" + r,
+    const verified::RunCase run(asked(plane, {"solver.method=monolithic", "solver.r_normal=" + r,
                                              "solver.r_tangential=" + r_tau}));
     expect_equal_runs(run, condensed);
   }
@@ -181,13 +181,13 @@ TEST(Monolithic, WhereNewtonAloneCyclesTheMethodOfMultipliersLeadsToTheAnswer) {
                       "third" / folder / "case.toml";
     // The first three steps; it is the second in which Newton cycles.
     const Overrides start = {"output.fields=false", "time.end=0.03", "time.steps=3"};
-    expect_equal_runs(testing::RunCase(casefile::read_file(file, with(start, monolithic))),
-                      testing::RunCase(casefile::read_file(file, start)));
+    expect_equal_runs(verified::RunCase(casefile::read_file(file, with(start, monolithic))),
+                      verified::RunCase(casefile::read_file(file, start)));
   }
 }
 
 TEST(Monolithic, EveryIterationFactorisesOnce) {
-  const testing::RunCase run(asked(plane, monolithic));
+  const verified::RunCase run(asked(plane, monolithic));
   const nlohmann::json summary = run.summary();
   EXPECT_GT(summary["iterations"]["newton_total"], 5);
   EXPECT_EQ(summary["factorisations"], summary["iterations"]["newton_total"]);
@@ -196,7 +196,7 @@ TEST(Monolithic, EveryIterationFactorisesOnce) {
 TEST(Monolithic, WithoutEnoughIterationsItSaysWhenWhereAndWhatToTry) {
   const casefile::Case c = asked(plane, with(monolithic, {"solver.max_iterations=1"}));
   try {
-    const testing::RunCase run(c);
+    const verified::RunCase run(c);
     FAIL() << "converged";
   } catch (const SolveError &error) {
     for (const char *part : {"t = 0.02 s", "after 1 iterations", "contact points are unsettled",
@@ -206,7 +206,7 @@ TEST(Monolithic, WithoutEnoughIterationsItSaysWhenWhereAndWhatToTry) {
 }
 
 TEST(PiecewiseConstantMultipliers, LeaveNoMeanNormalDisplacementOnAnyFacet) {
-  const testing::RunCase run(asked(plane, piecewise_constant));
+  const verified::RunCase run(asked(plane, piecewise_constant));
   const Table contact = run.contact();
   const std::vector<double> normal = contact.numbers("normal_displacement");
   const double size = verified::largest(run.nodes().numbers("u_x"));
@@ -220,15 +220,15 @@ TEST(PiecewiseConstantMultipliers, LeaveNoMeanNormalDisplacementOnAnyFacet) {
 }
 
 TEST(PiecewiseConstantMultipliers, WorkOnTheSquareFacetsOfHexahedra) {
-  const testing::RunCase run(asked(block, with(piecewise_constant, {"mesh.box.cell=hexahedron"})));
-  const testing::RunCase nodal(asked(block, {"mesh.box.cell=hexahedron"}));
+  const verified::RunCase run(asked(block, with(piecewise_constant, {"mesh.box.cell=hexahedron"})));
+  const verified::RunCase nodal(asked(block, {"mesh.box.cell=hexahedron"}));
   // Two discretisations of one problem on three cells: the same potential within a fifth.
   EXPECT_LT(difference(run.nodes(), nodal.nodes(), "potential"), 0.2);
 }
 
 // Moved along the foundation far beyond the bound everything slips, and bears the bound.
 TEST(PiecewiseConstantMultipliers, BearTheBoundAsFrictionWhereAllSlips) {
-  const testing::RunCase run(
+  const verified::RunCase run(
       asked(plane, with(piecewise_constant, {"boundary[0].displacement=[0,'1e-6*t']"})));
   const Table contact = run.contact();
   for (const std::string &status : contact.columns.at("status"))
@@ -247,7 +247,7 @@ TEST(PiecewiseConstantMultipliers, BearTheBoundAsFrictionWhereAllSlips) {
 
 TEST(PiecewiseConstantMultipliers, AreRefusedWhereThereAreMoreThanDisplacements) {
   // 18 triangles share 16 nodes.
-  EXPECT_THROW(testing::RunCase(asked(block, piecewise_constant)), CaseError);
+  EXPECT_THROW(verified::RunCase(asked(block, piecewise_constant)), CaseError);
 }
 
 TEST(PiecewiseConstantMultipliers, AreAnOptionOfThisRouteOnly) {
