@@ -211,7 +211,9 @@ Json result_json(Packing &packing, const Result &result) {
   if (result.history)
     json["history"] = table_json(packing, *result.history);
   for (const ProbeTable &probe : result.probes)
-    json["probes"].push_back({{"name", probe.name}, {"table", table_json(packing, probe.table)}});
+    json["probes"].push_back({{"name", probe.name},
+                              {"isLine", probe.is_line},
+                              {"table", table_json(packing, probe.table)}});
   if (result.contact)
     json["contact"] = table_json(packing, *result.contact);
   if (!result.friction_bound.empty() && !result.contact->find("friction_bound"))

@@ -107,9 +107,8 @@ void read_tables(Result &result, const fs::path &folder) {
     result.contact = read_table(folder / "contact.csv", "contact", result.contact_names());
   if (result.asked)
     for (const casefile::ProbeCase &probe : result.asked->probes)
-      if (const fs::path file = folder / output::probe_file(probe.name);
-          !probe.from && fs::exists(file))
-        result.probes.push_back({probe.name, read_table(file)});
+      if (const fs::path file = folder / output::probe_file(probe.name); fs::exists(file))
+        result.probes.push_back({probe.name, probe.from.has_value(), read_table(file)});
   if (fs::exists(folder / "summary.json"))
     result.summary = read_text_file(folder / "summary.json");
   else

@@ -45,9 +45,10 @@ struct Boundary {
   std::vector<std::vector<std::uint32_t>> facets;
 };
 
-/// What a probe told in every step, one row for each of them.
+/// What a probe told in every step, one row for each of them; along a line one for each place.
 struct ProbeTable {
   std::string name;
+  bool is_line;
   Table table;
 };
 
@@ -61,7 +62,7 @@ struct Result {
   std::string friction_name;            ///< of a program's own laws; empty: the case's
   std::string summary;                  ///< summary.json
   std::optional<Table> history, contact;
-  std::vector<ProbeTable> probes;            ///< but of those along lines
+  std::vector<ProbeTable> probes;
   std::vector<ContactPiece> contact_pieces;  ///< of a plane body
   std::vector<ContactFace> contact_faces;    ///< of a solid body
   std::vector<double> friction_bound;        ///< S at each row of `contact` [N/m^2]; empty: none

@@ -15,6 +15,7 @@ import { History } from './history';
 import { isReached, notReached } from './moments';
 import { shown } from './numbers';
 import { playback } from './playback';
+import { probeLines } from './probe_lines';
 import { probes } from './probes';
 import { Overview } from './overview';
 import { load, Result } from './results';
@@ -132,10 +133,10 @@ if (results.some((r) => r.history)) {
     ? [{ key: '', cells: new History(r, timeline, String(results.indexOf(r))).cells }] : []))));
   timeline.onChange(redrawMarks);
 }
-if (results.some((r) => r.probes.length > 0)) {
-  const names = [...new Set(results.flatMap((r) => r.probes.map(({ name }) => `probe ${name}`)))];
+if (results.some((r) => r.probes.length + r.lines.length > 0)) {
+  const names = [...new Set(results.flatMap((r) => [...r.probes, ...r.lines].map(({ name }) => `probe ${name}`)))];
   page.append(section('probes', 'Probes', axesChoice(...names),
-    arranged(results, (r) => probes(r, timeline, String(results.indexOf(r))))));
+    arranged(results, (r) => [probes, probeLines].flatMap((of) => of(r, timeline, String(results.indexOf(r)))))));
   if (!results.some((r) => r.history)) timeline.onChange(redrawMarks);
 }
 for (const id of ['contact', 'history', 'probes']) {

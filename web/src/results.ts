@@ -27,7 +27,7 @@ interface PackedResult {
   solid?: Record<'points' | 'nodes' | 'parts' | 'partCells', Packed> & { corners: number };
   history?: PackedTable;
   contact?: PackedTable;
-  probes?: { name: string; table: PackedTable }[];
+  probes?: { name: string; isLine: boolean; table: PackedTable }[];
   /** names of several contacts, by the numbers of the column `contact` */
   contacts?: string[];
   frictionBound?: Packed;
@@ -228,8 +228,9 @@ export class Result {
   readonly poling?: Float32Array;
   readonly history?: Table;
   readonly contact?: Table;
-  /** what each probe told in every step */
+  /** what each probe told in every step; of those along lines a row for each place */
   readonly probes: { name: string; table: Table }[];
+  readonly lines: { name: string; table: Table }[];
   /** S at each row of `contact` [N/m²] */
   readonly frictionBound?: Float32Array;
 
@@ -260,7 +261,10 @@ export class Result {
     if (packed.poling) this.poling = unpack(packed.poling);
     if (packed.history) this.history = new Table(packed.history);
     if (packed.contact) this.contact = new Table(packed.contact);
-    this.probes = (packed.probes ?? []).map((p) => ({ name: p.name, table: new Table(p.table) }));
+    const told = (areLines: boolean) => (packed.probes ?? []).filter((p) => p.isLine === areLines)
+      .map((p) => ({ name: p.name, table: new Table(p.table) }));
+    this.probes = told(false);
+    this.lines = told(true);
     if (packed.frictionBound) this.frictionBound = unpack(packed.frictionBound);
     else {
       const bound = this.contact?.column('friction_bound');
@@ -270,7 +274,7 @@ export class Result {
 
   /** The same body with other fields, and without a contact. */
   withFields(title: string, name: string, fields: Field[]): Result {
-    return this.but({ title, name, fields, contact: undefined, probes: [] });
+    return this.but({ title, name, fields, contact: undefined, probes: [], lines: [] });
   }
 
   /** What a cut leaves of it. */

@@ -555,6 +555,32 @@ await test('a pin has the curve of a probe of the case at the same place', async
   });
 });
 
+await test('a line probe of the case is a curve of its table at the moment that is shown', async () => {
+  const text = readFileSync(join(cases, 'ouafik-2020/conductive.toml'), 'utf8').replace('cells = [64, 64]', 'cells = [8, 8]') +
+    '\n[[probe]]\nname = "across"\nfrom = [0, 0.05]\nto = [0.1, 0.03]\npoints = 13\n';
+  const out = runText('line-of-the-case', text);
+  const told = tableOf(out, 'probe-across.csv');
+  await inBrowser(desktop, async (context) => {
+    const { tab, complaints } = await open(context, join(out, 'report.html'));
+    for (const step of [20, 7]) {
+      await goTo(tab, step);
+      await settled(tab);
+      for (const [title, columns] of [['Potential along the line', { 'φ [V]': 'potential' }],
+        ['Displacement along the line', { 'x [m]': 'u_x', 'y [m]': 'u_y' }]]) {
+        const rows = rowsOf(await saved(tab, `#probes figure.chart:has(figcaption:text-is("${title}")) [data-kind=CSV]`));
+        const there = told.filter((r) => r.step === step);
+        assert.equal(rows.length, 13);
+        rows.forEach((row, i) => {
+          assert.ok(close(row['s [m]'], there[i].s, 1e-6, 1e-12));
+          for (const [shown, column] of Object.entries(columns))
+            assert.ok(close(row[shown], there[i][column], 1e-6, 1e-18), `${column} in step ${step}: ${row[shown]}, the table has ${there[i][column]}`);
+        });
+      }
+    }
+    assert.deepEqual(complaints, []);
+  });
+});
+
 const pageOf = (name, ...outs) => {
   const file = join(folder, `${name}.html`);
   execFileSync(program, ['report', ...outs, '-o', file]);

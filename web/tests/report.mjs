@@ -604,7 +604,7 @@ await inBrowser(desktop, async (context) => {
   });
 });
 
-await test('probes have their curves under their names, those along lines none', async () => {
+await test('probes have their curves under their names', async () => {
   const out = runText('probed', `${plate('"bottom"')}
 [[probe]]
 name = "tip"
@@ -620,9 +620,9 @@ points = 3
 `);
   await inBrowser(desktop, async (context) => {
     const { tab, complaints } = await open(context, join(out, 'report.html'));
-    assert.deepEqual(await tab.locator('#probes h3').allTextContents(), ['tip', 'clamp']);
+    assert.deepEqual(await tab.locator('#probes h3').allTextContents(), ['tip', 'clamp', 'line']);
     const titles = await tab.locator('#probes figcaption').allTextContents();
-    for (const title of ['Displacement', 'Potential', 'Force on the body']) assert.ok(titles.includes(title), title);
+    for (const title of ['Displacement', 'Potential', 'Force on the body', 'Displacement along the line']) assert.ok(titles.includes(title), title);
     assert.equal(await tab.locator('#probes canvas').count(), titles.length);
     assert.deepEqual(complaints, []);
   });
