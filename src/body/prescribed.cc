@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 
 #include "case/time_steps.h"
@@ -35,6 +36,31 @@ std::vector<Node> nodes_of(const Discretisation<dim> &body,
   return nodes;
 }
 
+// Facets in two electrodes would be silently the first one's; where electrodes only meet or cross,
+// each has facets of its own. `nodes`: by electrode, ascending.
+template <int dim>
+void require_apart(const Discretisation<dim> &body,
+                   const std::vector<casefile::ElectrodeCase> &electrodes,
+                   const std::vector<std::vector<Node>> &nodes) {
+  for (std::size_t e = 0; e < nodes.size(); ++e)
+    for (std::size_t before = 0; before < e; ++before) {
+      const auto &one = electrodes[before].inside, &other = electrodes[e].inside;
+      std::vector<Node> shared;
+      std::ranges::set_intersection(nodes[before], nodes[e], std::back_inserter(shared));
+      if (!one || !other || shared.size() < dim)
+        continue;
+      const auto in_both = [&](const Vector3 &corner) {
+        return one->value(corner, 0) != 0 && other->value(corner, 0) != 0;
+      };
+      if (!body.nodes_inside(in_both).empty())
+        throw CaseError(fmt::format(
+            "{} = {}: the electrode \"{}\" covers facets between cells that the electrode \"{}\" "
+            "covers as well; each can have one, so let their `where` hold at different places",
+            other->where(), casefile::toml_text(other->text()), electrodes[e].name,
+            electrodes[before].name));
+    }
+}
+
 }  // namespace
 
 template <int dim>
@@ -57,8 +83,12 @@ std::vector<Prescribed> prescribed_unknowns(
         if (boundary.temperature)
           prescribe(Fields<dim>::temperature, *boundary.temperature);
       }
+  std::vector<std::vector<Node>> covered;
+  for (const casefile::ElectrodeCase &electrode : electrodes)
+    covered.push_back(nodes_of(body, electrode));
+  require_apart(body, electrodes, covered);
   for (std::size_t e = 0; e < electrodes.size(); ++e)
-    for (const Node node : nodes_of(body, electrodes[e])) {
+    for (const Node node : covered[e]) {
       const std::size_t i = unknown<dim>(node, Fields<dim>::potential);
       by_unknown.try_emplace(
           i, Prescribed{i, body.points()[node],

@@ -152,9 +152,7 @@ void check_electrode(const ElectrodeCase &electrode, const Touched &touched,
           found != touched.end() && found->second.first->electric.exchanges())
         throw CaseError(fmt::format(
             "{} = \"{}\": the electrode says what the potential on this boundary is, but it is in "
-            "a "
-            "contact with electric.law = \"{}\", {}, as well; give the electrode a resistor or "
-            "capacitor instead",
+            "a contact with electric.law = \"{}\", {}, as well; leave out one of them",
             place_of_key(electrode.places, electrode.where, "on"), name,
             found->second.first->electric.law,
             place_of_key(found->second.first->places, found->second.first->where, "electric")));

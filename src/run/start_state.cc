@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <map>
 #include <memory>
 
 #include "body/interpolation.h"
@@ -128,6 +130,19 @@ void require_files(const InitialCase &initial) {
                                     *initial.step, file.filename().string())
                       : "has no nodes.csv, as that run has not been completed; name one of its "
                         "steps by initial.step");
+}
+
+// A run that was stopped has a nodes.csv, of the step at which it was.
+void require_finished(const InitialCase &initial) {
+  const fs::path file = fs::path(*initial.from) / "unfinished.txt";
+  if (initial.step || !is_file(file))
+    return;
+  std::string reason;
+  std::getline(std::ifstream(file), reason);
+  fail(initial,
+       fmt::format("that run has not been completed ({}); let it end with --resume, or name "
+                   "one of its steps by initial.step",
+                   reason));
 }
 
 template <int dim>
@@ -426,36 +441,53 @@ double size_of_terms(const solve::Model<dim> &model, const std::vector<body::Nod
   return size;
 }
 
-// Electrodes that keep their charge begin with that of the state, by this case's constants and its
-// loads at t = 0.
+// By electrode, of those that keep theirs.
+std::map<std::string, double> charges_of(const casefile::Case &asked, const LastRow &last) {
+  std::map<std::string, double> charges;
+  for (const casefile::ElectrodeCase &electrode : asked.electrodes)
+    if (const auto recorded = last.value(fmt::format("electrode_{}_charge", electrode.name));
+        recorded && !electrode.is_driven())
+      charges.emplace(electrode.name, *recorded);
+  return charges;
+}
+
+// Cells of other shapes may have the same nodes. Of a mesh from a file its folder does not tell
+// all.
+bool have_same_cells(const casefile::MeshCase &one, const casefile::MeshCase &other) {
+  return one.degree == other.degree && one.modes == other.modes &&
+         (one.file || other.file || shape_of(one) == shape_of(other));
+}
+
+// On one mesh electrodes that keep their charge begin with that of the state, by this case's
+// constants and its loads at t = 0.
 template <int dim>
 void require_same_charges(const solve::Model<dim> &model, const std::vector<double> &state,
-                          const LastRow &last) {
+                          const std::map<std::string, double> &kept) {
   const Eigen::VectorXd charges = solve::settled_charges<dim>(model, state);
   const std::vector<double> products = model.product(state, false);
   for (std::size_t e = 0; e < model.electrodes.size(); ++e) {
     const casefile::ElectrodeCase &electrode = model.asked.electrodes[e];
-    const std::optional<double> recorded =
-        last.value(fmt::format("electrode_{}_charge", electrode.name));
-    if (electrode.is_driven() || electrode.charge || !recorded)
+    const auto recorded = kept.find(electrode.name);
+    if (electrode.charge || recorded == kept.end())
       continue;
     const double found = charges[static_cast<Eigen::Index>(e)];
-    const double size = std::abs(found) + std::abs(*recorded) +
+    const double size = std::abs(found) + std::abs(recorded->second) +
                         size_of_terms(model, model.electrodes[e], products, state);
-    if (std::abs(found - *recorded) > same_charge * size)
+    if (std::abs(found - recorded->second) > same_charge * size)
       fail(model.asked.initial,
            fmt::format("electrode \"{}\" had the charge {:g} in that run, and by the materials of "
                        "this case and its charges and foundations at t = 0 its start has {:g}; "
                        "what it keeps must be one number: let these begin where they were (they "
                        "may change behind t = 0, as by a factor (t > 0))",
-                       electrode.name, *recorded, found));
+                       electrode.name, recorded->second, found));
   }
 }
 
 template <int dim>
-std::vector<double> state_of_other(const solve::Model<dim> &model) {
-  const InitialCase &initial = model.asked.initial;
+std::vector<double> state_of_other(solve::Model<dim> &model) {
+  InitialCase &initial = model.asked.initial;
   require_files(initial);
+  require_finished(initial);
   const casefile::Case other = case_of(initial);
   if (other.dimension != dim)
     fail(initial, fmt::format("that run has {} dimensions, this case {}", other.dimension, dim));
@@ -475,8 +507,9 @@ std::vector<double> state_of_other(const solve::Model<dim> &model) {
   const LastRow last = last_row(initial);
   for (const casefile::ElectrodeCase &electrode : model.asked.electrodes)
     require_same_source(initial, electrode, other, last);
-  if (is_same_mesh)
-    require_same_charges(model, from.unknowns, last);
+  initial.charges = charges_of(model.asked, last);
+  if (is_same_mesh && have_same_cells(model.asked.mesh, other.mesh))
+    require_same_charges(model, from.unknowns, initial.charges);
   return std::move(from.unknowns);
 }
 

@@ -45,10 +45,24 @@ VectorXd electrode_voltages(const Model<dim> &model, std::span<const double> sta
   return voltages;
 }
 
+namespace {
+
+// What an electrode keeps does not change with the mesh by which its field is approximated.
+template <int dim>
+VectorXd kept_charges(const Model<dim> &model, VectorXd charges) {
+  const auto &kept = model.asked.initial.charges;
+  for (std::size_t e = 0; e < model.electrodes.size(); ++e)
+    if (const auto found = kept.find(model.asked.electrodes[e].name); found != kept.end())
+      charges[static_cast<Index>(e)] = found->second;
+  return charges;
+}
+
+}  // namespace
+
 template <int dim>
 VectorXd initial_charges(const Model<dim> &model, std::span<const double> initial) {
   if (model.asked.initial.from)
-    return settled_charges(model, initial);
+    return kept_charges(model, settled_charges(model, initial));
   std::vector<double> products(initial.size());
   const std::vector<double> no_loads(initial.size(), 0.);
   model.op.multiply(model.step, initial, products);

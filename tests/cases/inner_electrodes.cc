@@ -163,5 +163,43 @@ TEST(InnerElectrodes, ThatCoverNothingAreRefused) {
   EXPECT_THAT(complaint(none), ::testing::HasSubstr("or `where`, a formula for facets inside"));
 }
 
+TEST(InnerElectrodes, ThatShareFacetsAreRefusedAndThoseThatCrossAreNot) {
+  const auto complaint = [](const std::string &one, const std::string &other, bool is_solid) {
+    try {
+      run_text(fmt::format(R"toml(
+mesh.box = {}
+model.thermal = false
+material.library = "PZT-5A"
+time = {{ end = 1, steps = 1 }}
+[[boundary]]
+on = "bottom"
+displacement = {}
+potential = 0
+[[electrode]]
+name = "one"
+where = "{}"
+voltage = 1
+[[electrode]]
+name = "other"
+where = "{}"
+voltage = 1
+)toml",
+                           is_solid ? "{ min = [0, 0, 0], max = [4, 4, 4], cells = [4, 4, 4] }"
+                                    : "{ min = [0, 0], max = [4, 4], cells = [4, 4] }",
+                           is_solid ? "[0, 0, 0]" : "[0, 0]", one, other));
+    } catch (const CaseError &error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  for (const bool is_solid : {false, true}) {
+    EXPECT_THAT(complaint("abs(y-2) < 1e-6 && x < 2.1", "abs(y-2) < 1e-6 && x < 3.1", is_solid),
+                ::testing::HasSubstr("\"other\" covers facets between cells that the electrode "
+                                     "\"one\" covers as well"));
+    EXPECT_EQ(complaint("abs(y-2) < 1e-6", "abs(x-2) < 1e-6", is_solid), "");
+    EXPECT_EQ(complaint("abs(y-2) < 1e-6 && x < 2.1", "abs(y-2) < 1e-6 && x > 1.9", is_solid), "");
+  }
+}
+
 }  // namespace
 }  // namespace tourmaline::verified

@@ -187,6 +187,23 @@ TEST(StartFrom, AnotherMeshGoesOnWithItsElectrodes) {
   }
 }
 
+// What stays is its charge, not the field by which a mesh approximates that.
+TEST(StartFrom, AnOpenElectrodeKeepsItsChargeOnEveryMesh) {
+  const RunCase first = run_text(dragged(2, 0, 0.5, 5));
+  const double charge = first.history().numbers("electrode_sensor_charge").back();
+  ASSERT_NE(charge, 0);
+  for (const char *other : {"mesh.degree=2", "mesh.box.cells=[12,6]",
+                            "mesh.box.cell=\"quadrilateral\"", "time.steps=3"}) {
+    const RunCase open = run_text(dragged(2, 0.5, 0.5, 2) + from(first),
+                                  {other, "electrode[1]={name=\"sensor\",on=\"left\"}"});
+    for (const double kept : open.history().numbers("electrode_sensor_charge"))
+      EXPECT_NEAR(kept, charge, 1e-9 * std::abs(charge)) << other;
+    for (const double current : open.history().numbers("electrode_sensor_current"))
+      EXPECT_NEAR(current, 0, 1e-9 * std::abs(charge)) << other;
+    EXPECT_LT(largest(open.history(), "charge_imbalance"), 1e-9) << other;
+  }
+}
+
 // A body that was pressed slowly is let go: it vibrates with the energy that it had.
 TEST(StartFrom, AVibrationBeginsWithWhatAPreloadHasStored) {
   const std::string bar = R"toml(
@@ -281,6 +298,14 @@ TEST_F(StartFromComplaint, SaysWhereChargesWouldJump) {
   EXPECT_THAT(complaint({"load.charge=1e-6"}), HasSubstr("\"sensor\" had the charge"));
   EXPECT_THAT(complaint({"material.beta11=2e-8"}), HasSubstr("\"sensor\" had the charge"));
   EXPECT_EQ(complaint({"load.charge=\"1e-6*(t > 0)\""}), "");
+}
+
+// It has a nodes.csv, of the step at which it was stopped.
+TEST_F(StartFromComplaint, ARunThatWasStoppedIsNotTakenForItsEnd) {
+  std::ofstream(first_.folder() / "unfinished.txt") << "stopped by SIGTERM after step 1 of 2\n";
+  EXPECT_THAT(complaint({}),
+              ::testing::HasSubstr("has not been completed (stopped by SIGTERM after "
+                                   "step 1 of 2); let it end with --resume"));
 }
 
 TEST_F(StartFromComplaint, FieldFilesWithoutAFieldAreRefused) {

@@ -30,6 +30,7 @@ struct InitialCase {
   std::map<std::string, std::string> places;  ///< of its keys: file, line and key
   /// What was found there, by unknown; made by run::start_state.
   std::shared_ptr<const std::vector<double>> state = nullptr;
+  std::map<std::string, double> charges = {};  ///< of electrodes that keep what they had there [C]
 };
 
 }  // namespace tourmaline::casefile
