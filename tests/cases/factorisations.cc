@@ -36,6 +36,9 @@ void expect_same_fields(const std::string &file, std::vector<std::string> overri
   for (const auto &[name, cells] : one.columns) {
     const std::vector<double> values = one.numbers(name), others = other.numbers(name);
     const double size = name.starts_with("u_") ? displacement : largest_of(values);
+    constexpr double nothing = 1e-15;  // V or K, where that field is not excited
+    if (!name.starts_with("u_") && size < nothing)
+      continue;
     for (std::size_t i = 0; i < values.size(); ++i)
       ASSERT_LE(std::abs(values[i] - others[i]), bound * size) << name << ", row " << i;
   }

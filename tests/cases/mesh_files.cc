@@ -121,7 +121,6 @@ Physical Surface("body") = {1};
 )");
   const std::string text = run::survey(read(R"(
 mesh.file = "half.geo"
-mesh.size = 0.05
 model.plane = "axisymmetric"
 material.library = "BaTiO3-Liu2014"
 time = { end = 1, steps = 1 }

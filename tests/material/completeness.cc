@@ -135,7 +135,9 @@ TEST(Completeness, AllThatIsMissingOfAllRegionsIsSaidAtOnce) {
   EXPECT_THAT(said, HasSubstr("thermal conductivity k11"));
   EXPECT_THAT(said, testing::Not(HasSubstr("case.toml:2:1")));
   EXPECT_THAT(said, testing::EndsWith("Give them beside `library`, or a library entry that has "
-                                      "them (`tourmaline materials` lists them)"));
+                                      "them (`tourmaline materials` lists them); a field that "
+                                      "[model] leaves out (`thermal = false`, `electric = false`) "
+                                      "needs none"));
 }
 
 TEST(Completeness, ClassesHaveTheirOwnConstants) {
