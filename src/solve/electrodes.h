@@ -24,8 +24,8 @@ Eigen::VectorXd electrode_voltages(const Model<dim> &model, std::span<const doub
 /// The charges of the case's initial state, in which there is no load yet: it is switched on at
 /// t = 0, as voltages are. Counted at the electrodes' nodes without the potential that belongs to
 /// it, a volume charge would leave them a charge by the width of a cell. The state of another run
-/// is one in which they had been on: its loads are those at t = 0; what electrodes keep is what they
-/// had there, whatever the mesh.
+/// is one in which they had been on: its loads are those at t = 0; what electrodes keep is what
+/// they had there, whatever the mesh.
 template <int dim>
 Eigen::VectorXd initial_charges(const Model<dim> &model, std::span<const double> initial);
 

@@ -168,7 +168,7 @@ TEST(Monolithic, TheAnswerDoesNotDependOnROverSixDecades) {
     SCOPED_TRACE(decade);
     const std::string r = std::string("1.6") + decade, r_tau = std::string("0.032") + decade;
     const verified::RunCase run(asked(plane, {"solver.method=monolithic", "solver.r_normal=" + r,
-                                             "solver.r_tangential=" + r_tau}));
+                                              "solver.r_tangential=" + r_tau}));
     expect_equal_runs(run, condensed);
   }
 }
