@@ -184,8 +184,10 @@ name = "other"
 where = "{}"
 voltage = 1
 )toml",
-                           is_solid ? "{ min = [0, 0, 0], max = [4, 4, 4], cells = [4, 4, 4] }"
-                                    : "{ min = [0, 0], max = [4, 4], cells = [4, 4] }",
+                           is_solid
+                               ? "{ min = [0, 0, 0], max = [4, 4, 4], cells = [4, 4, 4], cell = "
+                                 "\"hexahedron\" }"
+                               : "{ min = [0, 0], max = [4, 4], cells = [4, 4] }",
                            is_solid ? "[0, 0, 0]" : "[0, 0]", one, other));
     } catch (const CaseError &error) {
       return std::string(error.what());

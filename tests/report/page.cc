@@ -46,15 +46,18 @@ TEST(Page, ItAsksForNothingFromOutside) {
     EXPECT_EQ(page.find(reference), std::string::npos) << reference;
 }
 
-TEST(Page, ProbesStandThereButThoseAlongLines) {
+TEST(Page, ProbesStandThereAndThoseAlongLinesAreSaidToBeThat) {
   const auto results =
       results_in(ResultFolder({"time.steps=3",
                                "probe=[{name='tip', at=[0, 0.1]}, {name='clamp', on='right'},"
                                "{name='line', from=[0, 0], to=[0.1, 0], points=3}]"})
                      .content("report.html"));
   const auto &probes = results[0]["probes"];
-  ASSERT_EQ(probes.size(), 2U);
+  ASSERT_EQ(probes.size(), 3U);
   EXPECT_EQ(probes[0]["name"], "tip");
+  EXPECT_EQ(probes[0]["isLine"], false);
+  EXPECT_EQ(probes[2]["isLine"], true);
+  EXPECT_EQ(probes[2]["table"]["columns"][2]["columns"], 9);  // of each place in each step
   EXPECT_EQ(probes[1]["table"]["names"][2], "force_x");
   EXPECT_EQ(probes[1]["table"]["columns"][2]["columns"], 3);  // one of each step
 }
