@@ -46,9 +46,12 @@ function between(times: number[], time: number): { first: number; share: number 
 
 class DifferenceField extends Field {
   constructor(private readonly one: Field, private readonly other: Field, private readonly passage: Passage,
-    private readonly times: number[], private readonly otherTimes: number[], private readonly otherGrid: Grid) {
+    private readonly times: number[], private readonly otherTimes: number[], private readonly otherGrid: Grid,
+    private readonly ofWhole?: Field) {
     super(one.description);
   }
+
+  override ranges(component: string): Values[] { return [(this.ofWhole ?? this).values(component)]; }
 
   protected component(name: string): Values {
     const own = this.one.values(name), theirs = this.other.values(name);
@@ -83,17 +86,18 @@ class DifferenceField extends Field {
 
 export interface Difference { body: Body; said: string }
 
-/** Undefined where two bodies have nothing in common. */
-export function differenceOf(one: Body, other: Body): Difference | undefined {
+/** Undefined where two bodies have nothing in common. `whole`: the difference of the bodies that these are cut from. */
+export function differenceOf(one: Body, other: Body, whole?: Body): Difference | undefined {
   const [a, b] = [one.result, other.result];
   if (a.dimension !== b.dimension) return undefined;
   const passage = new Passage(one, other);
   const fields = a.fields.flatMap((field) => {
     const theirs = b.field(field.name);
     return theirs && theirs.onPoints === field.onPoints
-      ? [new DifferenceField(field, theirs, passage, a.stateTimes, b.stateTimes, other.grid)] : [];
+      ? [new DifferenceField(field, theirs, passage, a.stateTimes, b.stateTimes, other.grid,
+        whole?.result.field(field.name))] : [];
   });
   const said = passage.same ? '' : 'interpolated to the mesh of the first';
   return fields.length === 0 ? undefined
-    : { body: new Body(a.withFields(`${b.title} less ${a.title}`, 'difference', fields), a), said };
+    : { body: new Body(a.withFields(`${b.title} less ${a.title}`, 'difference', fields), a, whole), said };
 }

@@ -134,7 +134,7 @@ export class Explorer {
     const { plane } = this.cut, own = this.views.filter((view) => view.less === undefined);
     for (const view of own) this.become(view, plane ? cutBody(view.whole, plane) : view.whole);
     for (const view of this.views.filter((v) => v.less !== undefined))
-      this.become(view, plane ? differenceOf(own[0].body, own[1].body)!.body : view.whole);
+      this.become(view, plane ? differenceOf(own[0].body, own[1].body, view.whole)!.body : view.whole);
     this.probed = undefined;
     this.probing.become(own.map((view) => view.body));
     this.refresh();
@@ -311,9 +311,12 @@ export class Explorer {
     const field = this.fieldOf(view);
     const range = this.range(view);
     // A difference is there only where both runs are.
-    const ended = (view.less === undefined ? [view] : this.views).find((other) => !isReached(other.result, this.timeline.time));
+    const needed = view.less === undefined ? [view] : this.views;
+    const ended = needed.find((other) => !isReached(other.result, this.timeline.time));
+    const isCutOff = needed.some((other) => other.body.grid.triangles.length === 0);
     return {
-      state: ended ? -1 : stateAt(view.result, this.timeline.time), missing: ended && notReached(ended.result), scale: this.scale(view), mesh: this.mesh,
+      state: ended || isCutOff ? -1 : stateAt(view.result, this.timeline.time),
+      missing: ended ? notReached(ended.result) : isCutOff ? 'nothing of the body lies on this side of the plane' : undefined, scale: this.scale(view), mesh: this.mesh,
       field: field?.has(this.component) && !range.instead ? field : undefined, component: this.component,
       range: { ...range, logarithmic: this.display.logarithmic && canBeLogarithmic(range) },
       bands: this.display.bands, levels: this.display.levels, light: this.light,

@@ -12,12 +12,13 @@ export function extremesOf(look: Look): Extreme[] {
   if (!look.field) return [];
   const { data, places } = look.field.values(look.component);
   const first = look.state * places;
-  let least = 0, greatest = 0;
-  for (let i = 1; i < places; ++i) {
-    if (data[first + i] < data[first + least]) least = i;
-    if (data[first + i] > data[first + greatest]) greatest = i;
+  let least = -1, greatest = -1;  // a difference is no number where one of the two is not
+  for (let i = 0; i < places; ++i) {
+    if (Number.isNaN(data[first + i])) continue;
+    if (least < 0 || data[first + i] < data[first + least]) least = i;
+    if (greatest < 0 || data[first + i] > data[first + greatest]) greatest = i;
   }
-  return [{ kind: 'min', value: data[first + least], place: least },
+  return least < 0 ? [] : [{ kind: 'min', value: data[first + least], place: least },
     { kind: 'max', value: data[first + greatest], place: greatest }];
 }
 

@@ -12,10 +12,11 @@ import { ContactFace, shareFaceColours } from './contact_face';
 import { element, tick } from './dom';
 import { Explorer } from './explorer';
 import { History } from './history';
-import { isReached, notReached } from './moments';
+import { stepAt, stepEnds } from './contact_line';
+import { isReached, notReached, strayStep } from './moments';
 import { shown } from './numbers';
 import { playback } from './playback';
-import { probeLines } from './probe_lines';
+import { endsOfLine, probeLines } from './probe_lines';
 import { probes } from './probes';
 import { Overview } from './overview';
 import { load, Result } from './results';
@@ -53,10 +54,12 @@ function beside(make: (result: Result) => HTMLElement | false): HTMLElement {
 }
 
 /** Which of the runs does not reach the moment. */
-function strays(): HTMLElement {
+/** `endsOf`: of the steps of what the section shows [s] */
+function strays(endsOf: (result: Result) => number[]): HTMLElement {
   const box = element('div', { class: `beside beside-${results.length}` }, ...results.map(() => element('p', { class: 'stray', role: 'status' })));
   const say = () => results.forEach((result, i) => {
-    box.children[i].textContent = isReached(result, timeline.time) ? '' : notReached(result);
+    const ends = endsOf(result), { time } = timeline;
+    box.children[i].textContent = !isReached(result, time) ? notReached(result) : ends.length > 0 ? strayStep(ends, stepAt(ends, time), time) : '';
   });
   timeline.onChange(say);
   say();
@@ -122,7 +125,7 @@ const axesChoice = (...groups: string[]) => several &&
 if (results.some((r) => r.contact && r.contact.rows > 0)) {
   const contacts = new Map(results.filter((r) => r.contact && r.contact.rows > 0).map((r) => [r, r.dimension === 2
     ? new Contact(r, timeline, String(results.indexOf(r))) : new ContactFace(r, timeline)] as const));
-  page.append(section('contact', 'Along the contact', axesChoice('contact'), strays(),
+  page.append(section('contact', 'Along the contact', axesChoice('contact'), strays((r) => (r.contact?.rows ? stepEnds(r) : [])),
     arranged(results, (r) => contacts.get(r)?.groups ?? [])));
   const update = () => { for (const contact of contacts.values()) contact.update(); };
   timeline.onChange(update);
@@ -135,7 +138,7 @@ if (results.some((r) => r.history)) {
 }
 if (results.some((r) => r.probes.length + r.lines.length > 0)) {
   const names = [...new Set(results.flatMap((r) => [...r.probes, ...r.lines].map(({ name }) => `probe ${name}`)))];
-  page.append(section('probes', 'Probes', axesChoice(...names),
+  page.append(section('probes', 'Probes', axesChoice(...names), strays((r) => (r.lines.length > 0 ? endsOfLine(r.lines[0].table) : [])),
     arranged(results, (r) => [probes, probeLines].flatMap((of) => of(r, timeline, String(results.indexOf(r)))))));
   if (!results.some((r) => r.history)) timeline.onChange(redrawMarks);
 }

@@ -49,6 +49,11 @@ export function stateAt(result: Result, time: number): number {
   return best;
 }
 
+/** What has to be said of rows of a table, at `ends` of steps [s], the `step`th of which are shown; else empty. */
+export function strayStep(ends: number[], step: number, time: number): string {
+  return step < 0 || same(ends[step], time) ? '' : `step of t = ${shown(ends[step])} s, the nearest one`;
+}
+
 /** What has to be said where a run does not reach the moment. */
 export const notReached = (result: Result) => `the run ends at t = ${shown(endOf(result))} s`;
 

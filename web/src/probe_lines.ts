@@ -15,6 +15,18 @@ const quantities: Quantity[] = [
   { title: 'Temperature along the line', unit: 'K', columns: [['temperature', 'θ']] },
 ];
 
+/** Places of a line in each step. */
+function placesOf(table: Table): number {
+  const step = table.column('step')!, second = step.findIndex((s) => s !== step[0]);
+  return second < 0 ? step.length : second;
+}
+
+/** The end of each step [s]. */
+export function endsOfLine(table: Table): number[] {
+  const places = placesOf(table), time = table.column('time')!;
+  return Array.from({ length: places > 0 ? time.length / places : 0 }, (_, k) => time[k * places]);
+}
+
 class Line {
   readonly cells: Cell[];
   private readonly updates: (() => void)[] = [];
@@ -24,10 +36,8 @@ class Line {
 
   constructor(private readonly name: string, private readonly table: Table, private readonly timeline: Timeline,
     private readonly sync: string) {
-    const step = table.column('step')!, time = table.column('time')!;
-    const second = step.findIndex((s) => s !== step[0]);
-    this.places = second < 0 ? step.length : second;
-    this.ends = Array.from({ length: step.length / this.places }, (_, k) => time[k * this.places]);
+    this.places = placesOf(table);
+    this.ends = endsOfLine(table);
     this.along = [...table.column('s')!.subarray(0, this.places)];
     this.cells = quantities.filter(({ columns }) => columns.some(([column]) => !allZero(table.column(column) ?? [])))
       .map((quantity) => this.chart(quantity));

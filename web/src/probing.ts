@@ -92,8 +92,10 @@ export class Probing {
     const [longest] = [...this.lines.values()];
     if (longest) this.lineChart.become({ title: `${title} along the line`, xLabel: 's [m]', unit }, longest.along,
       bodies.flatMap((b, i) => this.alongLine(b, name, component, i)));
-    if (this.pins.length > 0) this.pinChart.become({ title: `${title} at the pins`, xLabel: 't [s]', unit }, this.timeline.times,
-      bodies.flatMap((b, i) => this.atPins(b, name, component, i)));
+    if (this.pins.length === 0) return;
+    const curves = bodies.flatMap((b, i) => this.atPins(b, name, component, i));
+    this.pinChart.become({ title: `${title} at the pins${curves.length === 0 ? ': none lies on what is shown' : ''}`, xLabel: 't [s]', unit },
+      this.timeline.times, curves);
   }
 
   draw(pen: Pen, frame: Frame) {

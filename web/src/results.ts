@@ -123,6 +123,7 @@ export class Values {
   }
 
   private usualOf(state: number, share: number): { least: number; greatest: number } {
+    if (this.places === 0) return { least: Infinity, greatest: -Infinity };
     const stride = Math.ceil(this.places / 5000);
     const first = state * this.places;
     const sorted = new Float32Array(Math.ceil(this.places / stride));

@@ -79,6 +79,7 @@ class Cutter {
   }
 
   private surface(polygon: number[], cell: number) {
+    if (polygon.length < 3) return;
     if (!this.cells.has(cell)) this.cells.set(cell, this.cells.size);
     for (let i = 2; i < polygon.length; ++i) {
       this.triangles.push(polygon[0], polygon[i - 1], polygon[i]);
@@ -118,8 +119,8 @@ class Cutter {
     partCells.forEach((cell, p) => {
       if (p > 0 && cell !== partCells[p - 1]) draw();
       const polygon = this.cutOf(parts.subarray(corners * p, corners * (p + 1)));
-      if (polygon.length < 3) return;
       this.surface(polygon, cell);
+      if (polygon.length < 3) return;
       polygon.forEach((a, i) => {
         const b = polygon[(i + 1) % polygon.length], key = `${Math.min(a, b)} ${Math.max(a, b)}`;
         if (!own.delete(key)) own.set(key, [a, b]);

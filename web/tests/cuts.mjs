@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { execFileSync } from 'node:child_process';
-import { statSync } from 'node:fs';
+import { readFileSync, statSync } from 'node:fs';
 import { inBrowser } from './browser.mjs';
 import { centred, compare, desktop, end, nodesOf, numberIn, open, pixels, program, run, runText, settled, test } from './harness.mjs';
 
@@ -137,6 +137,27 @@ await inBrowser(desktop, async (context) => {
     await set(tab, 'x', 0.5, true);
     for (let i = 0; i < 3; ++i) assert.notEqual(await pixels(tab, '.view canvas', i), whole[i]);
     assert.deepEqual(complaints, []);
+  });
+  await test('colours and magnification of a difference stay those of the whole bodies', async () => {
+    await tab.locator('#field').selectOption('strain');
+    const said = () => tab.locator('.difference').evaluate((view) => [...view.querySelectorAll('.ticks, .note')].map((e) => e.textContent).join(' '));
+    await tab.locator('#cut').selectOption('');
+    await settled(tab);
+    const whole = await said();
+    for (const at of [0.3, 0.9]) {
+      await set(tab, 'x', at, true);
+      assert.equal(await said(), whole);
+    }
+  });
+  await test('marks of fields in cells stand on what is left, in a difference too', async () => {
+    await set(tab, 'x', 0.9, true);
+    for (const figure of ['.view:not(.difference)', '.difference']) {
+      const waiting = tab.waitForEvent('download');
+      await tab.locator(`${figure} [data-kind=SVG]`).first().click();
+      const drawing = readFileSync(await (await waiting).path(), 'utf8');
+      assert.ok(!drawing.includes('NaN'), figure);
+      assert.match(drawing, />min [^<]*\d/);
+    }
   });
   const large = run('large', 'block-3d/twisted.toml', 'mesh.box.cells=[10, 10, 10]', 'time.steps=10');
   for (const [megabytes, isThere] of [[1.3, false], [3, true]])
