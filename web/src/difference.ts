@@ -51,7 +51,9 @@ class DifferenceField extends Field {
     super(one.description);
   }
 
-  override ranges(component: string): Values[] { return [(this.ofWhole ?? this).values(component)]; }
+  override ranges(component: string): Values[] {
+    return [this, ...(this.ofWhole ? [this.ofWhole] : [])].map((field) => field.values(component));
+  }
 
   protected component(name: string): Values {
     const own = this.one.values(name), theirs = this.other.values(name);
