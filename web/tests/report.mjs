@@ -331,6 +331,7 @@ const mapColour = (tab, piece, time, along) => tab.locator(`[data-piece="${piece
 async function hovered(tab, piece, chart, across) {
   const over = tab.locator(`[data-piece="${piece}"] .chart`).nth(chart).locator('.u-over');
   await over.evaluate((e) => e.scrollIntoView({ block: 'center', behavior: 'instant' }));
+  await settled(tab);  // what comes to the screen is drawn now, of the moment that is shown
   const box = await over.boundingBox();
   await tab.mouse.move(box.x + across * (box.width - 1), box.y + box.height / 2);
   await settled(tab);
