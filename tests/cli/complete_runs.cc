@@ -54,7 +54,7 @@ class InTheEnd : public Interrupted {
  protected:
   // Its page takes longer than the moment between the summary and a signal.
   const std::string all = "run " + paper +
-                          " --set mesh.box.cells=[64,64] --set time.steps=20 --set "
+                          " --set mesh.box.cells=[48,48] --set time.steps=10 --set "
                           "output.checkpoint=7steps -o results";
 
   // The exit status after a signal while the page is written.

@@ -15,7 +15,7 @@ TEST_F(Interrupted, KilledAtRandomMomentsItGoesOnToTheSameBytes) {
   const std::string all =
       "run " + paper + " --set time.steps=40 --set output.checkpoint=1steps -q -o ";
   Seconds whole(1e9);  // the least of some, as other processes are at work too
-  for (int repeat = 0; repeat < 3; ++repeat) {
+  for (int repeat = 0; repeat < 2; ++repeat) {
     const auto started = std::chrono::steady_clock::now();
     ASSERT_EQ(run(all + "one/results"), 0) << complained_;
     whole = std::min<Seconds>(whole, std::chrono::steady_clock::now() - started);
@@ -24,7 +24,7 @@ TEST_F(Interrupted, KilledAtRandomMomentsItGoesOnToTheSameBytes) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> share(0.3, 1.05);  // before it the libraries load
   int behind_checkpoint = 0;
-  for (int kill = 0; kill < 30; ++kill) {
+  for (int kill = 0; kill < 16; ++kill) {
     const auto process = start(all + "other/results --resume");
     std::this_thread::sleep_for(share(random) * whole);
     process->send(SIGKILL);
@@ -39,11 +39,12 @@ TEST_F(Interrupted, KilledAtRandomMomentsItGoesOnToTheSameBytes) {
   }
   ASSERT_EQ(run(all + "other/results --resume"), 0) << complained_;
   expect_same_results(here() / "one/results", here() / "other/results");
-  EXPECT_GE(behind_checkpoint, 5) << "too few of the moments were between the first and last step";
+  EXPECT_GE(behind_checkpoint, 4) << "too few of the moments were between the first and last step";
 }
 
 TEST_F(Interrupted, ThePapersCaseGoesOn) {
   expect_to_go_on(paper + " --set time.steps=400 --set output.every=70", "150steps");
+  expect_same_results(here() / "one/results", here() / "other/results");
 }
 
 TEST_F(Interrupted, WhatWasLargestBeforeTheCheckpointIsStillWarnedOf) {
@@ -83,6 +84,7 @@ probe = [ { name = "tip", at = [0, 0.1] },
           { name = "rubbed", on = "left" } ]
 )toml";
   expect_to_go_on("probed.toml", "150steps");
+  expect_same_results(here() / "one/results", here() / "other/results");
   for (const char *name : {"tip", "line", "rubbed"})
     EXPECT_TRUE(fs::exists(here() / "other/results" / ("probe-" + std::string(name) + ".csv")));
 }
@@ -152,6 +154,7 @@ TEST_F(Interrupted, PiecewiseConstantMultipliersGoOn) {
 
 TEST_F(Interrupted, ABlockGoesOn) {
   expect_to_go_on("block.toml --set time.steps=8");
+  expect_same_results(here() / "one/results", here() / "other/results");
 }
 
 TEST_F(Interrupted, TheIterativeRouteGoesOn) {
@@ -217,7 +220,7 @@ electric = { law = "leak", coefficient = 1e-6, foundation_potential = 5, ramp = 
   for (const char *route :
        {"", " --set solver.method=monolithic", " --set solver.body=iterative"}) {
     SCOPED_TRACE(route);
-    expect_to_go_on(std::string("crossing.toml") + route);
+    expect_to_go_on(std::string("crossing.toml --set time.end=0.5 --set time.steps=20") + route);
     EXPECT_THAT(content_of(here() / "other/results/history.csv"), HasSubstr("friction_heat_body"));
     fs::remove_all(here() / "one");
     fs::remove_all(here() / "other");
@@ -231,7 +234,7 @@ electric = { law = "leak", coefficient = 1e-6, ramp = 2e-7, circuit = { resistor
   for (const char *route :
        {"", " --set solver.method=monolithic", " --set solver.body=iterative"}) {
     SCOPED_TRACE(route);
-    expect_to_go_on(std::string("circuit.toml") + route);
+    expect_to_go_on(std::string("circuit.toml --set time.end=0.5 --set time.steps=20") + route);
     EXPECT_THAT(content_of(here() / "other/results/history.csv"), HasSubstr("foundation_voltage"));
     fs::remove_all(here() / "one");
     fs::remove_all(here() / "other");
@@ -252,9 +255,9 @@ electric = { law = "leak", coefficient = 1e-6, ramp = 2e-7, circuit = { resistor
 
 TEST_F(Interrupted, StepsThatTheProgramChoosesGoOn) {
   for (const char *route :
-       {"", " --set solver.method=monolithic", " --set solver.body=iterative"}) {
+       {"3e-5", "3e-4 --set solver.method=monolithic", "3e-4 --set solver.body=iterative"}) {
     SCOPED_TRACE(route);
-    expect_to_go_on(paper + " --set time.steps=10 --set time.tolerance=3e-5" + route, "60steps");
+    expect_to_go_on(paper + " --set time.steps=10 --set time.tolerance=" + route, "30steps");
     fs::remove_all(here() / "one");
     fs::remove_all(here() / "other");
   }
@@ -304,7 +307,7 @@ TEST_F(Interrupted, AContactOfAThousandNodesGoesOn) {
   put("gap", "\"1e-7*sin(300*x)\"");
   put("friction", "{ law = \"coulomb\", coefficient = 0.3 }");
   std::ofstream(here() / "large.toml") << text;
-  expect_to_go_on("large.toml --set time.steps=12");
+  expect_to_go_on("large.toml --set time.end=0.5 --set time.steps=6");
 }
 
 TEST_F(Interrupted, ARunWithCheckpointsLeavesTheBytesOfOneWithout) {
@@ -366,7 +369,7 @@ TEST_F(Interrupted, AFailedRunSaysWhatItLeaves) {
 // The step takes longer than the test.
 TEST_F(Interrupted, TheSecondSignalEndsItAtOnce) {
   const auto process = start(slow +
-                             " --set solver.method=monolithic --set mesh.box.cells=[200,200] "
+                             " --set solver.method=monolithic --set mesh.box.cells=[100,100] "
                              "--set output.checkpoint=1steps --set output.every=1 -q -o results");
   ASSERT_TRUE(process->leaves(here() / "results/checkpoint.bin"));
   process->send(SIGINT);

@@ -77,7 +77,7 @@ class Interrupted : public Program {
     EXPECT_TRUE(slips(here() / "other/results/contact.csv.part"));
     ASSERT_EQ(run(all + "other/results --resume"), 0) << complained_;
     EXPECT_EQ(complained_, warnings_);
-    expect_same_results(here() / "one/results", here() / "other/results");
+    expect_same_files(here() / "one/results", here() / "other/results");
   }
 
   std::string warnings_;  ///< of the run of `expect_to_go_on`

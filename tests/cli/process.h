@@ -29,7 +29,9 @@ class Process {
     argv.push_back(nullptr);
     id_ = fork();
     if (id_ == 0) {
-      signal(SIGINT, SIG_DFL);  // which the background jobs of a script ignore
+      for (const int ignored :
+           {SIGINT, SIGHUP})  // by jobs in the background of a script and under nohup
+        signal(ignored, SIG_DFL);
       const int out = open(said.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
       dup2(out, STDOUT_FILENO);
       dup2(out, STDERR_FILENO);

@@ -78,8 +78,8 @@ TEST_F(StoppedSweep, EndsItsRunsAndKeepsWhatIsDone) {
 TEST_F(StoppedSweep, AStoppedRunGoesOnWhereItWas) {
   const auto member = study() / "bound=5";
   const std::string all =
-      "sweep small.toml --vary contact.friction.bound=5 --set time.steps=3000 "
-      "--set output.fields=true --set output.every=1500 --set 'output.checkpoint=\"5 steps\"' -o "
+      "sweep small.toml --vary contact.friction.bound=5 --set time.steps=1500 "
+      "--set output.fields=true --set output.every=700 --set 'output.checkpoint=\"5 steps\"' -o "
       "'" +
       study().string() + "'";
   std::thread sender([&] {
