@@ -42,7 +42,7 @@ Ended run_within(int megabytes, const std::string &overrides) {
 
 class MemoryLimit : public ::testing::Test {
   void SetUp() override {
-#ifdef __SANITIZE_ADDRESS__
+#ifdef TOURMALINE_SANITIZED
     GTEST_SKIP() << "the sanitizer reserves terabytes of address space";
 #endif
   }

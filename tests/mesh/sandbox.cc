@@ -170,7 +170,7 @@ TEST(ChildProcess, OneThatDoesNotEndIsEndedByTheLimitsOfTime) {
             "out of time");
 }
 
-#if !defined(__SANITIZE_ADDRESS__)
+#if !defined(TOURMALINE_SANITIZED)
 TEST(ChildProcess, MemoryHasALimit) {
   const auto greedy = [] { return std::string(200 << 20, 'a').substr(0, 1); };
   EXPECT_EQ(in_child(greedy, {.bytes = 100 << 20}), "out of memory");
