@@ -29,8 +29,8 @@ class Process {
     argv.push_back(nullptr);
     id_ = fork();
     if (id_ == 0) {
-      for (const int ignored :
-           {SIGINT, SIGHUP})  // by jobs in the background of a script and under nohup
+      // Jobs in the background of a script, and those under nohup, ignore them.
+      for (const int ignored : {SIGINT, SIGHUP})
         signal(ignored, SIG_DFL);
       const int out = open(said.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
       dup2(out, STDOUT_FILENO);
