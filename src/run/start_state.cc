@@ -4,20 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <memory>
 
 #include "body/interpolation.h"
 #include "case/electrodes.h"
-#include "case/place_of_key.h"
-#include "case/toml_text.h"
 #include "mesh/distribute.h"
 #include "mesh/mesh.h"
 #include "parallel/ranks.h"
-#include "report/field_file.h"
-#include "report/recorded_mesh.h"
-#include "report/table.h"
+#include "run/recorded_run.h"
 #include "solve/electrodes.h"
 #include "tourmaline/case/case.h"
 #include "tourmaline/case/reader.h"
@@ -40,135 +35,6 @@ constexpr double same_place = 1e-12, near_boundary = 1e-3, of_thickness = 1e-2;
 // How far two charges or voltages that are one differ at most: by the digits of tables and
 // solutions.
 constexpr double same_charge = 1e-6, same_value = 1e-9;
-
-[[noreturn]] void fail(const InitialCase &initial, const std::string &reason) {
-  throw CaseError(fmt::format("{} = {}: {}", casefile::place_of_key(initial.places, "", "from"),
-                              casefile::toml_text(*initial.from), reason));
-}
-
-// A run's state as its files have it, by node.
-struct Recorded {
-  std::vector<Vector3> points;
-  std::vector<double> unknowns;
-};
-
-template <int dim>
-Recorded of_nodes(const fs::path &file) {
-  const report::Table table = report::read_table(file);
-  Recorded found;
-  found.points.resize(table.n_rows());
-  found.unknowns.resize(table.n_rows() * Fields<dim>::count);
-  const auto column = [&](const std::string &name) -> const std::vector<double> & {
-    const std::vector<double> *values = table.find(name);
-    if (!values)
-      throw CaseError(fmt::format("{} has no column {} and is of no body of {} dimensions",
-                                  file.string(), name, dim));
-    return *values;
-  };
-  for (std::size_t i = 0; i < table.n_rows(); ++i) {
-    for (int c = 0; c < dim; ++c)
-      found.points[i][static_cast<std::size_t>(c)] = column(std::string(1, "xyz"[c]))[i];
-    for (int c = 0; c < Fields<dim>::count; ++c)
-      found.unknowns[unknown<dim>(static_cast<body::Node>(i), c)] =
-          column(body::column_of<dim>(c))[i];
-  }
-  return found;
-}
-
-template <int dim>
-Recorded of_fields(const fs::path &file) {
-  const report::FieldFile fields = report::read_field_file(file);
-  Recorded found{fields.grid.points,
-                 std::vector<double>(fields.grid.points.size() * Fields<dim>::count, 0.)};
-  const auto put = [&](const report::FieldArray &array, int first, int count) {
-    for (std::size_t i = 0; i < found.points.size(); ++i)
-      for (int c = 0; c < count; ++c)
-        found.unknowns[unknown<dim>(static_cast<body::Node>(i), first + c)] =
-            array.values[i * array.components + static_cast<std::size_t>(c)];
-  };
-  const auto put_called = [&](const std::string &name, int first, std::size_t components) {
-    const auto array = std::ranges::find_if(fields.arrays, [&](const report::FieldArray &one) {
-      return one.on_points && one.name == name && one.components == components;
-    });
-    if (array == fields.arrays.end())
-      throw CaseError(fmt::format("{} has no array {} with {} component{} at its points",
-                                  file.string(), name, components, components == 1 ? "" : "s"));
-    put(*array, first, components == 1 ? 1 : dim);
-  };
-  put_called("displacement", 0, 3);
-  put_called("potential", Fields<dim>::potential, 1);
-  put_called("temperature", Fields<dim>::temperature, 1);
-  return found;
-}
-
-bool is_file(const fs::path &file) {
-  std::error_code ignored;
-  return fs::is_regular_file(file, ignored);
-}
-
-fs::path file_of(const InitialCase &initial) {
-  const fs::path folder = *initial.from;
-  if (!initial.step)
-    return folder / "nodes.csv";
-  for (const char *ending : {"vtu", "pvtu"})
-    if (fs::path file = folder / fmt::format("result_{:04}.{}", *initial.step, ending);
-        is_file(file))
-      return file;
-  return folder / fmt::format("result_{:04}.vtu", *initial.step);
-}
-
-void require_files(const InitialCase &initial) {
-  std::error_code ignored;
-  if (!fs::is_directory(*initial.from, ignored))
-    fail(initial, "there is no such folder");
-  if (!is_file(fs::path(*initial.from) / "resolved.toml"))
-    fail(initial, "holds no run: it has no resolved.toml");
-  if (const fs::path file = file_of(initial); !is_file(file))
-    fail(initial, initial.step
-                      ? fmt::format("has no fields of step {} ({}); see its result.pvd for the "
-                                    "steps that it has",
-                                    *initial.step, file.filename().string())
-                      : "has no nodes.csv, as that run has not been completed; name one of its "
-                        "steps by initial.step");
-}
-
-// A run that was stopped has a nodes.csv, of the step at which it was.
-void require_finished(const InitialCase &initial) {
-  const fs::path file = fs::path(*initial.from) / "unfinished.txt";
-  if (initial.step || !is_file(file))
-    return;
-  std::string reason;
-  std::getline(std::ifstream(file), reason);
-  fail(initial,
-       fmt::format("that run has not been completed ({}); let it end with --resume, or name "
-                   "one of its steps by initial.step",
-                   reason));
-}
-
-template <int dim>
-Recorded recorded(const InitialCase &initial) {
-  const fs::path file = file_of(initial);
-  try {
-    Recorded found = initial.step ? of_fields<dim>(file) : of_nodes<dim>(file);
-    if (!std::ranges::all_of(found.unknowns, [](double value) { return std::isfinite(value); }))
-      throw CaseError(file.string() + " holds what is no number");
-    return found;
-  } catch (const CaseError &error) {
-    fail(initial, error.what());
-  }
-}
-
-// Of the other run; the mesh as its folder tells of it.
-casefile::Case case_of(const InitialCase &initial) {
-  const fs::path folder = *initial.from;
-  try {
-    return casefile::read_file(folder / "resolved.toml", {}, [&](const casefile::MeshCase &) {
-      return report::recorded_mesh(folder);
-    });
-  } catch (const CaseError &error) {
-    fail(initial, fmt::format("its case cannot be read again: {}", error.what()));
-  }
-}
 
 // Along each axis, in ascending order [m].
 template <int dim>
@@ -202,7 +68,7 @@ double distance(const Vector3 &a, const Vector3 &b) {
 
 // Behind the nodes a field file has further points where regions meet.
 template <int dim>
-bool are_nodes_of(const Recorded &from, const std::vector<Vector3> &nodes) {
+bool are_nodes_of(const RecordedState &from, const std::vector<Vector3> &nodes) {
   const double apart = same_place * size_of<dim>(nodes);
   return nodes.size() <= from.points.size() &&
          std::equal(nodes.begin(), nodes.end(), from.points.begin(),
@@ -210,7 +76,7 @@ bool are_nodes_of(const Recorded &from, const std::vector<Vector3> &nodes) {
 }
 
 template <int dim>
-body::Discretisation<dim> mesh_of(const InitialCase &initial, const Recorded &from) {
+body::Discretisation<dim> mesh_of(const InitialCase &initial, const RecordedState &from) {
   try {
     const casefile::Case other =
         casefile::read_file(fs::path(*initial.from) / "resolved.toml", {}, mesh::read_mesh_file);
@@ -220,13 +86,14 @@ body::Discretisation<dim> mesh_of(const InitialCase &initial, const Recorded &fr
     if (are_nodes_of<dim>(from, body.points()))
       return body;
   } catch (const CaseError &error) {
-    fail(initial, fmt::format("its mesh, from which the state is interpolated onto the one of this "
-                              "case, cannot be made again: {}",
-                              error.what()));
+    fail_from(initial,
+              fmt::format("its mesh, from which the state is interpolated onto the one of this "
+                          "case, cannot be made again: {}",
+                          error.what()));
   }
-  fail(initial,
-       "the mesh that its case names is another one now than the run had; the state can be "
-       "interpolated from that one only");
+  fail_from(initial,
+            "the mesh that its case names is another one now than the run had; the state can be "
+            "interpolated from that one only");
 }
 
 template <int dim>
@@ -235,14 +102,15 @@ template <int dim>
   std::string words = fmt::format("{:g}, {:g}", place[0], place[1]);
   if (dim == 3)
     words += fmt::format(", {:g}", place[2]);
-  fail(initial, fmt::format("the body of {} does not reach [{}] m, a place of {}, by {:.3g} m; "
-                            "both must be one body",
-                            body, words, other, away));
+  fail_from(initial,
+            fmt::format("the body of {} does not reach [{}] m, a place of {}, by {:.3g} m; "
+                        "both must be one body",
+                        body, words, other, away));
 }
 
 // A part of the body would have been cut off, and what held it with it.
 template <int dim>
-void require_whole(const solve::Model<dim> &model, const Recorded &from) {
+void require_whole(const solve::Model<dim> &model, const RecordedState &from) {
   constexpr double coarser = 10;  // facets of a coarse mesh leave out more of a circle
   const double far = coarser * near_boundary_of<dim>(from.points);
   const std::vector<body::Interpolation> found = body::nearest_places(model.body, from.points);
@@ -254,7 +122,7 @@ void require_whole(const solve::Model<dim> &model, const Recorded &from) {
 
 // Places a little outside of the other mesh have the values of the nearest ones in it.
 template <int dim>
-std::vector<double> interpolated(const InitialCase &initial, const Recorded &from,
+std::vector<double> interpolated(const InitialCase &initial, const RecordedState &from,
                                  const std::vector<Vector3> &points) {
   const body::Discretisation<dim> other = mesh_of<dim>(initial, from);
   std::vector<body::Interpolation> found = body::nearest_places(other, points);
@@ -293,22 +161,22 @@ template <int dim>
 void require_recorded(const solve::Model<dim> &model, const casefile::Case &other) {
   const InitialCase &initial = model.asked.initial;
   if (model.laws.remembers_slip())
-    fail(initial,
-         "is not available with friction that weakens with the accumulated slip, which the "
-         "files of a run do not have for another one; have both in one run");
+    fail_from(initial,
+              "is not available with friction that weakens with the accumulated slip, which the "
+              "files of a run do not have for another one; have both in one run");
   if (model.laws.remembers_charge())
-    fail(initial,
-         "is not available with a contact through which charge leaks, as what has crossed "
-         "before would be forgotten; have both in one run");
+    fail_from(initial,
+              "is not available with a contact through which charge leaks, as what has crossed "
+              "before would be forgotten; have both in one run");
   for (const casefile::ContactCase &contact : model.asked.contacts)
     if (contact.electric.circuit)
-      fail(initial,
-           "is not available with a foundation that conducts (contact.electric.circuit), "
-           "as its charge would be forgotten; have both in one run");
+      fail_from(initial,
+                "is not available with a foundation that conducts (contact.electric.circuit), "
+                "as its charge would be forgotten; have both in one run");
   if (other.time.is_dynamic() && model.asked.time.is_dynamic() && initial.velocity.empty())
-    fail(initial,
-         "that run was dynamic, and files have no velocities; give initial.velocity, "
-         "[0, ...] where it had come to rest");
+    fail_from(initial,
+              "that run was dynamic, and files have no velocities; give initial.velocity, "
+              "[0, ...] where it had come to rest");
 }
 
 template <int dim>
@@ -316,14 +184,14 @@ void require_one_theory(const solve::Model<dim> &model, const casefile::Case &ot
   const InitialCase &initial = model.asked.initial;
   const casefile::Case &asked = model.asked;
   if (other.model.plane != asked.model.plane && dim == 2)
-    fail(initial, fmt::format("that run has model.plane = \"{}\", this one \"{}\"",
-                              other.model.plane, asked.model.plane));
+    fail_from(initial, fmt::format("that run has model.plane = \"{}\", this one \"{}\"",
+                                   other.model.plane, asked.model.plane));
   const double there = material::Composition<dim>(other).reference_temperature(),
                here = model.composition.reference_temperature();
   if (other.model.thermal && asked.model.thermal && there != here)
-    fail(initial,
-         fmt::format("its temperatures are differences to {} K, those of this case to {} K", there,
-                     here));
+    fail_from(initial,
+              fmt::format("its temperatures are differences to {} K, those of this case to {} K",
+                          there, here));
 }
 
 template <int dim>
@@ -331,15 +199,17 @@ void require_unknowns(const casefile::Case &asked, const std::vector<double> &st
   const double volts = largest<dim>(state, Fields<dim>::potential),
                warmth = largest<dim>(state, Fields<dim>::temperature);
   if (!asked.model.electric && volts > 0)
-    fail(asked.initial, fmt::format("that run has potentials of up to {:g} V, and this case has "
-                                    "model.electric = false",
-                                    volts));
+    fail_from(asked.initial,
+              fmt::format("that run has potentials of up to {:g} V, and this case has "
+                          "model.electric = false",
+                          volts));
   if (!asked.model.thermal && warmth > 0)
-    fail(asked.initial, fmt::format("that run has temperatures of up to {:g} K, and this case has "
-                                    "model.thermal = false",
-                                    warmth));
+    fail_from(asked.initial,
+              fmt::format("that run has temperatures of up to {:g} K, and this case has "
+                          "model.thermal = false",
+                          warmth));
   if (asked.time.is_static() && warmth > 0)
-    fail(
+    fail_from(
         asked.initial,
         fmt::format("that run has temperatures of up to {:g} K, and those of a static case are its "
                     "own steady ones; take time.regime = \"quasistatic\"",
@@ -357,43 +227,14 @@ void level_electrodes(const solve::Model<dim> &model, std::vector<double> &state
     for (const body::Node node : nodes) {
       double &potential = state[unknown<dim>(node, Fields<dim>::potential)];
       if (std::abs(potential - voltage) > round_off * size)
-        fail(model.asked.initial,
-             fmt::format(
-                 "electrode \"{}\" has one potential, and the places it covers had {:g} V "
-                 "and {:g} V in that run; both must have the same electrodes, and on another "
-                 "mesh none that touches another",
-                 model.asked.electrodes[e].name, voltage, potential));
+        fail_from(model.asked.initial,
+                  fmt::format(
+                      "electrode \"{}\" has one potential, and the places it covers had {:g} V "
+                      "and {:g} V in that run; both must have the same electrodes, and on another "
+                      "mesh none that touches another",
+                      model.asked.electrodes[e].name, voltage, potential));
       potential = voltage;
     }
-  }
-}
-
-// What its history says of the last step, or of that one; nothing of the initial state.
-class LastRow {
- public:
-  explicit LastRow(const InitialCase &initial)
-      : table_(report::read_table(fs::path(*initial.from) / "history.csv")) {
-    const std::vector<double> *steps = table_.find("step");
-    for (std::size_t i = 0; steps && i < steps->size(); ++i)
-      if (!initial.step || (*steps)[i] == *initial.step)
-        row_ = i;
-  }
-
-  std::optional<double> value(const std::string &column) const {
-    const std::vector<double> *values = table_.find(column);
-    return row_ && values ? std::optional((*values)[*row_]) : std::nullopt;
-  }
-
- private:
-  report::Table table_;
-  std::optional<std::size_t> row_;
-};
-
-LastRow last_row(const InitialCase &initial) {
-  try {
-    return LastRow(initial);
-  } catch (const CaseError &error) {
-    fail(initial, error.what());
   }
 }
 
@@ -405,7 +246,7 @@ double source_of(const casefile::ElectrodeCase &electrode, double time) {
 
 // A capacitor's charge is that of both its ends.
 void require_same_source(const InitialCase &initial, const casefile::ElectrodeCase &here,
-                         const casefile::Case &other, const LastRow &last) {
+                         const casefile::Case &other, const RecordedRow &last) {
   if (!here.capacitor || here.to)
     return;
   const auto there = std::ranges::find(other.electrodes, here.name, &casefile::ElectrodeCase::name);
@@ -416,12 +257,13 @@ void require_same_source(const InitialCase &initial, const casefile::ElectrodeCa
                             : 0,
                now = source_of(here, 0);
   if (std::abs(now - before) > same_value * std::max(std::abs(now), std::abs(before)))
-    fail(initial,
-         fmt::format("the other end of the capacitor at electrode \"{}\" was at {:g} V in that "
-                     "run, and is at {:g} V here at t = 0; the capacitor keeps its charge, so it "
-                     "must begin where it was (`voltage` may change behind t = 0, as in \"{:g} + "
-                     "100*(t > 0)\")",
-                     here.name, before, now, before));
+    fail_from(
+        initial,
+        fmt::format("the other end of the capacitor at electrode \"{}\" was at {:g} V in that "
+                    "run, and is at {:g} V here at t = 0; the capacitor keeps its charge, so it "
+                    "must begin where it was (`voltage` may change behind t = 0, as in \"{:g} + "
+                    "100*(t > 0)\")",
+                    here.name, before, now, before));
 }
 
 // Of what the charge on an electrode at those nodes is summed up from [C].
@@ -442,7 +284,7 @@ double size_of_terms(const solve::Model<dim> &model, const std::vector<body::Nod
 }
 
 // By electrode, of those that keep theirs.
-std::map<std::string, double> charges_of(const casefile::Case &asked, const LastRow &last) {
+std::map<std::string, double> charges_of(const casefile::Case &asked, const RecordedRow &last) {
   std::map<std::string, double> charges;
   for (const casefile::ElectrodeCase &electrode : asked.electrodes)
     if (const auto recorded = last.value(fmt::format("electrode_{}_charge", electrode.name));
@@ -474,26 +316,28 @@ void require_same_charges(const solve::Model<dim> &model, const std::vector<doub
     const double size = std::abs(found) + std::abs(recorded->second) +
                         size_of_terms(model, model.electrodes[e], products, state);
     if (std::abs(found - recorded->second) > same_charge * size)
-      fail(model.asked.initial,
-           fmt::format("electrode \"{}\" had the charge {:g} in that run, and by the materials of "
-                       "this case and its charges and foundations at t = 0 its start has {:g}; "
-                       "what it keeps must be one number: let these begin where they were (they "
-                       "may change behind t = 0, as by a factor (t > 0))",
-                       electrode.name, recorded->second, found));
+      fail_from(
+          model.asked.initial,
+          fmt::format("electrode \"{}\" had the charge {:g} in that run, and by the materials of "
+                      "this case and its charges and foundations at t = 0 its start has {:g}; "
+                      "what it keeps must be one number: let these begin where they were (they "
+                      "may change behind t = 0, as by a factor (t > 0))",
+                      electrode.name, recorded->second, found));
   }
 }
 
 template <int dim>
 std::vector<double> state_of_other(solve::Model<dim> &model) {
   InitialCase &initial = model.asked.initial;
-  require_files(initial);
+  require_recorded_file(initial);
   require_finished(initial);
-  const casefile::Case other = case_of(initial);
+  const casefile::Case other = recorded_case(initial);
   if (other.dimension != dim)
-    fail(initial, fmt::format("that run has {} dimensions, this case {}", other.dimension, dim));
+    fail_from(initial,
+              fmt::format("that run has {} dimensions, this case {}", other.dimension, dim));
   require_recorded(model, other);
   require_one_theory(model, other);
-  Recorded from = recorded<dim>(initial);
+  RecordedState from = recorded_state<dim>(initial);
   const bool is_same_mesh = are_nodes_of<dim>(from, model.body.points());
   if (!is_same_mesh)
     from.unknowns = interpolated<dim>(initial, from, model.body.points());
@@ -504,7 +348,7 @@ std::vector<double> state_of_other(solve::Model<dim> &model) {
   level_electrodes(model, from.unknowns);
   if (casefile::all_voltages_given(model.asked))
     return std::move(from.unknowns);
-  const LastRow last = last_row(initial);
+  const RecordedRow last(initial);
   for (const casefile::ElectrodeCase &electrode : model.asked.electrodes)
     require_same_source(initial, electrode, other, last);
   initial.charges = charges_of(model.asked, last);
@@ -526,8 +370,8 @@ std::vector<double> start_state(solve::Model<dim> &model) {
 std::vector<fs::path> start_files(const InitialCase &initial) {
   if (!initial.from)
     return {};
-  require_files(initial);
-  std::vector<fs::path> files{file_of(initial)};
+  require_recorded_file(initial);
+  std::vector<fs::path> files{recorded_file(initial)};
   if (files.front().extension() != ".pvtu")
     return files;
   const std::string piece = files.front().stem().string() + "_";
@@ -543,9 +387,9 @@ std::vector<fs::path> start_files(const InitialCase &initial) {
 void require_other_folder(const InitialCase &initial, const fs::path &results) {
   std::error_code ignored;
   if (initial.from && fs::equivalent(*initial.from, results, ignored))
-    fail(initial,
-         "is where the results of this run are for, and would be removed at its start; "
-         "name another folder with -o");
+    fail_from(initial,
+              "is where the results of this run are for, and would be removed at its start; "
+              "name another folder with -o");
 }
 
 template std::vector<double> start_state<2>(solve::Model<2> &);
