@@ -289,11 +289,13 @@ void declare(Visitor &v, SolverCase &solver, const std::vector<ContactCase> &con
        .description = "at which the iterative solution of the body's equations stops: norm of the "
                       "residual over that of the largest contribution, in each field",
        .range = {.low = 0, .high = 1e-3, .low_allowed = false, .sense = sense::tolerance},
-       .used = with("body", solver.body, {"iterative", "automatic"})},
+       .used = {solver.method == "condensed" && solver.body != "direct",
+                "method = \"condensed\" and body = \"iterative\" or \"automatic\""}},
       &solver.linear_tolerance);
   v.key({.name = "tolerance",
          .description = "at which the contact iteration stops: natural residual divided by the "
-                        "largest nodal force",
+                        "largest nodal force; of a body that is solved iteratively ten times the "
+                        "larger of this and linear_tolerance",
          .range = {.low = 0,
                    .high = 1,
                    .low_allowed = false,
@@ -301,7 +303,9 @@ void declare(Visitor &v, SolverCase &solver, const std::vector<ContactCase> &con
                    .sense = sense::tolerance}},
         &solver.tolerance);
   v.key({.name = "max_iterations",
-         .description = "Newton iterations in one step after which the run fails",
+         .description =
+             "Newton iterations after which an attempt at a step fails: the only one where "
+             "the step is convex, one of several where friction depends on the pressure",
          .range = at_least(1)},
         &solver.max_iterations);
   v.key({.name = "threads", .description = "of OpenBLAS and OpenMP", .range = from_to(1, 1024)},

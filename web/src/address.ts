@@ -3,7 +3,7 @@
 interface Part { write: () => string | undefined; read: (text: string) => void }
 
 const parts = new Map<string, Part>();
-let given = inAddress();
+const given = inAddress();
 let timer: number | undefined;
 
 function inAddress(): URLSearchParams {
@@ -33,13 +33,8 @@ function write() {
   if (text !== inAddress().toString()) history.replaceState(null, '', text ? `#${text}` : location.pathname + location.search);
 }
 
-addEventListener('hashchange', () => {
-  given = inAddress();
-  for (const [name, part] of parts) {
-    const text = given.get(name);
-    if (text !== null) part.read(text);
-  }
-});
+// What a link leaves out is as the page has it by itself. The page's own changes of the address are no such event.
+addEventListener('hashchange', () => { if (location.hash.includes('=')) location.reload(); });
 
 /** A control whose value stands in the address where it is not the one it has by itself. */
 export function keepControl(name: string, control: HTMLInputElement | HTMLSelectElement, byItself?: () => string) {

@@ -24,10 +24,14 @@ export function ticks(low: number, high: number, pixels: number, apart: number):
 
 /** Of an axis that a plane body is measured along: metres per pixel and the coordinate at pixel 0. */
 function axis(frame: Frame, along: 0 | 1): { perPixel: number; zero: number } {
-  const unit = frame.body.size;
-  const ends = [0, unit].map((v) => frame.place(along === 0 ? v : 0, along === 1 ? v : 0, 0)[along]);
-  const perPixel = unit / (ends[1] - ends[0]);
-  return { perPixel, zero: -ends[0] * perPixel };
+  // From the body's middle: of one far from the origin single precision would lose the places.
+  const { body, camera } = frame;
+  const ends = [0, 1].map((v) => {
+    const [x, y] = body.project(camera.three, Float32Array.from([along === 0 ? v : 0, along === 1 ? v : 0, 0]));
+    return frame.inPixels(x, y)[along];
+  });
+  const perPixel = body.size / (ends[1] - ends[0]);
+  return { perPixel, zero: body.centre[along] - ends[0] * perPixel };
 }
 
 export function drawAxes(pen: Pen, frame: Frame) {
@@ -37,19 +41,26 @@ export function drawAxes(pen: Pen, frame: Frame) {
   const up: [number, number] = [y.zero + foot * y.perPixel, y.zero];
   const power = thousands(frame.body.size);
   const [ink, muted] = [colour('--ink'), colour('--muted')];
-  const named = (v: number) => shown(Number((v / 10 ** power).toPrecision(6)), 5);
+  // Neighbours differ in the last digits, however far from the origin they are.
+  const namesOf = (all: number[]) => {
+    const farthest = Math.max(...all.map(Math.abs)), apart = all.length > 1 ? all[1] - all[0] : farthest;
+    const digits = Math.max(5, Math.min(15, Math.floor(Math.log10(farthest / apart)) + 2));
+    return all.map((v) => shown(Number((v / 10 ** power).toPrecision(digits)), digits));
+  };
   pen.lines([[[left, 4], [left, foot], [pen.width - 4, foot]]], muted, 1);
-  for (const v of ticks(...across, pen.width - left, 80)) {
+  const along = ticks(...across, pen.width - left, 80), upwards = ticks(...up, foot, 50);
+  const names = namesOf(along), upNames = namesOf(upwards);
+  for (const [i, v] of along.entries()) {
     const at = (v - x.zero) / x.perPixel;
     if (at < left - 0.5 || at > pen.width - 20) continue;
     pen.lines([[[at, foot], [at, foot + 4]]], muted, 1);
-    pen.words(named(v), [at, foot + 6], { colour: ink, align: 'center', baseline: 'top' });
+    pen.words(names[i], [at, foot + 6], { colour: ink, align: 'center', baseline: 'top' });
   }
-  for (const v of ticks(...up, foot, 50)) {
+  for (const [i, v] of upwards.entries()) {
     const at = (v - y.zero) / y.perPixel;
     if (at > foot + 0.5 || at < 8) continue;
     pen.lines([[[left - 4, at], [left, at]]], muted, 1);
-    pen.words(named(v), [left - 7, at], { colour: ink, align: 'right' });
+    pen.words(upNames[i], [left - 7, at], { colour: ink, align: 'right' });
   }
   pen.words(`x [${unitWith(power, 'm')}]`, [pen.width - 6, foot + 22], { colour: muted, align: 'right', baseline: 'top' });
   pen.words(`y [${unitWith(power, 'm')}]`, [left + 6, 6], { colour: muted, baseline: 'top', rim: colour('--card') });

@@ -29,10 +29,13 @@ export interface Look {
 
 const vertexShader = `
   attribute float level;
+  attribute float missing;
   varying float vLevel;
+  varying float vMissing;
   varying vec3 vPlace;
   void main() {
     vLevel = level;
+    vMissing = missing;
     vec4 place = modelViewMatrix * vec4(position, 1.0);
     vPlace = place.xyz;
     gl_Position = projectionMatrix * place;
@@ -43,13 +46,20 @@ const fragmentShader = `
   uniform vec3 plain;
   uniform float coloured;
   varying float vLevel;
+  varying float vMissing;
   varying vec3 vPlace;
   void main() {
     vec3 normal = normalize(cross(dFdx(vPlace), dFdy(vPlace)));
     float light = mix(1.0, 0.62 + 0.38 * abs(normal.z), shade);
     vec3 colour = texture2D(colours, vec2(clamp(vLevel, 0.0, 1.0) * 255.0 / 256.0 + 0.5 / 256.0, 0.5)).rgb;
-    gl_FragColor = vec4(mix(plain, colour, coloured) * light, 1.0);
+    gl_FragColor = vec4(mix(plain, colour, vMissing > 0.0 ? 0.0 : coloured) * light, 1.0);
   }`;
+
+/** Of each corner the place on the colour bar, and whether there is no value. */
+function setColours(geometry: THREE.BufferGeometry, corners: number) {
+  for (const name of ['level', 'missing'])
+    geometry.setAttribute(name, new THREE.BufferAttribute(new Float32Array(corners), 1));
+}
 
 const textures = new Map<string, THREE.DataTexture>();
 
@@ -107,7 +117,7 @@ export class Body {
     });
     const corners = new THREE.BufferAttribute(this.places, 3);
     this.smooth.setAttribute('position', corners);
-    this.smooth.setAttribute('level', new THREE.BufferAttribute(new Float32Array(this.places.length / 3), 1));
+    setColours(this.smooth, this.places.length / 3);
     this.smooth.setIndex(new THREE.BufferAttribute(this.grid.triangles, 1));
     this.lines.setAttribute('position', corners);
     this.lines.setIndex(new THREE.BufferAttribute(this.grid.edges, 1));
@@ -143,7 +153,8 @@ export class Body {
 
   /** Magnification of displacements that shows them well and folds no cell. */
   get suitableScale(): number {
-    this.scale ??= this.whole?.suitableScale ?? suitableMagnification(this.grid, this.size, this.shape.field('displacement'), this.shape.field('strain'));
+    this.scale ??= this.whole?.suitableScale ?? suitableMagnification(this.grid, this.size, this.shape.field('displacement'), this.shape.field('strain'),
+      !!this.shape.solid);
     return this.scale;
   }
 
@@ -204,7 +215,7 @@ export class Body {
     if (!this.flat) {
       this.flat = new THREE.BufferGeometry();
       this.flat.setAttribute('position', new THREE.BufferAttribute(new Float32Array(3 * triangles.length), 3));
-      this.flat.setAttribute('level', new THREE.BufferAttribute(new Float32Array(triangles.length), 1));
+      setColours(this.flat, triangles.length);
     }
     if (this.spread) return this.flat;
     this.spread = true;
@@ -222,14 +233,16 @@ export class Body {
     if (key === this.coloured) return;
     this.coloured = key;
     const { data, places } = look.field.values(look.component);
-    const attribute = this.triangleObject.geometry.getAttribute('level') as THREE.BufferAttribute;
-    const to = attribute.array as Float32Array;
+    const [attribute, absent] = ['level', 'missing'].map((name) => this.triangleObject.geometry.getAttribute(name) as THREE.BufferAttribute);
+    const to = attribute.array as Float32Array, missing = absent.array as Float32Array;
     const first = look.state * places, { low, high, logarithmic } = look.range;
     for (let i = 0; i < to.length; ++i) {
       const place = look.field.onPoints ? i : this.grid.triangleCells[(i / 3) | 0];
-      to[i] = logarithmic ? levelOf(look.range, data[first + place]) : (data[first + place] - low) / (high - low);
+      const value = data[first + place];
+      missing[i] = Number.isNaN(value) ? 1 : 0;
+      to[i] = missing[i] ? 0 : logarithmic ? levelOf(look.range, value) : (value - low) / (high - low);
     }
-    attribute.needsUpdate = true;
+    attribute.needsUpdate = absent.needsUpdate = true;
   }
 
   private line(look: Look) {
@@ -258,7 +271,7 @@ export class Body {
       material.uniforms.plain = { value: new THREE.Vector3(colour.r, colour.g, colour.b) };
       material.uniforms.coloured = { value: 0 };
       material.uniforms.shade = { value: 1 };
-      geometry.setAttribute('level', new THREE.BufferAttribute(new Float32Array(positions.length / 3), 1));
+      setColours(geometry, positions.length / 3);
       this.settingObject.add(new THREE.Mesh(geometry, material));
     }
   }
@@ -312,6 +325,8 @@ export interface Hit { triangle: number; weights: [number, number, number] }
 
 /** The value of a field's component at a place. */
 export function valueAt(grid: Grid, field: Field, component: string, state: number, hit: Hit): number {
+  const parts = component === 'size' && field.onPoints ? field.partsOfSize : [];
+  if (parts.length > 0) return Math.hypot(...parts.map((part) => valueAt(grid, field, part, state, hit)));
   const { data, places } = field.values(component);
   const first = state * places;
   if (!field.onPoints) return data[first + grid.triangleCells[hit.triangle]];

@@ -1,18 +1,33 @@
 // What a second run has more than a first one: the same fields on the first one's body and at its moments.
 import { Body, Hit } from './body';
 import { Locator } from './locate';
+import { isSameMesh } from './same_mesh';
 import { Field, Grid, Values } from './results';
+
+type Place = [number, number, number];
 
 /** Places of one body in another. */
 class Passage {
   readonly same: boolean;
   private nodes?: (Hit | undefined)[];
   private cells?: (Hit | undefined)[];
-  constructor(private readonly from: Body, private readonly to: Body) { this.same = sameMesh(from.grid, to.grid, from.size); }
+  constructor(private readonly from: Body, private readonly to: Body) { this.same = isSameMesh(from, to); }
 
+  /** On the side of an interface where a triangle of the node lies: what is recovered jumps there. */
   ofNodes(): (Hit | undefined)[] {
-    const { points } = this.from.grid;
-    return (this.nodes ??= this.find(points.length / 3, (i) => [points[3 * i], points[3 * i + 1], points[3 * i + 2]]));
+    if (this.nodes) return this.nodes;
+    const { points, triangles } = this.from.grid;
+    const inside = new Array<number>(points.length / 3);
+    triangles.forEach((node, k) => (inside[node] ??= 3 * Math.floor(k / 3)));
+    const at = (node: number): Place => [points[3 * node], points[3 * node + 1], points[3 * node + 2]];
+    const locator = new Locator(this.to.grid, this.to.size);
+    return (this.nodes = Array.from(inside, (first, node) => {
+      const place = at(node);
+      if (first === undefined) return locator.find(...place);
+      const corners = [0, 1, 2].map((k) => at(triangles[first + k]));
+      const nudged = place.map((v, c) => v + 1e-3 * ((corners[0][c] + corners[1][c] + corners[2][c]) / 3 - v)) as Place;
+      return locator.findBeside(place, nudged);
+    }));
   }
 
   /** By the middle of a triangle of each. */
@@ -21,18 +36,13 @@ class Passage {
     const first = new Array<number>(cells.length);
     triangleCells.forEach((cell, t) => (first[cell] ??= t));
     return (this.cells ??= this.find(cells.length, (i) => [0, 1, 2].map((c) =>
-      [0, 1, 2].reduce((sum, k) => sum + points[3 * triangles[3 * first[i] + k] + c] / 3, 0)) as [number, number, number]));
+      [0, 1, 2].reduce((sum, k) => sum + points[3 * triangles[3 * first[i] + k] + c] / 3, 0)) as Place));
   }
 
-  private find(count: number, at: (i: number) => [number, number, number]): (Hit | undefined)[] {
+  private find(count: number, at: (i: number) => Place): (Hit | undefined)[] {
     const locator = new Locator(this.to.grid, this.to.size);
     return Array.from({ length: count }, (_, i) => locator.find(...at(i)));
   }
-}
-
-function sameMesh(a: Grid, b: Grid, size: number): boolean {
-  return a.triangles.length === b.triangles.length && a.points.length === b.points.length &&
-    a.triangles.every((v, i) => v === b.triangles[i]) && a.points.every((v, i) => Math.abs(v - b.points[i]) <= 1e-6 * size);
 }
 
 /** Between which states of a run a time lies, and how far on; its ends beyond them. */
@@ -44,11 +54,15 @@ function between(times: number[], time: number): { first: number; share: number 
   return { first, share: (time - times[first]) / (times[first + 1] - times[first]) };
 }
 
+/** Of numbers on the page. */
+const singlePrecision = 6e-8;
+const largest = ({ least, greatest }: Values) => Math.max(0, -least, greatest);
+
 class DifferenceField extends Field {
   constructor(private readonly one: Field, private readonly other: Field, private readonly passage: Passage,
     private readonly times: number[], private readonly otherTimes: number[], private readonly otherGrid: Grid,
     private readonly ofWhole?: Field) {
-    super(one.description);
+    super({ ...one.description, belowRoundOff: one.belowRoundOff && other.belowRoundOff });
   }
 
   override ranges(component: string): Values[] {
@@ -65,8 +79,13 @@ class DifferenceField extends Field {
       const first = state * own.places;
       for (let i = 0; i < own.places; ++i) data[first + i] = there(i) - own.data[first + i];
     });
-    return new Values(data, own.places, own.error + theirs.error);
+    return new Values(data, own.places, own.error + theirs.error + singlePrecision * (largest(own) + largest(theirs)));
   }
+
+  override get partsOfSize(): string[] { return []; }
+
+  /** What the second has more, as of every component; not the size of the difference. */
+  protected override size(): Values { return this.component('size'); }
 
   /** The other run's value at a place of this one. */
   private otherAt({ data, places }: Values, time: number): (i: number) => number {
@@ -99,7 +118,7 @@ export function differenceOf(one: Body, other: Body, whole?: Body): Difference |
       ? [new DifferenceField(field, theirs, passage, a.stateTimes, b.stateTimes, other.grid,
         whole?.result.field(field.name))] : [];
   });
-  const said = passage.same ? '' : 'interpolated to the mesh of the first';
+  const said = passage.same ? '' : 'interpolated to the mesh of the first, without colour where the second is not';
   return fields.length === 0 ? undefined
     : { body: new Body(a.withFields(`${b.title} less ${a.title}`, 'difference', fields), a, whole), said };
 }

@@ -5,6 +5,7 @@ import { Body, Look } from './body';
 import { margins } from './axes';
 import { canBeLogarithmic } from './colour_scale';
 import { differenceOf } from './difference';
+import { isSameMesh } from './same_mesh';
 import { Display } from './display';
 import { drawOverlay } from './overlay';
 import { keepCamera } from './view_camera';
@@ -26,7 +27,7 @@ import { choice, element, tick } from './dom';
 import { HandRange } from './hand_range';
 import { isReached, notReached, stateAt, strayMoment } from './moments';
 import { drawRing, nextNode, Probed, snapped, tell } from './readout';
-import { Extremes, peaks, shownRange, wholeRange } from './shown_range';
+import { Extremes, Found, peaks, shownRange, wholeRange } from './shown_range';
 import { fieldTitle, shown, symbols } from './numbers';
 import { Drawing } from './on_screen';
 import { camerasOf } from './overview';
@@ -92,7 +93,8 @@ export class Explorer {
     timeline.onChange(() => this.probing.update());
     this.display = new Display(vectorNames(bodies.map((b) => b.result)));
     this.display.onChange(() => this.showOtherwise());
-    this.fieldChoice = choice('Field', first.fields.map((f) => [f.name, fieldTitle(f.name)]), this.field,
+    const names = new Set(bodies.flatMap((body) => body.result.fields.map((f) => f.name)));
+    this.fieldChoice = choice('Field', [...names].map((name) => [name, fieldTitle(name)]), this.field,
       (name) => this.choose(name));
     this.fieldChoice.select.id = 'field';
     this.componentChoice = choice('Component', [], '', (c) => { this.component = c; this.useHand(); this.probing.update(); this.refresh(); });
@@ -109,7 +111,7 @@ export class Explorer {
   choose(name: string) {
     this.field = name;
     this.fieldChoice.select.value = name;
-    const { components } = this.views[0].result.field(name)!;
+    const components = this.componentsOf(name);
     this.component = components[0];
     this.componentChoice.box.hidden = components.length === 1;
     this.componentChoice.select.replaceChildren(...components.map((c) =>
@@ -119,13 +121,17 @@ export class Explorer {
     this.refresh();
   }
 
+  /** In the first run that has the field. */
+  private componentsOf(name: string): string[] {
+    return this.views.find((view) => view.result.field(name))!.result.field(name)!.components;
+  }
+
   // Limits are those of one quantity: 0.03 V are not 0.03 K.
   private useHand() {
     if (this.rangeOver !== 'hand') return;
     this.hand.use(`${this.field} ${this.component}`, () => {
-      const view = this.views[0], field = this.fieldOf(view);
-      const { all, usual, error } = this.valuesOf(this.sharing(view));
-      return field ? shownRange(all, usual, field, error) : colourRange(0, 0);
+      const view = this.views.find((one) => this.fieldOf(one)) ?? this.views[0], field = this.fieldOf(view);
+      return field ? shownRange(this.valuesOf(this.sharing(view)), field) : colourRange(0, 0);
     });
   }
 
@@ -155,7 +161,7 @@ export class Explorer {
   private keepAll() {
     this.cut.keep();
     keepControl('field', this.fieldChoice.select);
-    keepControl('component', this.componentChoice.select, () => this.views[0].result.field(this.field)!.components[0]);
+    keepControl('component', this.componentChoice.select, () => this.componentsOf(this.field)[0]);
     this.box.querySelectorAll<HTMLInputElement>('.toolbar:not(.further) :is(#range, #stretch, #magnification, .tick input, .hand input)')
       .forEach((control) => keepControl(control.id || control.getAttribute('aria-label') || control.parentElement!.textContent!, control));
     const cameras = [...new Set(this.views.map((view) => view.camera))];
@@ -271,13 +277,14 @@ export class Explorer {
   private fieldOf(view: View): Field | undefined { return view.result.field(this.field); }
 
   /** Of the views that share their colours. */
-  private valuesOf(views: View[]): { all: Extremes; usual: Extremes; error: number } {
-    const found = { all: nothing(), usual: nothing(), error: 0 };
+  private valuesOf(views: View[]): Found {
+    const found = { all: nothing(), usual: nothing(), error: 0, belowRoundOff: true };
     for (const view of views) {
       const field = this.fieldOf(view);
       if (!field?.has(this.component)) continue;
       const state = stateAt(view.result, this.timeline.time);
       if (this.rangeOver === 'step' && state < 0) continue;
+      found.belowRoundOff &&= field.belowRoundOff;
       for (const values of field.ranges(this.component)) {
         include(found.all, this.rangeOver === 'step' ? values.of(state) : values);
         // Nothing is cut off an unknown.
@@ -295,10 +302,10 @@ export class Explorer {
 
   private range(view: View): Range {
     const field = this.fieldOf(view);
-    if (!field) return colourRange(0, 0);
-    const { all, usual, error } = this.valuesOf(this.sharing(view));
-    if (this.rangeOver === 'hand') return this.hand.range(all);
-    return this.rangeOver === 'peaks' ? wholeRange(all, field, error) : shownRange(all, usual, field, error);
+    if (!field) return { ...colourRange(0, 0), instead: view.less === undefined ? 'not in this run' : 'not in both runs' };
+    const found = this.valuesOf(this.sharing(view));
+    if (this.rangeOver === 'hand') return this.hand.range(found.all);
+    return this.rangeOver === 'peaks' ? wholeRange(found, field) : shownRange(found, field);
   }
 
   /** The magnification of displacements: of all views, if it is to be the same, what none of them is folded by. */
@@ -485,7 +492,7 @@ export class Explorer {
 
   /** Whether what is pointed at is a place of this view's body too. */
   private isTold(view: View): boolean {
-    return !!this.probed && (view === this.probed.view || sameGrid(view.body, this.probed.view.body));
+    return !!this.probed && (view === this.probed.view || isSameMesh(view.body, this.probed.view.body));
   }
 
   // Of the moment that is shown, so again whenever that changes.
@@ -499,7 +506,3 @@ export class Explorer {
 
 // OrbitControls measures angles about y; the body's up is z.
 const turned = new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 0, 1), new THREE.Vector3(0, 1, 0));
-
-function sameGrid(a: Body, b: Body): boolean {
-  return a.grid.triangles.length === b.grid.triangles.length && a.grid.points.length === b.grid.points.length;
-}

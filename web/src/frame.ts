@@ -12,11 +12,5 @@ export class Frame {
 
   node(i: number): Point { return this.inPixels(this.nodes[3 * i], this.nodes[3 * i + 1]); }
 
-  /** Of a place of the undeformed body [m]. */
-  place(...at: number[]): Point {
-    const [x, y] = this.body.project(this.camera.three, this.body.inScene(Float32Array.from(at)));
-    return this.inPixels(x, y);
-  }
-
   inPixels(x: number, y: number): Point { return [((x + 1) / 2) * this.width, ((1 - y) / 2) * this.height]; }
 }

@@ -36,6 +36,15 @@ export class Locator {
     return off <= tolerance ? best : undefined;
   }
 
+  /** The same on the side where `inside` lies, a place near by. */
+  findBeside(place: Place, inside: Place): Hit | undefined {
+    const there = this.find(...inside);
+    if (!there) return this.find(...place);
+    const { weights, distance } = this.weightsIn(there.triangle, place);
+    const outside = Math.max(0, -Math.min(...weights)) + distance / this.size;
+    return outside <= tolerance ? { triangle: there.triangle, weights } : this.find(...place);
+  }
+
   private index(v: number, c: number): number { return Math.floor((v - this.low[c]) / this.side + 1e-9); }
   private key([i, j, k]: Place): number { return (k * (this.across + 2) + j) * (this.across + 2) + i; }
 

@@ -1,5 +1,5 @@
 // How far displacements may be magnified. The counterpart of src/report/scale.cc.
-import { Field, Grid } from './results';
+import { Field, Grid, Values } from './results';
 
 /** The first s > 0 at which 1 + b s + c s² has fallen to a tenth. */
 function tenthAt(b: number, c: number): number {
@@ -56,8 +56,8 @@ function least(xx: number, yy: number, zz: number, xy: number, yz: number, xz: n
 }
 
 /** The largest magnification at which no cell is pressed to less than a tenth in any direction, by its mean strain. */
-function unfoldedCells(strain: Field): number {
-  const parts = ['xx', 'yy', 'zz', 'xy', 'yz', 'xz'].map((c) => (strain.has(c) ? strain.values(c).data : undefined));
+function unfoldedCells(strain: Field, values: (component: string) => Values): number {
+  const parts = ['xx', 'yy', 'zz', 'xy', 'yz', 'xz'].map((c) => (strain.has(c) ? values(c).data : undefined));
   let lowest = 0;
   const count = parts.find((p) => p)?.length ?? 0;
   for (let i = 0; i < count; ++i) {
@@ -69,14 +69,16 @@ function unfoldedCells(strain: Field): number {
 
 /**
  * One digit times 10^n, at which the greatest displacement of all states is at most a tenth of the body's `size` and no
- * cell is pressed to less than a tenth. 1 when nothing moves.
+ * cell is pressed to less than a tenth. 1 when nothing moves. `inside`: the page has what is behind the skin, for cuts.
  */
-export function suitableMagnification(grid: Grid, size: number, displacement?: Field, strain?: Field): number {
-  const greatest = displacement?.values('size').greatest ?? 0;
+export function suitableMagnification(grid: Grid, size: number, displacement?: Field, strain?: Field, inside = false): number {
+  const greatest = Math.max(0, ...(inside ? displacement?.insideToo('size') ?? [] : [displacement?.values('size')])
+    .map((values) => values?.greatest ?? 0));
   if (!displacement || !(greatest > 0)) return 1;
   const solid = grid.points.some((v, i) => i % 3 === 2 && v !== 0);
   const wanted = Math.min((0.1 * size) / greatest, unfoldedTriangles(grid, displacement),
-    solid && strain ? unfoldedCells(strain) : Infinity);
+    solid && strain ? unfoldedCells(strain, (c) => strain.values(c)) : Infinity,
+    inside && strain ? unfoldedCells(strain, (c) => strain.insideToo(c)[1]) : Infinity);
   const power = 10 ** Math.floor(Math.log10(wanted));
   return Number.isFinite(wanted) ? ([8, 6, 5, 4, 3, 2].find((m) => m * power <= wanted * 1.000001) ?? 1) * power : 1;
 }

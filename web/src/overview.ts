@@ -76,7 +76,8 @@ export class Overview {
       const field = result.field(name);
       if (!field) continue;
       const values = field.values('');
-      const range = shownRange(values, field.isUnknown ? values : values.usual(peaks), field, values.error);
+      const range = shownRange({ all: values, usual: field.isUnknown ? values : values.usual(peaks), error: values.error,
+        belowRoundOff: field.belowRoundOff }, field);
       const bar = new ColourBar(true);
       const showBar = () => bar.show(range, field.unit);
       this.bars.push(showBar);

@@ -7,7 +7,8 @@ import { choice, element } from './dom';
 import { Frame } from './frame';
 import { lineOnSkin, LineProbe, straightLine } from './line_probe';
 import { Locator } from './locate';
-import { stateAt } from './moments';
+import { stateAt, strayMoment } from './moments';
+import { isSameMesh } from './same_mesh';
 import { fieldTitle, symbols } from './numbers';
 import { Pen, Point } from './pen';
 import { inScene, overTime, undeformed } from './skin_place';
@@ -124,7 +125,7 @@ export class Probing {
     if (!this.plane) {
       const line = lineOnSkin(body, camera, from, to);
       for (const b of this.bodies)
-        if (b === body || b.grid.triangles.length === body.grid.triangles.length) this.lines.set(b, line);
+        this.lines.set(b, isSameMesh(b, body) ? line : { ...line, hits: line.places.map((p) => this.locator(b).find(...p)) });
       if (line.hits.length < 2) this.lines.clear();
       return;
     }
@@ -186,9 +187,9 @@ export class Probing {
       const hit = this.locator(body).find(...place);
       if (!hit) return [];
       const own = overTime(body, field, component, hit);
-      // Where the run had ended there is nothing.
-      const values = this.timeline.times.map((t) => own[stateAt(body.result, t)] ?? null);
-      return [{ label: this.named(body, `pin ${k + 1}`), colour: lineColours[k % lineColours.length], values, dashed: i > 0 }];
+      // At the moments that the page has fields of, with lines between.
+      const values = this.timeline.times.map((t) => (strayMoment(body.result, t) ? null : own[stateAt(body.result, t)]));
+      return [{ label: this.named(body, `pin ${k + 1}`), colour: lineColours[k % lineColours.length], values, dashed: i > 0, joined: true }];
     });
   }
 

@@ -23,7 +23,8 @@ export function tell(readout: HTMLElement, body: Body, { hit, node }: Probed, ti
   if (state < 0) return readout.replaceChildren(`${shown(time)} s is not reached: ${notReached(result)}.`);
   const place = [0, 1, 2].slice(0, result.dimension).map((c) =>
     hit.weights.reduce((sum, w, k) => sum + (w === 0 ? 0 : w * grid.points[3 * grid.triangles[3 * hit.triangle + k] + c]), 0));
-  const coordinate = (v: number) => shown(Math.abs(v) <= 1e-12 * body.size ? 0 : v, 5);
+  const digits = (v: number) => 5 + Math.max(0, Math.floor(Math.log10(Math.abs(v) / body.size)));  // far from the origin
+  const coordinate = (v: number) => (Math.abs(v) <= 1e-12 * body.size ? '0' : shown(v, digits(v)));
   const items = [item(place.map(coordinate).join(', '), 'm', node === undefined ? 'at' : `node ${grid.nodes[node]} at`)];
   const own = new Set<string>();
   const add = (of: Field, part: string) => {

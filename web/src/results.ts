@@ -172,6 +172,9 @@ export class Field {
 
   has(component: string): boolean { return this.components.includes(component); }
 
+  /** Components whose squares are added up to the size; empty where it is none of a vector. */
+  get partsOfSize(): string[] { return this.description.components; }
+
   /** What the colours of a component must cover. */
   ranges(component: string): Values[] { return [this.values(component)]; }
 
@@ -190,7 +193,7 @@ export class Field {
     return unpacked(this.description.values[this.description.components.indexOf(name)]);
   }
 
-  private size(): Values { return sizes(this.description.components.map((c) => this.values(c))); }
+  protected size(): Values { return sizes(this.description.components.map((c) => this.values(c))); }
 }
 
 function unpacked(packed: Packed): Values {

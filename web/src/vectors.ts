@@ -56,14 +56,15 @@ function ofSlip(frame: Frame, time: number): Arrow[] {
 }
 
 /** What is drawn, in pixels, and how long the longest vector is. */
-export function arrowsOf(frame: Frame, name: string, state: number, time: number): { arrows: [Point, Point][]; greatest: number } {
+export function arrowsOf(frame: Frame, name: string, state: number, time: number): { arrows: [Point, Point][]; greatest: number; places: number } {
   const all = name === slip ? ofSlip(frame, time) : ofField(frame, name, state);
   const greatest = all.reduce((most, { vector }) => Math.max(most, Math.hypot(...vector)), 0);
-  if (greatest === 0) return { arrows: [], greatest };
+  const places = all.length;
+  if (greatest === 0) return { arrows: [], greatest, places };
   const perScene = frame.width / ((frame.camera.three.right - frame.camera.three.left) / frame.camera.three.zoom);
   const ends = frame.body.project(frame.camera.three, Float32Array.from(all.flatMap(({ at, vector }) =>
     [...at, ...at.map((v, c) => v + (vector[c] / greatest) * (longest / perScene))])));
-  return { greatest, arrows: all.map((_, i): [Point, Point] =>
+  return { greatest, places, arrows: all.map((_, i): [Point, Point] =>
     [frame.inPixels(ends[6 * i], ends[6 * i + 1]), frame.inPixels(ends[6 * i + 3], ends[6 * i + 4])]) };
 }
 
@@ -78,7 +79,7 @@ function shape([[x, y], [tx, ty]]: [Point, Point]): { line: Point[]; head: Point
 
 /** Says what the longest arrow stands for. */
 export function drawVectors(pen: Pen, frame: Frame, name: string, state: number, time: number): string {
-  const { arrows, greatest } = arrowsOf(frame, name, state, time);
+  const { arrows, greatest, places } = arrowsOf(frame, name, state, time);
   const shapes = arrows.flatMap((ends) => shape(ends) ?? []);
   const [ink, card] = [colour('--ink'), colour('--card')];
   pen.lines(shapes.map((s) => s.line), card, 3);
@@ -86,5 +87,6 @@ export function drawVectors(pen: Pen, frame: Frame, name: string, state: number,
   pen.lines(shapes.map((s) => s.line), ink, 1.3);
   for (const { head } of shapes) pen.surface(head, ink);
   const unit = name === slip ? 'm' : frame.body.result.field(name)?.unit ?? '';
+  if (places === 0) return `no arrows: ${name === slip ? 'no contact' : 'nothing of it'} in this picture`;
   return greatest > 0 ? `longest arrow ${shown(greatest, 3)} ${unit}` : 'no arrows: 0 everywhere';
 }
