@@ -50,7 +50,7 @@ export function keepControl(name: string, control: HTMLInputElement | HTMLSelect
 }
 
 /** Numbers as they stand in an address, and back; undefined if they are not so many finite ones. */
-export const numbersText = (numbers: number[]) => numbers.map((v) => String(Number(v.toPrecision(7)))).join(',');
+export const numbersText = (numbers: number[], digits = 7) => numbers.map((v) => String(Number(v.toPrecision(digits)))).join(',');
 export function numbersIn(text: string, count: number): number[] | undefined {
   const numbers = text.split(',').map(Number);
   return numbers.length === count && numbers.every(Number.isFinite) ? numbers : undefined;

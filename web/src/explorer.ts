@@ -304,7 +304,7 @@ export class Explorer {
     const field = this.fieldOf(view);
     if (!field) return { ...colourRange(0, 0), instead: view.less === undefined ? 'not in this run' : 'not in both runs' };
     const found = this.valuesOf(this.sharing(view));
-    if (this.rangeOver === 'hand') return this.hand.range(found.all);
+    if (this.rangeOver === 'hand' && view.less === undefined) return this.hand.range(found.all);
     return this.rangeOver === 'peaks' ? wholeRange(found, field) : shownRange(found, field);
   }
 

@@ -9,7 +9,7 @@ import { lineOnSkin, LineProbe, straightLine } from './line_probe';
 import { Locator } from './locate';
 import { stateAt, strayMoment } from './moments';
 import { isSameMesh } from './same_mesh';
-import { fieldTitle, symbols } from './numbers';
+import { fieldTitle, shown, symbols } from './numbers';
 import { Pen, Point } from './pen';
 import { inScene, overTime, undeformed } from './skin_place';
 import { Camera } from './stage';
@@ -17,6 +17,8 @@ import { colour } from './theme';
 import { Timeline } from './timeline';
 
 type Place = [number, number, number];
+/** Of a coordinate [m], also where the body is far smaller than its distance from the origin. */
+const digitsOfPlaces = 12;
 export type Tool = 'values' | 'line' | 'pin';
 
 /** What is asked of the places. */
@@ -177,7 +179,8 @@ export class Probing {
     const line = this.lines.get(body), field = body.result.field(name)!;
     if (!line) return [];
     const state = stateAt(body.result, this.timeline.time);
-    return [{ label: this.named(body, ''), colour: lineColours[i],
+    const stray = state >= 0 && strayMoment(body.result, this.timeline.time) ? `, t = ${shown(body.result.stateTimes[state])} s` : '';
+    return [{ label: this.named(body, '') + stray, colour: lineColours[i],
       values: line.hits.map((hit) => (hit && state >= 0 ? valueAt(body.grid, field, component, state, hit) : null)) }];
   }
 
@@ -206,11 +209,11 @@ export class Probing {
   }
 
   private keepAll() {
-    keep('line', () => this.ends && numbersText(this.ends.flatMap(([x, y]) => [x, y])), (text) => {
+    keep('line', () => this.ends && numbersText(this.ends.flatMap(([x, y]) => [x, y]), digitsOfPlaces), (text) => {
       const n = numbersIn(text, 4);
       if (n && this.plane) this.layBetween([n[0], n[1], 0], [n[2], n[3], 0]);
     });
-    keep('pins', () => (this.pins.length > 0 ? this.pins.map(numbersText).join(' ') : undefined), (text) => {
+    keep('pins', () => (this.pins.length > 0 ? this.pins.map((pin) => numbersText(pin, digitsOfPlaces)).join(' ') : undefined), (text) => {
       this.pins = text.split(' ').flatMap((pin) => (numbersIn(pin, 3) as Place | undefined ? [numbersIn(pin, 3) as Place] : []));
     });
   }

@@ -58,6 +58,13 @@ await inBrowser(desktop, async (context) => {
     const [least, , , , greatest] = await ticks(turned, 2);
     assert.deepEqual([least, greatest, await view(turned, 2).locator('.unit').textContent()], ['−1', '0', '10³ V/m']);
   });
+  await test('a line over two runs says whose field is of another moment', async () => {
+    const finer = runText('finer', readFileSync(join(folder, 'charged-100.toml'), 'utf8'), 'time.steps=5');
+    const { tab: two } = await open(context, pageOf('two', some, finer) + '#t=0.4&line=0.01,0.01,0.09,0.09');
+    const labels = await two.locator('.asked .line .u-legend').textContent();
+    assert.match(labels, /, t = 0\.5 s/);
+    assert.doesNotMatch(labels, /, t = 0\.4 s/);
+  });
   await test('what only the second run has can be chosen, and the first says that it has not', async () => {
     const bare = runText('bare', `
 mesh.box = { min = [0, 0], max = [0.1, 0.1], cells = [6, 6] }
@@ -199,6 +206,20 @@ boundary = [ { on = "bottom", displacement = [0, 0], potential = 0, temperature 
     const texts = await ticks(tab, 0);
     assert.equal(new Set(texts).size, 5, String(texts));
     assert.deepEqual([texts[0], texts[4]], ['100', '100.02']);
+  });
+  await test('pins of a body far from the origin come back where they were', async () => {
+    const pinned = '10.000253,0.00051,0';
+    const { tab: again } = await open(context, `${join(far, 'report.html')}#field=temperature&pins=${pinned}`);
+    await again.locator('#steps').selectOption('bands');
+    await again.waitForFunction(() => location.hash.includes('bands'));
+    assert.equal(new URLSearchParams(await again.evaluate(() => location.hash.slice(1))).get('pins'), pinned);
+    assert.ok((await saved(again, '.pins')).length > 0);
+    // A link that is opened in the same tab shows what it says, and nothing of what was there before.
+    await Promise.all([again.waitForEvent('load'), again.evaluate(() => { location.hash = 'field=potential'; })]);
+    await again.waitForSelector('#run');
+    await settled(again);
+    assert.deepEqual([await again.locator('#field').inputValue(), await again.locator('#steps').inputValue(),
+      await again.locator('.asked .pins').isVisible()], ['potential', 'smooth', false]);
   });
 });
 
