@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "case/holding.h"
+#include "tourmaline/error.h"
 
 namespace tourmaline::run {
 
@@ -14,6 +15,18 @@ Adrift<dim>::Adrift(const solve::Model<dim> &model)
       left_to_contact_(model.composition.resists_motion() && !model.asked.time.is_static()
                            ? ""
                            : casefile::left_to_contact(model.asked)) {}
+
+template <int dim>
+double Adrift<dim>::size_of_body() const {
+  double size = 0;
+  const std::vector<Vector3> &points = model_.body.points();
+  for (std::size_t axis = 0; axis < dim; ++axis) {
+    const auto [least, most] = std::ranges::minmax_element(
+        points, {}, [axis](const Vector3 &point) { return point[axis]; });
+    size = std::max(size, (*most)[axis] - (*least)[axis]);
+  }
+  return size;
+}
 
 // Friction that slips holds, too: whether it lets go is for the balance of forces to say.
 template <int dim>
@@ -42,7 +55,15 @@ bool Adrift<dim>::is_held(const solve::StepOutcome &outcome) const {
 }
 
 template <int dim>
-void Adrift<dim>::step(int n, const solve::StepOutcome &outcome) {
+void Adrift<dim>::step(int n, const solve::StepOutcome &outcome, double displacement) {
+  constexpr double farthest = 1e3;  // small displacements are a hundredth of the body
+  if (!left_to_contact_.empty() && displacement > farthest * size_of_body())
+    throw SolveError(fmt::format(
+        "step {}: the body has left by {:.2g} m; nothing but contact keeps it from {}, and the "
+        "contact did not. Prescribe further components of `displacement`, press the body to the "
+        "foundation from the start, without a gap, or take solver.method = \"condensed\", which "
+        "finds the contact that holds it",
+        n, displacement, left_to_contact_));
   if (!left_to_contact_.empty() && !is_held(outcome) && ++steps_ == 1)
     first_ = n;
 }

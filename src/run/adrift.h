@@ -16,8 +16,9 @@ class Adrift {
   /// `model` outlives this.
   explicit Adrift(const solve::Model<dim> &model);
 
-  /// Of step n.
-  void step(int n, const solve::StepOutcome &outcome);
+  /// Of step n, in which a node is displaced by so much at most [m]. Throws SolveError where that
+  /// is so many times the body's size that neither deformation nor forces have digits left.
+  void step(int n, const solve::StepOutcome &outcome, double displacement);
   /// Empty where the body was held in every step.
   std::string warning() const;
 
@@ -26,6 +27,7 @@ class Adrift {
 
  private:
   bool is_held(const solve::StepOutcome &outcome) const;
+  double size_of_body() const;
 
   const solve::Model<dim> &model_;
   std::string left_to_contact_;  // the motions, as a phrase

@@ -115,7 +115,7 @@ void TimeLoop<dim>::begin() {
 template <int dim>
 void TimeLoop<dim>::book(TakenStep step) {
   account_.step(step.n, step.outcome, step.seconds);
-  adrift_.step(step.n, step.outcome);
+  adrift_.step(step.n, step.outcome, recorder_->largest_displacement(step.state));
   const output::HistoryRow row = record(step);
   highlights_.see(row);
   most_strained_.step(row, step.state);

@@ -4,6 +4,7 @@
 
 #include "tourmaline/case/case.h"
 #include "tourmaline/case/reader.h"
+#include "tourmaline/error.h"
 
 namespace tourmaline::run {
 namespace {
@@ -43,13 +44,13 @@ normal = "unilateral"
 };
 
 TEST_F(OnItsFoundation, ItIsHeldByOneNodeThatTouches) {
-  adrift.step(1, with(ContactStatus::slip, ContactStatus::open));
+  adrift.step(1, with(ContactStatus::slip, ContactStatus::open), 1e-6);
   EXPECT_EQ(adrift.warning(), "");
 }
 
 TEST_F(OnItsFoundation, ItIsAdriftWhereAllNodesAreOpen) {
-  adrift.step(1, with(ContactStatus::slip, ContactStatus::slip));
-  adrift.step(2, with(ContactStatus::open, ContactStatus::open));
+  adrift.step(1, with(ContactStatus::slip, ContactStatus::slip), 1e-6);
+  adrift.step(2, with(ContactStatus::open, ContactStatus::open), 1e-6);
   EXPECT_THAT(adrift.warning(), AllOf(HasSubstr("nothing held the body in step 2:"),
                                       HasSubstr("keeps it from, a translation along y.")));
 }
@@ -58,18 +59,29 @@ TEST_F(OnItsFoundation, ItIsNotAdriftWhereItsMassDampingHoldsIt) {
   const casefile::Case damped = on_foundation({"material.mass_damping=1"});
   const solve::Model<2> model_of(damped);
   Adrift<2> never(model_of);
-  never.step(1, with(ContactStatus::open, ContactStatus::open));
+  never.step(1, with(ContactStatus::open, ContactStatus::open), 1e-6);
   EXPECT_EQ(never.warning(), "");
 }
 
 TEST_F(OnItsFoundation, ARunThatGoesOnKnowsOfTheStepsBefore) {
-  adrift.step(2, with(ContactStatus::open, ContactStatus::open));
+  adrift.step(2, with(ContactStatus::open, ContactStatus::open), 1e-6);
   output::SavedNumbers numbers;
   adrift.save(numbers);
   Adrift<2> later(model);
   later.restore(numbers);
-  later.step(3, with(ContactStatus::open, ContactStatus::open));
+  later.step(3, with(ContactStatus::open, ContactStatus::open), 1e-6);
   EXPECT_THAT(later.warning(), HasSubstr("in 2 steps, first in step 2:"));
+}
+
+TEST_F(OnItsFoundation, ABodyThatIsGoneIsNoSolution) {
+  adrift.step(1, with(ContactStatus::open, ContactStatus::open), 1);
+  try {
+    adrift.step(2, with(ContactStatus::slip, ContactStatus::open), 1e9);
+    FAIL();
+  } catch (const SolveError &error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("step 2: the body has left by 1e+09 m"),
+                                    HasSubstr("keeps it from a translation along y,")));
+  }
 }
 
 }  // namespace
