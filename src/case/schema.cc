@@ -289,8 +289,7 @@ void declare(Visitor &v, SolverCase &solver, const std::vector<ContactCase> &con
        .description = "at which the iterative solution of the body's equations stops: norm of the "
                       "residual over that of the largest contribution, in each field",
        .range = {.low = 0, .high = 1e-3, .low_allowed = false, .sense = sense::tolerance},
-       .used = {solver.method == "condensed" && solver.body != "direct",
-                "method = \"condensed\" and body = \"iterative\" or \"automatic\""}},
+       .used = with("body", solver.body, {"iterative", "automatic"})},
       &solver.linear_tolerance);
   v.key({.name = "tolerance",
          .description = "at which the contact iteration stops: natural residual divided by the "
