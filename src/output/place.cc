@@ -6,8 +6,6 @@
 
 namespace tourmaline::output {
 
-namespace {
-
 double largest_extent(const std::vector<Vector3> &points) {
   double extent = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -18,8 +16,6 @@ double largest_extent(const std::vector<Vector3> &points) {
   }
   return extent;
 }
-
-}  // namespace
 
 std::vector<std::size_t> sorted_by_place(const std::vector<Vector3> &points) {
   std::vector<std::size_t> order(points.size());

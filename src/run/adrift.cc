@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "case/holding.h"
+#include "output/place.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::run {
@@ -15,18 +17,6 @@ Adrift<dim>::Adrift(const solve::Model<dim> &model)
       left_to_contact_(model.composition.resists_motion() && !model.asked.time.is_static()
                            ? ""
                            : casefile::left_to_contact(model.asked)) {}
-
-template <int dim>
-double Adrift<dim>::size_of_body() const {
-  double size = 0;
-  const std::vector<Vector3> &points = model_.body.points();
-  for (std::size_t axis = 0; axis < dim; ++axis) {
-    const auto [least, most] = std::ranges::minmax_element(
-        points, {}, [axis](const Vector3 &point) { return point[axis]; });
-    size = std::max(size, (*most)[axis] - (*least)[axis]);
-  }
-  return size;
-}
 
 // Friction that slips holds, too: whether it lets go is for the balance of forces to say.
 template <int dim>
@@ -55,15 +45,32 @@ bool Adrift<dim>::is_held(const solve::StepOutcome &outcome) const {
 }
 
 template <int dim>
-void Adrift<dim>::step(int n, const solve::StepOutcome &outcome, double displacement) {
-  constexpr double farthest = 1e3;  // small displacements are a hundredth of the body
-  if (!left_to_contact_.empty() && displacement > farthest * size_of_body())
-    throw SolveError(fmt::format(
-        "step {}: the body has left by {:.2g} m; nothing but contact keeps it from {}, and the "
-        "contact did not. Prescribe further components of `displacement`, press the body to the "
-        "foundation from the start, without a gap, or take solver.method = \"condensed\", which "
-        "finds the contact that holds it",
-        n, displacement, left_to_contact_));
+void Adrift<dim>::require_near(int n, std::span<const double> state) const {
+  constexpr double farthest = 1e3;  // displacements that are small are a hundredth of the body
+  double square = 0;
+  for (body::Node node = 0; node < model_.body.n_nodes(); ++node) {
+    double of_node = 0;
+    for (int c = 0; c < dim; ++c)
+      of_node += std::pow(state[body::unknown<dim>(node, c)], 2);
+    square = std::max(square, of_node);
+  }
+  const double displacement = std::sqrt(square);
+  if (displacement <= farthest * output::largest_extent(model_.body.points()))
+    return;
+  throw SolveError(fmt::format(
+      "step {}: the body has left by {:.2g} m; nothing but contact keeps it from {}, and the "
+      "contact did not. Prescribe further components of `displacement`{}, or press the body to the "
+      "foundation from the start, without a gap",
+      n, displacement, left_to_contact_,
+      model_.asked.solver.method == "condensed"
+          ? ""
+          : ", take solver.method = \"condensed\", which finds the contact that holds it"));
+}
+
+template <int dim>
+void Adrift<dim>::step(int n, const solve::StepOutcome &outcome, std::span<const double> state) {
+  if (!left_to_contact_.empty())
+    require_near(n, state);
   if (!left_to_contact_.empty() && !is_held(outcome) && ++steps_ == 1)
     first_ = n;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "output/checkpoint.h"
@@ -16,9 +17,9 @@ class Adrift {
   /// `model` outlives this.
   explicit Adrift(const solve::Model<dim> &model);
 
-  /// Of step n, in which a node is displaced by so much at most [m]. Throws SolveError where that
-  /// is so many times the body's size that neither deformation nor forces have digits left.
-  void step(int n, const solve::StepOutcome &outcome, double displacement);
+  /// Of step n, which ends in `state`. Throws SolveError where that is so far away, in sizes of the
+  /// body, that neither deformation nor forces have digits left.
+  void step(int n, const solve::StepOutcome &outcome, std::span<const double> state);
   /// Empty where the body was held in every step.
   std::string warning() const;
 
@@ -27,7 +28,7 @@ class Adrift {
 
  private:
   bool is_held(const solve::StepOutcome &outcome) const;
-  double size_of_body() const;
+  void require_near(int n, std::span<const double> state) const;
 
   const solve::Model<dim> &model_;
   std::string left_to_contact_;  // the motions, as a phrase

@@ -282,14 +282,6 @@ std::vector<output::ContactRow> Recorder<dim>::contact_rows(int n,
 }
 
 template <int dim>
-double Recorder<dim>::largest_displacement(std::span<const double> state) const {
-  double largest = 0;
-  for (body::Node node = 0; node < model_.body.n_nodes(); ++node)
-    largest = std::max(largest, displacement<dim>(state, node).norm());
-  return largest;
-}
-
-template <int dim>
 std::vector<output::Extreme> Recorder<dim>::extremes(std::span<const double> state) const {
   using Value = std::function<double(body::Node)>;
   const auto component = [&](int c) {

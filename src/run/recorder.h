@@ -40,8 +40,6 @@ class Recorder {
   void finish(std::span<const double> state);
 
   std::vector<output::Extreme> extremes(std::span<const double> state) const;
-  /// [m]
-  double largest_displacement(std::span<const double> state) const;
   double seconds() const { return seconds_; }
   /// About the steps so far.
   std::vector<std::string> warnings() const { return judgement_.warnings(); }

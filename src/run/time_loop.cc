@@ -10,6 +10,7 @@
 #include "case/snapping.h"
 #include "case/tables_in_time.h"
 #include "contact/checked_law.h"
+#include "output/place.h"
 #include "parallel/ranks.h"
 #include "report/page.h"
 #include "run/contact_edges.h"
@@ -115,7 +116,7 @@ void TimeLoop<dim>::begin() {
 template <int dim>
 void TimeLoop<dim>::book(TakenStep step) {
   account_.step(step.n, step.outcome, step.seconds);
-  adrift_.step(step.n, step.outcome, recorder_->largest_displacement(step.state));
+  adrift_.step(step.n, step.outcome, step.state);
   const output::HistoryRow row = record(step);
   highlights_.see(row);
   most_strained_.step(row, step.state);
@@ -249,17 +250,6 @@ output::Summary TimeLoop<dim>::close_tables(Schedule &schedule) {
   return done;
 }
 
-double largest_extent(const std::vector<Vector3> &points) {
-  double largest = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto [least, most] =
-        std::minmax_element(points.begin(), points.end(),
-                            [axis](const auto &a, const auto &b) { return a[axis] < b[axis]; });
-    largest = std::max(largest, (*most)[axis] - (*least)[axis]);
-  }
-  return largest;
-}
-
 template <int dim>
 void TimeLoop<dim>::tell(const output::Summary &done, int signal) const {
   if (!parallel::is_first())
@@ -270,7 +260,8 @@ void TimeLoop<dim>::tell(const output::Summary &done, int signal) const {
     std::cerr << fmt::format("tourmaline: {} came when all steps were done; the run is complete\n",
                              signal_name(signal));
   if (!quiet_)
-    std::cout << ending_text(dim, highlights_, done.extremes, largest_extent(model_.body.points()))
+    std::cout << ending_text(dim, highlights_, done.extremes,
+                             output::largest_extent(model_.body.points()))
               << places_text(folder_->directory()) << std::flush;
 }
 

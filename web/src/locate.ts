@@ -29,8 +29,7 @@ export class Locator {
   find(...place: Place): Hit | undefined {
     let best: Hit | undefined, off = Infinity;
     for (const triangle of this.buckets.get(this.key(place.map((v, c) => this.index(v, c)) as Place)) ?? []) {
-      const { weights, distance } = this.weightsIn(triangle, place);
-      const outside = Math.max(0, -Math.min(...weights)) + distance / this.size;
+      const { weights, outside } = this.weightsIn(triangle, place);
       if (outside < off) { off = outside; best = { triangle, weights }; }
     }
     return off <= tolerance ? best : undefined;
@@ -40,8 +39,7 @@ export class Locator {
   findBeside(place: Place, inside: Place): Hit | undefined {
     const there = this.find(...inside);
     if (!there) return this.find(...place);
-    const { weights, distance } = this.weightsIn(there.triangle, place);
-    const outside = Math.max(0, -Math.min(...weights)) + distance / this.size;
+    const { weights, outside } = this.weightsIn(there.triangle, place);
     return outside <= tolerance ? { triangle: there.triangle, weights } : this.find(...place);
   }
 
@@ -69,8 +67,8 @@ export class Locator {
         }
   }
 
-  // Of the foot of the place in the triangle's plane.
-  private weightsIn(t: number, place: Place): { weights: Hit['weights']; distance: number } {
+  // Of the foot of the place in the triangle's plane; `outside`: how far from the triangle, in shares of it and of the body.
+  private weightsIn(t: number, place: Place): { weights: Hit['weights']; outside: number } {
     const [a, b, c] = [0, 1, 2].map((k) => this.corner(t, k));
     const minus = (p: Place, q: Place) => p.map((v, i) => v - q[i]) as Place;
     const dot = (p: Place, q: Place) => p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
@@ -79,6 +77,7 @@ export class Locator {
     const area = uu * vv - uv * uv;
     const second = (vv * uw - uv * vw) / area, third = (uu * vw - uv * uw) / area;
     const foot = w.map((x, i) => x - second * u[i] - third * v[i]) as Place;
-    return { weights: [1 - second - third, second, third], distance: Math.sqrt(dot(foot, foot)) };
+    const weights: Hit['weights'] = [1 - second - third, second, third];
+    return { weights, outside: Math.max(0, -Math.min(...weights)) + Math.sqrt(dot(foot, foot)) / this.size };
   }
 }

@@ -80,6 +80,37 @@ for (const [cell, degree] of [['hexahedron', 1], ['tetrahedron', 1], ['hexahedro
 }
 
 /** A capacitor: V = 1000 z exactly, 0 to 100 V. */
+const pushedInside = () => runText('pushed', `
+[mesh]
+box = { min = [0, 0, 0], max = [0.1, 0.1, 0.1], cells = [6, 6, 6], cell = "hexahedron" }
+[model]
+thermal = false
+electric = false
+[material]
+symmetry = "isotropic"
+young = 1e11
+poisson = 0.3
+[load]
+force = [0, 0, "max(max(abs(x - 0.05), abs(y - 0.05)), abs(z - 0.05)) < 0.02 ? 1e8*t : 0"]
+[time]
+end = 1
+steps = 1
+[[boundary]]
+on = ["left", "right", "bottom", "top", "front", "back"]
+displacement = [0, 0, 0]
+`);
+
+await inBrowser(desktop, async (context) => {
+  const out = pushedInside();
+  const { tab } = await open(context, join(out, 'report.html') + '#field=displacement&cut=y');
+  await test('what only the inside of a body does is not magnified beyond a tenth of it', async () => {
+    const most = Math.max(...nodesOf(out).map((row) => Math.hypot(row.u_x, row.u_y, row.u_z)));
+    const [, factor] = (await tab.locator('.view .note').first().textContent()).match(/displacement × (\S+)/);
+    const scale = numberIn(`x ${factor}`);
+    assert.ok(scale * most <= 0.01 && scale * most > 0.0001, `${scale} times ${most} m`);
+  });
+});
+
 const linear = (cell, degree) => runText(`linear-${cell}${degree}`, `
 [mesh]
 box = { min = [0, 0, 0], max = [0.1, 0.1, 0.1], cells = [5, 4, 3], cell = "${cell}" }

@@ -207,6 +207,12 @@ boundary = [ { on = "bottom", displacement = [0, 0], potential = 0, temperature 
     assert.equal(new Set(texts).size, 5, String(texts));
     assert.deepEqual([texts[0], texts[4]], ['100', '100.02']);
   });
+  await test('axes of a body far from the origin have its coordinates', async () => {
+    const coming = tab.waitForEvent('download');
+    await tab.locator('.view [data-kind=SVG]').click();
+    const names = [...readFileSync(await (await coming).path(), 'utf8').matchAll(/>(\d{5}(?:\.\d)?)</g)].map(([, text]) => Number(text));
+    assert.ok(names.length >= 2 && names.every((v) => v > 9999 && v < 10002), String(names));  // 10⁻³ m
+  });
   await test('pins of a body far from the origin come back where they were', async () => {
     const pinned = '10.000253,0.00051,0';
     const { tab: again } = await open(context, `${join(far, 'report.html')}#field=temperature&pins=${pinned}`);
