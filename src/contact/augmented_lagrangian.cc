@@ -42,6 +42,7 @@ AugmentedLagrangian::Gradient AugmentedLagrangian::gradient(const Local &displac
   g.traction.tail(n_slip) = projected;
   if (!is_held)
     g.condition.tail(n_slip) = (projected - tangential(multiplier)) / r_slip;
+  g.traction += spring * displacement;
   return g;
 }
 
@@ -65,6 +66,7 @@ AugmentedLagrangian::Hessian AugmentedLagrangian::hessian(const Local &displacem
   h.mixed.bottomRightCorner(n_slip, n_slip) = known;
   h.multiplier.bottomRightCorner(n_slip, n_slip) =
       (known - TangentMatrix::Identity(n_slip, n_slip)) / r_slip;
+  h.displacement.diagonal().array() += spring + lean;
   return h;
 }
 

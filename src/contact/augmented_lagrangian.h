@@ -36,6 +36,9 @@ struct AugmentedLagrangian {
   /// unknowns: l as a function of y alone, convex and smooth to first order. Their conditions are
   /// then 0 and leave the multipliers where they are.
   bool is_held = false;
+  /// Springs to the foundation: spring / 2 |y|^2 as a means to find a start, and what the Hessian
+  /// alone has of one, where without it a tangent may be singular [N/m^3].
+  double spring = 0, lean = 0;
 
   struct Gradient {
     Local traction;  ///< in y: (p(lambda_nu + r_nu u_nu), P(lambda_tau + r d)) [N/m^2]
@@ -60,6 +63,8 @@ struct AugmentedLagrangian {
   /// is the pressure of a point that touches.
   double pressure(const Local &displacement, const Local &multiplier) const;
   bool is_closed(const Local &displacement, const Local &multiplier) const;
+  /// lambda_nu + r_nu u_nu, of a point that has a normal multiplier [N/m^2].
+  double normal_trial(const Local &displacement, const Local &multiplier) const;
   /// P(lambda_tau + r d) [N/m^2].
   Tangent friction_traction(const Local &displacement, const Local &multiplier) const;
 
@@ -67,7 +72,6 @@ struct AugmentedLagrangian {
   Eigen::Index n_normal() const { return has_normal ? 1 : 0; }
   Tangent tangential(const Local &components) const;
   Tangent trial(const Local &displacement, const Local &multiplier) const;
-  double normal_trial(const Local &displacement, const Local &multiplier) const;
 };
 
 }  // namespace tourmaline::contact

@@ -8,6 +8,7 @@
 #include <map>
 #include <string_view>
 
+#include "output/records.h"
 #include "report/moment.h"
 #include "report/number_text.h"
 #include "report/plot.h"
@@ -27,6 +28,7 @@ struct Quantity {
 /// What stands above a curve; of vectors without the component.
 const std::map<std::string, Quantity> &quantities() {
   static const std::map<std::string, Quantity> all{
+      {"status", {"Status of the contact", ""}},
       {"pressure", {"Contact pressure", "N/m²"}},
       {"gap", {"Opening of the contact", "m"}},
       {"normal_traction", {"Normal traction", "N/m²"}},
@@ -57,8 +59,7 @@ std::pair<std::string, std::string> title_and_unit(const std::string &column) {
 
 /// The numbers at every row of contact.csv; empty where there is no such curve.
 std::vector<double> values_of(const Result &result, const std::string &column) {
-  static const std::vector<std::string> no_curves{"step", "time",   "x",      "y",
-                                                  "z",    "status", "contact"};
+  static const std::vector<std::string> no_curves{"step", "time", "x", "y", "z", "contact"};
   if (!result.contact || std::find(no_curves.begin(), no_curves.end(), column) != no_curves.end())
     return {};
   if (column == "friction_bound")
@@ -99,6 +100,15 @@ std::size_t first_row(const std::vector<double> &times, std::optional<double> ti
 std::pair<std::string, std::string> name_and_unit(const std::string &abscissa) {
   const std::size_t at = abscissa.rfind(" [");
   return {abscissa.substr(0, at), abscissa.substr(at + 2, abscissa.size() - at - 3)};
+}
+
+// What a status is called, by its number in the table.
+std::vector<std::pair<double, std::string>> words_of(const std::string &column) {
+  std::vector<std::pair<double, std::string>> words;
+  if (column == "status")
+    for (const auto status : {ContactStatus::open, ContactStatus::stick, ContactStatus::slip})
+      words.emplace_back(static_cast<double>(status), name_of(status));
+  return words;
 }
 
 Plot plot_of(const ContactPiece &piece, const std::vector<double> &values, std::size_t first,
@@ -162,6 +172,7 @@ std::vector<fs::path> write_contact_curves(const Result &result, const std::stri
     const std::string number = several ? fmt::format("_{}", files.size() + 1) : "";
     files.push_back(directory / fmt::format("contact_{}{}.{}", column, number, name_of(format)));
     Plot plot = plot_of(piece, values, first, title + moment, unit);
+    plot.panels.front().words = words_of(column);
     if (several)
       plot.abscissa_name += " on " + piece.name;
     write_plot(plot, format, files.back());

@@ -139,7 +139,9 @@ class Drawing {
   }
 
   void panel(const Plot::Panel &panel, const Point &corner) {
-    const std::vector<double> values = values_in(panel);
+    std::vector<double> values = values_in(panel);
+    for (const auto &word : panel.words)
+      values.push_back(word.first);
     // Counts, which have no unit, are not seen by their ratio.
     const Axis y(values, plot_.logarithmic && !panel.unit.empty() && spans_decades(values));
     ordinate(panel, corner, y);
@@ -149,18 +151,25 @@ class Drawing {
   }
 
   void ordinate(const Plot::Panel &panel, const Point &corner, const Axis &y) {
-    const int power = y.power(), digits = y.digits();
     std::vector<std::vector<Point>> across;
-    for (const double value : y.ticks()) {
+    for (const auto &[value, text] : ordinate_ticks(panel, y)) {
       const double at = y_at(corner, y, value);
       across.push_back({{corner[0], at}, {corner[0] + frame_width, at}});
-      canvas_.text(number_text(value / std::pow(10, power), digits), {corner[0] - 4, at + 2.5},
-                   Canvas::Align::right, 7);
+      canvas_.text(text, {corner[0] - 4, at + 2.5}, Canvas::Align::right, 7);
     }
     canvas_.lines(across, light, 0.5);
-    const std::string unit = unit_text(power, panel.unit);
+    const std::string unit = panel.words.empty() ? unit_text(y.power(), panel.unit) : "";
     canvas_.text(panel.name + (unit.empty() ? "" : " [" + unit + "]"), {corner[0], corner[1] - 7},
                  Canvas::Align::left, 8.5, true);
+  }
+
+  static std::vector<std::pair<double, std::string>> ordinate_ticks(const Plot::Panel &panel,
+                                                                    const Axis &y) {
+    std::vector<std::pair<double, std::string>> marks = panel.words;
+    const double power = std::pow(10, y.power());
+    for (const double value : marks.empty() ? y.ticks() : std::vector<double>())
+      marks.emplace_back(value, number_text(value / power, y.digits()));
+    return marks;
   }
 
   std::vector<std::pair<double, std::string>> abscissa_ticks() const {

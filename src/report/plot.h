@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "report/canvas.h"
@@ -14,6 +15,7 @@ struct Plot {
   struct Panel {
     std::string name, unit;
     std::vector<std::vector<double>> lines;
+    std::vector<std::pair<double, std::string>> words = {};  ///< of the values that are no numbers
   };
 
   std::string abscissa_name, abscissa_unit;

@@ -139,8 +139,7 @@ template <int dim>
 void IterativeRoute<dim>::give_up_contact(const InterfaceSolution &solution,
                                           const std::function<Vector3(std::size_t)> &place) const {
   if (!left_to_contact_.empty()) {
-    if (const std::string motions = unheld(); !motions.empty())
-      let_go(time_, motions);
+    check_held();
     give_up_leaning(time_, solution, left_to_contact_);
   }
   const std::vector<std::size_t> &unsettled = solution.unsettled;

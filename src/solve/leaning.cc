@@ -47,13 +47,13 @@ void let_go(double time, const std::string &motions) {
 }
 
 void give_up_leaning(double time, const InterfaceSolution &solution,
-                     const std::string &left_to_contact) {
+                     const std::string &left_to_contact, const std::string &advice) {
   throw SolveError(fmt::format(
       "the contact problem at t = {:g} s has no solution that was found: residual {:.3g} of the "
-      "largest force after {} iterations. Nothing but the contact keeps the body from {}, and "
-      "with these loads it may not: the body would move rigidly. Prescribe further components "
-      "of `displacement`, or press the body to the foundation in every step",
-      time, solution.residual, solution.iterations, left_to_contact));
+      "largest force after {} iterations. Nothing but the contact keeps the body from {}: where "
+      "these loads do not press it to the foundation it moves rigidly, and needs further "
+      "components of `displacement`; where they do, take smaller time steps{}",
+      time, solution.residual, solution.iterations, left_to_contact, advice));
 }
 
 template std::string unheld_motions(const Model<2> &, const ContactNodes<2> &,

@@ -20,8 +20,9 @@ std::string unheld_motions(const Model<dim> &model, const ContactNodes<dim> &con
 [[noreturn]] void let_go(double time, const std::string &motions);
 
 /// Throws SolveError: no equilibrium was found. `left_to_contact`: the motions that only the
-/// contact keeps the body from.
+/// contact keeps the body from; `advice`: what else may help, as the end of a sentence.
 [[noreturn]] void give_up_leaning(double time, const InterfaceSolution &solution,
-                                  const std::string &left_to_contact);
+                                  const std::string &left_to_contact,
+                                  const std::string &advice = "");
 
 }  // namespace tourmaline::solve

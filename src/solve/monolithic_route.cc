@@ -3,16 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
 
 #include "body/backward_error.h"
+#include "case/holding.h"
 #include "larger.h"
 #include "parallel/ranks.h"
 #include "solve/first_places.h"
 #include "solve/held_bounds.h"
 #include "solve/held_exchanges.h"
+#include "solve/leaning.h"
 #include "solve/saddle_contact.h"
 #include "solve/saddle_newton.h"
 #include "tourmaline/error.h"
@@ -61,7 +64,10 @@ class MonolithicRoute : public Route {
   }
 
  private:
-  void find(double time, const StepData &data, SaddlePoint start, StepOutcome &outcome);
+  void find(double time, const StepData &data, const SaddlePoint &start, StepOutcome &outcome);
+  void find_leaning(double time, const StepData &data, SaddlePoint start, StepOutcome &outcome);
+  bool is_carried_off(const SaddleNewton<dim> &newton, double first_force_size) const;
+  void take(const SaddleNewton<dim> &newton, StepOutcome &outcome);
   void find_with_bounds(double time, const StepData &data, std::vector<AugmentedLagrangian> &laws,
                         SaddlePoint start, StepOutcome &outcome);
   void find_with_exchanges(double time, const StepData &data,
@@ -70,6 +76,9 @@ class MonolithicRoute : public Route {
   SaddlePoint prediction(std::span<const double> before, std::span<const double> state) const;
   [[noreturn]] void give_up(double time, const SaddleNewton<dim> &newton) const;
 
+  SaddleSettings settings() const {
+    return {model_.asked.solver.tolerance, model_.asked.solver.max_iterations, least_iterations_};
+  }
   void describe(RouteReport &report) const override;
   void save_memory(output::SavedNumbers &numbers) const override;
   void restore_memory(const output::SavedNumbers &numbers) override;
@@ -78,8 +87,10 @@ class MonolithicRoute : public Route {
   HeldExchanges<dim> exchange_;
   SaddleSystem<dim> system_;
   SaddleContact<dim> contact_;
+  const std::string left_to_contact_;  // rigid motions
   SaddlePoint x_;
-  double force_size_ = 0;  // of the step at hand [N]
+  double force_size_ = 0;     // of the step at hand [N]
+  int least_iterations_ = 0;  // of a solution, likewise
 };
 
 template <int dim>
@@ -88,7 +99,8 @@ MonolithicRoute<dim>::MonolithicRoute(const Model<dim> &model)
       exchange_(model),
       system_(model.op, model.step, model.prescribed, multiplier_points(model),
               unknowns_of(exchange_.sites()), model.asked.solver.threads),
-      contact_(model, system_) {
+      contact_(model, system_),
+      left_to_contact_(casefile::left_to_contact(model.asked)) {
   x_.multipliers = VectorXd::Zero(static_cast<Index>(system_.n_multipliers()));
 }
 
@@ -108,6 +120,7 @@ StepOutcome MonolithicRoute<dim>::advance(double time, std::span<const double> r
   std::vector<double> storage;
   const std::span<const double> carried = model_.carried(before, time, storage);
   contact_.begin_step(time, before);
+  least_iterations_ = 0;
   const std::vector<double> rest = contact_.rest();
   std::vector<AugmentedLagrangian> laws = contact_.laws(carried, state, rest);
   std::vector<double> held(right_side.begin(), right_side.end());
@@ -129,11 +142,57 @@ StepOutcome MonolithicRoute<dim>::advance(double time, std::span<const double> r
 }
 
 template <int dim>
-void MonolithicRoute<dim>::find(double time, const StepData &data, SaddlePoint start,
+void MonolithicRoute<dim>::find(double time, const StepData &data, const SaddlePoint &start,
                                 StepOutcome &outcome) {
-  SaddleNewton<dim> newton(system_, data, std::move(start));
-  if (!newton.solve({model_.asked.solver.tolerance, model_.asked.solver.max_iterations}))
+  if (!left_to_contact_.empty() && !data.laws.empty())
+    return find_leaning(time, data, start, outcome);
+  SaddleNewton<dim> newton(system_, data, start);
+  if (!newton.solve(settings()))
     give_up(time, newton);
+  take(newton, outcome);
+}
+
+// Where only the contact holds the body, Newton's method may lose it on its way. Weak springs
+// between contact and foundation lead it to where the contact holds.
+template <int dim>
+void MonolithicRoute<dim>::find_leaning(double time, const StepData &data, SaddlePoint start,
+                                        StepOutcome &outcome) {
+  const double first_force_size = system_.row_sizes(data, start).of_field[0];
+  constexpr std::array weak{1e-2, 1e-4, 1e-6};
+  for (std::size_t k = 0; true; ++k) {
+    SaddleNewton<dim> newton(system_, data, start);
+    const bool is_solved = newton.solve(settings());
+    if (is_solved && !is_carried_off(newton, first_force_size))
+      return take(newton, outcome);
+    outcome.newton_iterations += newton.iterations();
+    if (k == weak.size()) {
+      if (is_solved)
+        let_go(time, left_to_contact_);
+      give_up(time, newton);
+    }
+    std::vector<AugmentedLagrangian> sprung = data.laws;
+    for (std::size_t p = 0; p < sprung.size(); ++p)
+      sprung[p].spring = weak[k] * system_.stiffness_at(p);
+    SaddleNewton<dim> held(system_, {data.right_side, data.before, data.rest, sprung}, start);
+    held.solve(settings());
+    outcome.newton_iterations += held.iterations();
+    start = held.x();
+  }
+}
+
+// Where nothing holds the body, what the tangent has beside its stiffness does: loads then move it
+// by so much that the round-off of the forces that hold it is a part of them that counts.
+template <int dim>
+bool MonolithicRoute<dim>::is_carried_off(const SaddleNewton<dim> &newton,
+                                          double first_force_size) const {
+  constexpr double counts = 1e-7;
+  return first_force_size > 0 &&
+         std::numeric_limits<double>::epsilon() * newton.verdict().force_size >
+             counts * first_force_size;
+}
+
+template <int dim>
+void MonolithicRoute<dim>::take(const SaddleNewton<dim> &newton, StepOutcome &outcome) {
   x_ = newton.x();
   const Verdict verdict = newton.verdict();
   see_backward_error(verdict.body());
@@ -179,17 +238,21 @@ void MonolithicRoute<dim>::find_with_bounds(double time, const StepData &data,
                                             std::vector<AugmentedLagrangian> &laws,
                                             SaddlePoint start, StepOutcome &outcome) {
   constexpr int most = 200;
+  contact_.see_touching({});
   std::vector<contact::PointLaw> own;
   double least_weight = std::numeric_limits<double>::infinity();
   for (std::size_t p = 0; p < laws.size(); ++p) {
     own.push_back(laws[p].friction);
     least_weight = std::min(least_weight, system_.points()[p].weight);
   }
-  HeldBounds held(contact_.bounds(), contact_.first_states(x_));
+  HeldBounds held(contact_.bounds(), std::move(own), dim - 1, contact_.first_states(x_));
   for (int k = 0; k < most; ++k) {
     for (std::size_t p = 0; p < laws.size(); ++p)
-      laws[p].friction = held.law(p, own[p]);
+      laws[p].friction = held.law(p);
+    // An answer to a change of bounds within the tolerance has to be known, too.
+    least_iterations_ = held.is_undecided() ? 1 : 0;
     find(time, data, start, outcome);
+    least_iterations_ = 0;
     start = x_;
     const std::vector<HeldBounds::State> states = contact_.states(data, x_);
     // By the pressures: forces inside the body may be larger by many powers of ten.
@@ -201,6 +264,10 @@ void MonolithicRoute<dim>::find_with_bounds(double time, const StepData &data,
       outcome.friction_bound = VectorXd::Zero(static_cast<Index>(laws.size()));
       for (std::size_t p = 0; p < laws.size(); ++p)
         outcome.friction_bound[static_cast<Index>(p)] = laws[p].friction.bound().value_or(0);
+      std::vector<bool> just_touches;
+      for (std::size_t p = 0; p < laws.size(); ++p)
+        just_touches.push_back(held.just_touches(p));
+      contact_.see_touching(std::move(just_touches));
       return;
     }
   }

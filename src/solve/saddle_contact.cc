@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "case/holding.h"
 #include "contact/bilateral.h"
 
 namespace tourmaline::solve {
@@ -19,6 +20,7 @@ template <int dim>
 SaddleContact<dim>::SaddleContact(const Model<dim> &model, const SaddleSystem<dim> &system)
     : model_(model),
       system_(system),
+      is_left_to_contact_(!casefile::left_to_contact(model.asked).empty()),
       slipped_(VectorXd::Zero(static_cast<Index>(model.interface.size()))),
       slipped_before_(slipped_) {
   for (const Point &point : system_.points())
@@ -50,6 +52,7 @@ template <int dim>
 std::vector<AugmentedLagrangian> SaddleContact<dim>::laws(std::span<const double> before,
                                                           std::span<const double> state,
                                                           std::span<const double> rest) const {
+  constexpr double slightly = 1e-10;
   const casefile::SolverCase &solver = model_.asked.solver;
   std::vector<AugmentedLagrangian> laws;
   for (std::size_t p = 0; p < system_.points().size(); ++p) {
@@ -59,6 +62,7 @@ std::vector<AugmentedLagrangian> SaddleContact<dim>::laws(std::span<const double
     law.has_normal = point.has_normal;
     law.r_normal = solver.r_normal.value_or(r);
     law.r_slip = solver.r_tangential ? *solver.r_tangential / model_.step : r;
+    law.lean = is_left_to_contact_ ? slightly * system_.stiffness_at(p) : 0;
     if (point.has_normal && model_.laws[point.contact].can_open())
       law.normal = model_.laws[point.contact].normal(point.place, penetration(p));
     law.friction = {
@@ -110,6 +114,9 @@ std::vector<HeldBounds::State> SaddleContact<dim>::states(const StepData &data,
             : std::hypot(y.tail(y.size() - point.has_normal).norm(), law.friction.held().norm());
     state.pressure = point.has_normal ? law.pressure(y, lambda) : supported_pressure(x, p, holding);
     state.is_closed = !model_.laws[point.contact].can_open() || touches(data, x, p);
+    if (point.has_normal && !state.is_closed)
+      state.opening = -law.normal_trial(y, lambda);
+    state.friction = law.friction_traction(y, lambda).norm();
   }
   return all;
 }
@@ -149,6 +156,8 @@ std::vector<ContactStatus> SaddleContact<dim>::status(const StepData &data,
 // laws that open are the nodes.
 template <int dim>
 bool SaddleContact<dim>::touches(const StepData &data, const SaddlePoint &x, std::size_t p) const {
+  if (!just_touches_.empty() && just_touches_[p])
+    return true;
   if (system_.points()[p].has_normal)
     return data.laws[p].is_closed(system_.displacement(p, x, data), system_.multiplier(p, x));
   const contact::InterfaceNode<dim> &at = model_.interface[p];

@@ -23,9 +23,11 @@ constexpr double stronger = 10;
 
 // The multiplier that the law answers with; that of u_nu = 0 stays as it is.
 Local answer(const AugmentedLagrangian &law, const Local &displacement, const Local &multiplier) {
-  Local lambda = law.gradient(displacement, multiplier).traction;
-  if (law.has_normal && !law.normal)
-    lambda[0] = multiplier[0];
+  Local lambda = multiplier;
+  if (law.has_normal && law.normal)
+    lambda[0] = law.pressure(displacement, multiplier);
+  const Tangent friction = law.friction_traction(displacement, multiplier);
+  lambda.tail(friction.size()) = friction;
   return lambda;
 }
 
@@ -82,7 +84,7 @@ bool SaddleNewton<dim>::newton(const SaddleSettings &settings) {
   int without_progress = 0;
   while (true) {
     const double residual = verdict().worst();
-    if (residual <= settings.tolerance)
+    if (residual <= settings.tolerance && iterations_ >= settings.least_iterations)
       return true;
     without_progress = residual < smallest ? 0 : without_progress + 1;
     smallest = std::min(smallest, residual);

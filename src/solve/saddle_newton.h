@@ -27,6 +27,7 @@ struct Verdict {
 struct SaddleSettings {
   double tolerance = 1e-12;  ///< of `Verdict::worst`
   int max_iterations = 100;
+  int least_iterations = 0;  ///< also where the start is within the tolerance
 };
 
 /// Newton's method (43), (44) for one step, from the prediction. Its tangent jumps where points

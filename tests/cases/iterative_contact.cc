@@ -179,6 +179,84 @@ TEST(EveryRoute, AgreesOnABodyThatIsWarmedRubbedAndLiftedOff) {
   }
 }
 
+// Nothing touches at first, so that the first tangent of the monolithic route is singular.
+constexpr const char *above = R"toml(
+mesh.box = {{ min = [0, 0], max = [0.02, 0.01], cells = [{}, 4], cell = "quadrilateral" }}
+material = {{ library = "BaTiO3-Liu2014" }}
+time = {{ end = 1, steps = 3 }}
+boundary = [ {{ on = "top", traction = ["2.7e5*t", "-2.3e6*t"], potential = 0, temperature = 0 }}{} ]
+[contact]
+on = "bottom"
+gap = "1.4e-3*(x - 0.01)^2 + 3.2e-8"
+normal = "unilateral"
+friction = {{ law = "{}" }}
+)toml";
+
+TEST(Monolithically, ContactThatIsOpenAtFirstIsFound) {
+  const std::string slides = ", { on = \"left\", displacement = [0, \"free\"] }";
+  for (const auto &[name, text] :
+       {std::pair(std::string("frictionless"), fmt::format(above, 2, slides, "none")),
+        std::pair(std::string("frictionless, fine"), fmt::format(above, 12, slides, "none")),
+        std::pair(std::string("rubbed"), fmt::format(above, 8, "", "tresca\", bound = \"3e5"))}) {
+    SCOPED_TRACE(name);
+    const Asked asked{name, {}, text};
+    expect_same_runs(asked.run({}), asked.run({"solver.method=monolithic"}));
+  }
+}
+
+TEST(Monolithically, WhatLetsTheBodyGoIsNamed) {
+  const Asked pulled{"pulled",
+                     {"boundary.0.traction=[0,'1e5*t']"},
+                     fmt::format(above, 4, "", "tresca\", bound = \"3e5")};
+  EXPECT_THAT([&] { pulled.run({"solver.method=monolithic"}); },
+              ::testing::ThrowsMessage<SolveError>(
+                  ::testing::HasSubstr("nothing keeps the body from a translation along x")));
+}
+
+// Nodes that close without friction and open with it: they just touch, with a share of it.
+TEST(EveryRoute, FindsNodesThatJustTouch) {
+  const auto body = [](const char *size, const char *boundary, const char *bound) {
+    return fmt::format(R"toml(
+mesh.box = {{ min = [0, 0], {}, cell = "quadrilateral" }}
+material = {{ library = "BaTiO3-Liu2014", pyroelectric = [0, 1e-4] }}
+time = {{ end = 1, steps = 4 }}
+boundary = [ {} ]
+[contact]
+on = "bottom"
+normal = "unilateral"
+friction = {{ law = "tresca", bound = {} }}
+)toml",
+                       size, boundary, bound);
+  };
+  const char *const thin = "max = [0.001, 0.01], cells = [6, 4]";
+  std::ptrdiff_t n_shares = 0;
+  for (const Asked &asked :
+       {Asked{"bent aside",
+              {},
+              body(thin,
+                   R"({ on = "top", traction = ["-8.314e4*sin(1.19*t)*x/0.001", "-4.985e5*t"], )"
+                   R"(potential = 0, temperature = 0 }, { on = "left", displacement = [0, 0] })",
+                   "3.062e4")},
+        Asked{
+            "pressed and tilted",
+            {"time.steps=1"},
+            body(thin,
+                 R"({ on = "top", displacement = ["-1.445e-7*t", "-2.283e-7*sin(1.3*t)*x/0.001"], )"
+                 R"(potential = 0, temperature = "0.7007*sin(2.83*t)*x/0.001" })",
+                 "2.023e6")}}) {
+    SCOPED_TRACE(asked.name);
+    const RunCase condensed = asked.run({});
+    const Table contact = condensed.contact();
+    const auto &bounds = contact.numbers("friction_bound");
+    n_shares += std::count_if(bounds.begin(), bounds.end(), [&](double bound) {
+      return bound > 0 && bound < 0.99 * largest(contact, "friction_bound");
+    });
+    expect_same_runs(condensed, asked.run({"solver.method=monolithic"}));
+    expect_same_runs(condensed, asked.iteratively());
+  }
+  EXPECT_GT(n_shares, 1);
+}
+
 TEST(ContactIteratively, WhatLetsTheBodyGoIsNamed) {
   const Asked plate{"cases/ssnv128/plate.toml", {"mesh.box.cells=[8,4]"}, ""};
   try {

@@ -120,6 +120,17 @@ TEST_F(Figures, CurvesAlongTheContactAreDrawnByTheirColumns) {
   EXPECT_EQ(pictures.size(), 7U);
 }
 
+TEST_F(Figures, TheStatusOfTheContactIsDrawnWithALineAcrossForEachWord) {
+  const auto files =
+      write_figures(run.path(), out.path(), {FigureFormat::svg, {"contact.status"}, {}});
+  EXPECT_EQ(names_of_files(files), std::vector<std::string>{"contact_status.svg"});
+  const std::string svg = output::content_of(files.front());
+  const std::size_t across = svg.find("stroke:rgb(88.6");
+  ASSERT_NE(across, std::string::npos);
+  const std::string path = svg.substr(across, svg.find("/>", across) - across);
+  EXPECT_EQ(std::count(path.begin(), path.end(), 'L'), 3) << path;
+}
+
 TEST_F(Figures, CurvesStandBesideFieldsInOneRequest) {
   EXPECT_EQ(names_of_files(write_figures(run.path(), out.path(),
                                          {FigureFormat::svg, {"contact.gap", "potential"}, {}})),
@@ -127,7 +138,7 @@ TEST_F(Figures, CurvesStandBesideFieldsInOneRequest) {
 }
 
 TEST_F(Figures, AnUnknownCurveIsAnsweredWithTheKnownOnes) {
-  for (const char *name : {"contact.gp", "contact.status", "contact.x", "contact."})
+  for (const char *name : {"contact.gp", "contact.contact", "contact.x", "contact."})
     EXPECT_THAT(
         [&] {
           write_figures(run.path(), out.path(), {FigureFormat::svg, {name}, {}});
