@@ -73,7 +73,8 @@ bool HeldBounds::is_undecided() const {
 bool HeldBounds::just_touches(std::size_t node) const {
   constexpr double nothing = 1e-9;
   const auto row = static_cast<Index>(node);
-  return turns_[node] >= undecided && held_[row] > nothing * whole_[row] && held_[row] < whole_[row];
+  return turns_[node] >= undecided && held_[row] > nothing * whole_[row] &&
+         held_[row] < whole_[row];
 }
 
 bool HeldBounds::settle(const std::vector<State> &found, double tolerance) {
