@@ -214,6 +214,8 @@ void check_command(const CLI::App &app, int argc, char **argv) {
                               "; see tourmaline --help");
 }
 
+int answer(int argc, char **argv);
+
 /// Throws what the commands throw; of the errors on the command line, CLI11's are reported here.
 int obey(int argc, char **argv) {
   Asked asked;
@@ -228,7 +230,7 @@ int obey(int argc, char **argv) {
     return std::string("tourmaline: ") + error.what() + "; see tourmaline --help\n";
   });
   add_run(app, asked);
-  add_sweep(app, status);
+  add_sweep(app, argv[0], answer, status);
   add_check(app, asked);
   add_report(app, asked);
   add_figures(app, asked);
@@ -296,23 +298,9 @@ bool uses_dense_kernels(int argc, char **argv) {
   return argc > 1 && std::ranges::find(asked, argv[1]) != asked.end();
 }
 
-// OpenBLAS, started halfway, would wait for its threads for ever at an ordered end.
-void require_room_or_end() {
+/// What the program does, and its exit status.
+int answer(int argc, char **argv) {
   try {
-    tourmaline::parallel::require_room_to_start();
-  } catch (const tourmaline::MachineError &error) {
-    std::_Exit(report(machine_failed, error.what()));
-  }
-}
-
-}  // namespace
-
-int main(int argc, char **argv) {
-  const PrintableOutput said(std::cout), complained(std::cerr);
-  // A write beyond the limit of file sizes (ulimit -f) fails like one on a full disk.
-  std::signal(SIGXFSZ, SIG_IGN);
-  try {
-    require_room_or_end();
     if (uses_dense_kernels(argc, argv))
       tourmaline::run::start_again_with_better_kernels(argv);
     // MPI runs until an error has been told: a rank that ended before the first one has spoken
@@ -334,4 +322,23 @@ int main(int argc, char **argv) {
   } catch (const std::exception &error) {
     return report(machine_failed, error.what());
   }
+}
+
+// OpenBLAS, started halfway, would wait for its threads for ever at an ordered end.
+void require_room_or_end() {
+  try {
+    tourmaline::parallel::require_room_to_start();
+  } catch (const tourmaline::MachineError &error) {
+    std::_Exit(report(machine_failed, error.what()));
+  }
+}
+
+}  // namespace
+
+int main(int argc, char **argv) {
+  const PrintableOutput said(std::cout), complained(std::cerr);
+  // A write beyond the limit of file sizes (ulimit -f) fails like one on a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
+  require_room_or_end();
+  return answer(argc, argv);
 }

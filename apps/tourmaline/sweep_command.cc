@@ -35,14 +35,20 @@ void tell(const Outcome &outcome, bool quiet) {
     std::cout << file.string() << '\n';
 }
 
-int sweep(Request request) {
+int sweep(Request request, char *name, const CommandLine &program) {
   if (tourmaline::parallel::is_launched())
     throw tourmaline::CaseError(
         "sweep: each case is run by a process of its own, so this command is given without mpirun; "
         "--jobs says how many run side by side");
   if (request.folder.empty())
     request.folder = std::filesystem::path("results") / (request.file.stem().string() + "-sweep");
-  request.program = std::filesystem::read_symlink("/proc/self/exe");
+  request.program = [&](std::vector<std::string> words) {
+    std::vector<char *> argv{name};
+    for (std::string &word : words)
+      argv.push_back(word.data());
+    argv.push_back(nullptr);
+    return program(static_cast<int>(words.size()) + 1, argv.data());
+  };
   const Outcome outcome = tourmaline::sweep::run(request);
   tell(outcome, request.quiet);
   return outcome.exit_status();
@@ -50,7 +56,7 @@ int sweep(Request request) {
 
 }  // namespace
 
-void add_sweep(CLI::App &app, int &status) {
+void add_sweep(CLI::App &app, char *name, const CommandLine &program, int &status) {
   CLI::App *command = app.add_subcommand("sweep", "simulate a case for several values of its keys");
   const auto request = std::make_shared<Request>();
   command->add_option("CASE", request->file, "the case file (TOML)")->required();
@@ -90,5 +96,5 @@ void add_sweep(CLI::App &app, int &status) {
                     "let the script of a geometry (mesh.file) do anything that you may, without "
                     "limits of time and memory");
   command->add_flag("-q,--quiet", request->quiet, "print nothing but warnings and errors");
-  command->callback([request, &status] { status = sweep(*request); });
+  command->callback([=, &status] { status = sweep(*request, name, program); });
 }

@@ -6,11 +6,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
+#include <iostream>
 #include <iterator>
+#include <string>
 #include <utility>
 
 #include "tourmaline/error.h"
@@ -32,15 +34,21 @@ void note(int signal) {
   errno = error_number;
 }
 
-// Between fork and exec only calls that are safe in a signal handler.
-[[noreturn]] void become(char *const *command, int log, pid_t parent) {
+void hear_as_before() {
+  for (std::size_t i = 0; i < std::size(heard); ++i)
+    sigaction(heard[i], &previous[i], nullptr);
+}
+
+[[noreturn]] void become(const Processes::Work &work, int log, pid_t parent) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+  hear_as_before();
   const int nothing = ::open("/dev/null", O_RDONLY);
-  if (::getppid() == parent && ::dup2(nothing, STDIN_FILENO) >= 0 &&
-      ::dup2(log, STDOUT_FILENO) >= 0 && ::dup2(log, STDERR_FILENO) >= 0)
-    ::execv(command[0], command);
-  ::_exit(127);
+  if (::getppid() != parent || ::dup2(nothing, STDIN_FILENO) < 0 ||
+      ::dup2(log, STDOUT_FILENO) < 0 || ::dup2(log, STDERR_FILENO) < 0)
+    ::_exit(127);
+  ::closefrom(STDERR_FILENO + 1);
+  std::exit(work());
 }
 
 }  // namespace
@@ -66,23 +74,19 @@ Processes::~Processes() {
   send(SIGKILL);
   for (const auto &[id, number] : numbers_)
     ::waitpid(id, nullptr, 0);
-  for (std::size_t i = 0; i < std::size(heard); ++i)
-    sigaction(heard[i], &previous[i], nullptr);
+  hear_as_before();
   for (int &end : wake)
     ::close(std::exchange(end, -1));
 }
 
-void Processes::start(std::size_t number, const std::vector<std::string> &command,
-                      const std::filesystem::path &log) {
+void Processes::start(std::size_t number, const Work &work, const std::filesystem::path &log) {
   const int file = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file < 0)
     throw MachineError("cannot write " + log.string() + ": " + std::strerror(errno));
-  std::vector<char *> words(command.size() + 1, nullptr);
-  std::transform(command.begin(), command.end(), words.begin(),
-                 [](const std::string &word) { return const_cast<char *>(word.c_str()); });
+  std::cout.flush();  // or the copy would write it, too
   const pid_t parent = ::getpid(), id = ::fork();
   if (id == 0)
-    become(words.data(), file, parent);
+    become(work, file, parent);
   const int error_number = errno;
   ::close(file);
   if (id < 0)

@@ -5,18 +5,21 @@
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
-#include <string>
-#include <vector>
 
 namespace tourmaline::sweep {
 
-/// Programs that run side by side. They end with this process, whatever ends it, and do not hear of
+/// Copies of this process that work side by side: they need not load its libraries again, which
+/// takes longer than a small case. They end with this process, whatever ends it, and do not hear of
 /// what is typed at the terminal. While it lives, SIGHUP, SIGINT and SIGTERM only leave a note. One
-/// at a time.
+/// at a time, and of a process without other threads that hold locks.
 class Processes {
  public:
+  /// What a copy does; its exit status.
+  using Work = std::function<int()>;
+
   /// How one of them ended.
   struct End {
     std::size_t number;
@@ -29,10 +32,9 @@ class Processes {
   /// Kills those that still run.
   ~Processes();
 
-  /// Starts `command`, whose first word is the program's file; its stdout and stderr go to `log`.
-  /// Throws MachineError.
-  void start(std::size_t number, const std::vector<std::string> &command,
-             const std::filesystem::path &log);
+  /// Starts a copy, whose stdout and stderr go to `log` and which has no other open files. Throws
+  /// MachineError.
+  void start(std::size_t number, const Work &work, const std::filesystem::path &log);
 
   /// The next one that ends; nothing when none did in that time, or a signal came.
   std::optional<End> wait(std::chrono::milliseconds most);

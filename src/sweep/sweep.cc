@@ -132,9 +132,8 @@ class Study {
   }
 
   void start(std::size_t i) {
-    std::vector<std::string> command{
-        request_.program.string(), "run", request_.file.string(), "--quiet", "-o",
-        folder_of(i).string()};
+    std::vector<std::string> command{"run", request_.file.string(), "--quiet", "-o",
+                                     folder_of(i).string()};
     const auto add = [&](const std::string &override) {
       command.emplace_back("--set");
       command.push_back(override);
@@ -153,7 +152,8 @@ class Study {
             fmt::format("tourmaline: {} starts from the beginning, as its interrupted run cannot "
                         "go on: {}\n",
                         results_.members[i].name, found_[i].obstacle));
-      processes_.start(i, command, log_of(i));
+      processes_.start(
+          i, [&] { return request_.program(command); }, log_of(i));
     } catch (const MachineError &error) {
       ++finished_;
       fail(i, machine_failed, error.what());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -14,7 +15,8 @@ struct Request {
   std::vector<std::string> variations;  ///< as after `--vary`
   std::vector<std::string> outputs;     ///< empty: the usual ones
   std::filesystem::path folder;         ///< of the study
-  std::filesystem::path program;        ///< whose `run` runs a member
+  /// The program, in a copy of this process and with these words behind its name: its exit status.
+  std::function<int(std::vector<std::string>)> program;
   int jobs = 0;  ///< members side by side; 0: as many as cores, their threads and memory allow
   bool quiet = false;
   bool trust = false;  ///< of scripts of geometries: mesh::Reading::trusted
@@ -40,7 +42,7 @@ struct Outcome {
   int exit_status() const;
 };
 
-/// Runs the members of a study, each as a process of its own in a folder of its own, and leaves
+/// Runs the members of a study, each as a copy of this process in a folder of its own, and leaves
 /// sweep.csv and sweep.svg. A member whose folder holds the finished run of the same case, of files
 /// with the same content, is not run again; one that was interrupted goes on, or starts from the
 /// beginning where it cannot. Every member is read and checked before the first runs. A failed one

@@ -1,8 +1,13 @@
 #include "sweep/processes.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <iostream>
 
 #include "../output/temporary_folder.h"
 #include "tourmaline/error.h"
@@ -12,10 +17,14 @@ namespace {
 
 using namespace std::chrono_literals;
 
+Processes::Work shell(const std::string &commands) {
+  return [commands] { return ::execl("/bin/sh", "/bin/sh", "-c", commands.c_str(), nullptr); };
+}
+
 class RunningProcesses : public testing::Test {
  protected:
   void start(std::size_t number, const std::string &commands) {
-    processes.start(number, {"/bin/sh", "-c", commands}, log());
+    processes.start(number, shell(commands), log());
   }
   std::filesystem::path log() const { return folder / "log"; }
 
@@ -45,9 +54,25 @@ TEST_F(RunningProcesses, OneThatASignalKilledHasTheStatusOfTheShell) {
   EXPECT_EQ(next_end().status, 128 + SIGKILL);
 }
 
-TEST_F(RunningProcesses, OneThatCannotBeStartedEndsWith127) {
-  processes.start(0, {"/nowhere/at/all"}, log());
-  EXPECT_EQ(next_end().status, 127);
+TEST_F(RunningProcesses, NothingOfThisProcessIsOpenOrWrittenTwice) {
+  std::cout << "not yet written\n";
+  const int file = ::open("/dev/null", O_RDONLY);
+  processes.start(
+      0, [file] { return ::fcntl(file, F_GETFD) == -1 && errno == EBADF ? 5 : 6; }, log());
+  EXPECT_EQ(next_end().status, 5);
+  EXPECT_EQ(output::content_of(log()), "");
+  ::close(file);
+}
+
+TEST_F(RunningProcesses, TheyHearSignalsAsThisProcessDidBefore) {
+  processes.start(
+      0,
+      [] {
+        ::raise(SIGTERM);
+        return 0;
+      },
+      log());
+  EXPECT_EQ(next_end().status, 128 + SIGTERM);
 }
 
 TEST_F(RunningProcesses, WhatTheySayIsInTheLog) {
@@ -57,7 +82,9 @@ TEST_F(RunningProcesses, WhatTheySayIsInTheLog) {
 }
 
 TEST_F(RunningProcesses, ALogThatCannotBeWrittenIsTheMachinesFailure) {
-  EXPECT_THROW(processes.start(0, {"/bin/true"}, folder / "no/such/folder/log"), MachineError);
+  EXPECT_THROW(processes.start(
+                   0, [] { return 0; }, folder / "no/such/folder/log"),
+               MachineError);
 }
 
 TEST_F(RunningProcesses, TheyRunSideBySide) {
@@ -88,10 +115,9 @@ TEST(Processes, ThoseThatStillRunAreKilledAtTheEnd) {
   const std::string file = (folder / "pid").string();
   {
     Processes processes;
-    processes.start(0,
-                    {"/bin/sh", "-c",
-                     "echo $$ > " + file + ".part; mv " + file + ".part " + file + "; sleep 60"},
-                    folder / "log");
+    processes.start(
+        0, shell("echo $$ > " + file + ".part; mv " + file + ".part " + file + "; sleep 60"),
+        folder / "log");
     for (int i = 0; i < 600 && !std::filesystem::exists(file); ++i)
       processes.wait(100ms);
   }
