@@ -82,7 +82,7 @@ def largest_difference(ours, theirs):
         left, right = list(csv.DictReader(a)), list(csv.DictReader(b))
     assert len(left) == len(right)
     worst = 0
-    for column in ("u_x", "u_y", "potential", "temperature"):
+    for column in (name for name in ("u_x", "u_y", "u_z", "potential", "temperature") if name in right[0]):
         size = max(abs(float(row[column])) for row in right)
         worst = max(worst, max(abs(float(p[column]) - float(q[column])) for p, q in zip(left, right)) / size)
     return worst
@@ -121,7 +121,7 @@ def compare(folder, quick):
     return rows
 
 
-def comparison_table(rows, startup):
+def comparison_table(rows, startup, member):
     lines = ["| n | steps | Tourmaline, s | GetFEM, s | whole process | without start-up | per step | Newton, T / G |"
              " peak MiB, T / G | largest difference |",
              "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"]
@@ -139,7 +139,8 @@ def comparison_table(rows, startup):
             f"{mebibytes(ours['summary']['memory'])} / {mebibytes(theirs['peak_rss_bytes'])} | "
             f"{'' if difference is None else format(difference, '.1e')} |")
     lines.append("")
-    lines.append(f"Start-up: a case of 2 x 2 squares and one step takes {startup['wall']:.2f} s from start to end.")
+    lines.append(f"Start-up: a case of 2 x 2 squares and one step takes {startup['wall']:.2f} s from start to end, "
+                 f"as a member of a sweep {member:.2f} s.")
     return lines
 
 
@@ -180,6 +181,53 @@ def growth(folder, machine, quick):
 
 
 BLOCK = ROOT / "cases" / "block-3d" / "twisted.toml"
+
+
+def factorised(folder, case, count, *overrides):
+    """The same run by the program's own factorisation, by it with two threads, and by MUMPS."""
+    def measured(into, kind, threads):
+        run = run_case(case, into, *overrides, f'solver.factorisation="{kind}"', f"solver.threads={threads}", core=f"0-{threads - 1}")
+        seconds = run["summary"]["seconds"]
+        return {**run, "factorise": seconds["factorise"], "step": seconds["step"]["per_step"], "nodes": pathlib.Path(into) / "nodes.csv"}
+    runs = {}
+    for name, kind, threads in (("own", "own", 1), ("both cores", "own", 2), ("MUMPS", "mumps", 1)):
+        into = pathlib.Path(folder) / name
+        runs[name] = median_of(count, lambda: measured(into, kind, threads))
+    return runs
+
+
+def factorisations(folder, machine, quick):
+    lines = ["| | factorise, s: own / MUMPS | ratio | own over DGEMM | a step, ms: own / MUMPS | ratio | own over floor |"
+             " both cores: factorise, step | peak MiB, own / MUMPS | largest difference |",
+             "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"]
+    plane = [(f"2D, n = {n}", CASE, 3 if n < 512 else 1, (f"mesh.box.cells=[{n},{n}]", "time.steps=20"))
+             for n in ((128, 256) if quick else (128, 256, 512))]
+    solid = [(f"3D, n = {n}", BLOCK, 1, (f"mesh.box.cells=[{n},{n},{n}]", 'mesh.box.cell="tetrahedron"', "time.end=0.05",
+                                         "time.steps=5")) for n in ((16,) if quick else (24, 32))]
+    for name, case, count, overrides in plane + solid:
+        print(f"factorisations: {name}", flush=True)
+        runs = factorised(folder, case, count, *overrides)
+        own, both, mumps = runs["own"], runs["both cores"], runs["MUMPS"]
+        sizes = own["summary"]["sizes"]
+        floor = 2 * 8 * sizes["factor_entries"] / machine["read_bandwidth"]
+        dgemm = sizes["factor_flops"] / machine["dgemm_rate"]
+        lines.append(
+            f"| {name} | {own['factorise']:.3f} / {mumps['factorise']:.3f} | {own['factorise'] / mumps['factorise']:.2f} | "
+            f"{own['factorise'] / dgemm:.1f} | {1e3 * own['step']:.1f} / {1e3 * mumps['step']:.1f} | "
+            f"{own['step'] / mumps['step']:.2f} | {own['step'] / floor:.1f} | "
+            f"{own['factorise'] / both['factorise']:.2f}, {own['step'] / both['step']:.2f} times faster | "
+            f"{mebibytes(own['summary']['memory'])} / {mebibytes(mumps['summary']['memory'])} | "
+            f"{largest_difference(own['nodes'], mumps['nodes']):.1e} |")
+    return lines
+
+
+def sweep_start(folder):
+    """Seconds that a member of a sweep of small cases takes, one after the other."""
+    members = 20
+    seconds, _ = on_one_core([PROGRAM, "sweep", CASE, "--vary", f"contact.friction.bound=lin:1e4:1e5:{members}", "--jobs", 1, "-q",
+                              "-o", pathlib.Path(folder) / "sweep", "--set", "mesh.box.cells=[2,2]", "--set", "time.steps=1",
+                              "--set", "output.fields=false", "--set", "output.report=false"])
+    return seconds / members
 
 
 def solids(folder, quick):
@@ -268,12 +316,16 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         startup = median_of(3, lambda: tourmaline(2, 1, folder))
         text = heading(machine, startup["summary"]["versions"])
-        text += ["## Beside GetFEM", ""] + comparison_table(compare(folder, quick), startup)
+        text += ["## Beside GetFEM", ""] + comparison_table(compare(folder, quick), startup, sweep_start(folder))
         text += ["", "## Floors and growth", "",
                  "The floor of a step is reading the factor twice at the bandwidth above; that of the factorisation its",
                  "operations at the DGEMM rate.", ""] + growth(folder, machine, quick)
         if not quick:
             text += long_run(folder)
+        text += ["", "## Own factorisation and MUMPS", "",
+                 "The same runs with `solver.factorisation` \"own\" and \"mumps\", the first also with `solver.threads = 2` on two",
+                 "cores; factorisations are a run's first and only one. 3D: the block below, five steps.", ""]
+        text += factorisations(folder, machine, quick)
         text += ["", "## Three dimensions", "",
                  "`cases/block-3d/twisted.toml` on n x n x n cubes of tetrahedra, two steps of 0.01 s.", ""] + solids(folder, quick)
         text += ["", "## Ranks", ""] + scaling(folder, 256 if quick else 512)
