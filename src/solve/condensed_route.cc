@@ -269,6 +269,11 @@ CoupledSolution CondensedRoute<dim>::solve_with_exchange(double time, const Vect
   };
   CoupledSolution solution =
       solve_exchanging(programme, start, settings(&whole_factors_), solve_held);
+  // Newton's method on the whole may lose a body that only its contact holds; with what crosses
+  // held, springs lead back.
+  if (!left_to_contact_.empty() &&
+      (!solution.interface.converged || is_carried_off(programme.whole, solution.interface)))
+    solution = solve_exchanging(programme, start, settings(&whole_factors_), solve_held, false);
   require_solved(time, programme.whole, solution.interface);
   return solution;
 }

@@ -12,28 +12,39 @@ namespace tourmaline::solve {
 using Eigen::Index;
 
 template <int dim>
-std::string unheld_motions(const Model<dim> &model, const ContactNodes<dim> &contact,
-                           const std::vector<ContactStatus> &status) {
+std::string unheld_motions(const Model<dim> &model, const std::vector<ContactStatus> &status) {
+  using Vector = Eigen::Matrix<double, dim, 1>;
   std::vector<casefile::Support> supports;
-  const auto add = [&](const Vector3 &point, const auto &direction) {
+  const auto add = [&](const Vector3 &point, const Vector &direction) {
     supports.push_back({point, {}});
     std::copy(direction.begin(), direction.end(), supports.back().direction.begin());
   };
   for (const body::Prescribed &p : model.prescribed)
     if (const int c = static_cast<int>(p.unknown % body::Fields<dim>::count); c < dim)
-      add(p.point, Eigen::Matrix<double, dim, 1>::Unit(c));
-  const std::vector<ContactPoint> &points = contact.points();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const contact::InterfaceNode<dim> &at = model.interface[contact.node_of(i)];
-    if (!model.laws.of(at).can_open())
+      add(p.point, Vector::Unit(c));
+  for (std::size_t i = 0; i < model.interface.size(); ++i) {
+    const contact::InterfaceNode<dim> &at = model.interface[i];
+    if (!model.laws.of(at).can_open() || status[i] != ContactStatus::open)
       add(at.point, at.normal);
-    const bool holds = points[i].law.normal() ? status[i] != ContactStatus::open
-                                              : status[i] == ContactStatus::stick;
-    for (Index k = 0; holds && k < points[i].size; ++k)
-      add(at.point, Eigen::VectorXd(contact.directions().col(points[i].offset + k))
-                        .segment(dim * static_cast<Index>(contact.node_of(i)), dim));
+    for (int c = 0; status[i] == ContactStatus::stick && c < dim; ++c)
+      add(at.point, Vector::Unit(c));
   }
   return casefile::free_motions_in_words(model.asked, supports);
+}
+
+template <int dim>
+std::string unheld_motions(const Model<dim> &model, const ContactNodes<dim> &contact,
+                           const std::vector<ContactStatus> &status) {
+  std::vector<ContactStatus> by_node(model.interface.size(), ContactStatus::slip);
+  const std::vector<ContactPoint> &points = contact.points();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    ContactStatus &of_node = by_node[contact.node_of(i)];
+    const bool decides =
+        points[i].law.normal() ? status[i] == ContactStatus::open : of_node != ContactStatus::open;
+    if (decides)
+      of_node = status[i];
+  }
+  return unheld_motions(model, by_node);
 }
 
 void let_go(double time, const std::string &motions) {
@@ -56,6 +67,8 @@ void give_up_leaning(double time, const InterfaceSolution &solution,
       time, solution.residual, solution.iterations, left_to_contact, advice));
 }
 
+template std::string unheld_motions(const Model<2> &, const std::vector<ContactStatus> &);
+template std::string unheld_motions(const Model<3> &, const std::vector<ContactStatus> &);
 template std::string unheld_motions(const Model<2> &, const ContactNodes<2> &,
                                     const std::vector<ContactStatus> &);
 template std::string unheld_motions(const Model<3> &, const ContactNodes<3> &,

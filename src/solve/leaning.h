@@ -10,8 +10,11 @@
 /// Bodies that only their contact holds: what to say where it does not.
 namespace tourmaline::solve {
 
-/// The rigid motions that are left where the contact points that stick or are pressed, by their
-/// `status`, are all that holds the body beside its supports, as a phrase; empty: none.
+/// The rigid motions that are left where the contact nodes that stick or touch, by their `status`,
+/// are all that holds the body beside its supports, as a phrase; empty: none.
+template <int dim>
+std::string unheld_motions(const Model<dim> &model, const std::vector<ContactStatus> &status);
+/// The same by the status of the contact's points.
 template <int dim>
 std::string unheld_motions(const Model<dim> &model, const ContactNodes<dim> &contact,
                            const std::vector<ContactStatus> &status);

@@ -66,6 +66,10 @@ class MonolithicRoute : public Route {
  private:
   void find(double time, const StepData &data, const SaddlePoint &start, StepOutcome &outcome);
   void find_leaning(double time, const StepData &data, SaddlePoint start, StepOutcome &outcome);
+  std::string unheld(const StepData &data, const SaddleNewton<dim> &newton) const;
+  void find_held(double time, const StepData &data, const HeldBounds &held,
+                 std::vector<AugmentedLagrangian> &laws, const SaddlePoint &start,
+                 StepOutcome &outcome);
   bool is_carried_off(const SaddleNewton<dim> &newton, double first_force_size) const;
   void take(const SaddleNewton<dim> &newton, StepOutcome &outcome);
   void find_with_bounds(double time, const StepData &data, std::vector<AugmentedLagrangian> &laws,
@@ -167,7 +171,7 @@ void MonolithicRoute<dim>::find_leaning(double time, const StepData &data, Saddl
     outcome.newton_iterations += newton.iterations();
     if (k == weak.size()) {
       if (is_solved)
-        let_go(time, left_to_contact_);
+        let_go(time, unheld(data, newton));
       give_up(time, newton);
     }
     std::vector<AugmentedLagrangian> sprung = data.laws;
@@ -178,6 +182,13 @@ void MonolithicRoute<dim>::find_leaning(double time, const StepData &data, Saddl
     outcome.newton_iterations += held.iterations();
     start = held.x();
   }
+}
+
+template <int dim>
+std::string MonolithicRoute<dim>::unheld(const StepData &data,
+                                         const SaddleNewton<dim> &newton) const {
+  const std::string motions = unheld_motions(model_, contact_.status(data, newton.x()));
+  return motions.empty() ? left_to_contact_ : motions;
 }
 
 // Where nothing holds the body, what the tangent has beside its stiffness does: loads then move it
@@ -247,12 +258,7 @@ void MonolithicRoute<dim>::find_with_bounds(double time, const StepData &data,
   }
   HeldBounds held(contact_.bounds(), std::move(own), dim - 1, contact_.first_states(x_));
   for (int k = 0; k < most; ++k) {
-    for (std::size_t p = 0; p < laws.size(); ++p)
-      laws[p].friction = held.law(p);
-    // An answer to a change of bounds within the tolerance has to be known, too.
-    least_iterations_ = held.is_undecided() ? 1 : 0;
-    find(time, data, start, outcome);
-    least_iterations_ = 0;
+    find_held(time, data, held, laws, start, outcome);
     start = x_;
     const std::vector<HeldBounds::State> states = contact_.states(data, x_);
     // By the pressures: forces inside the body may be larger by many powers of ten.
@@ -275,6 +281,28 @@ void MonolithicRoute<dim>::find_with_bounds(double time, const StepData &data,
       "the friction bounds, which follow the pressure, did not settle at t = {:g} s in {} rounds; "
       "take smaller time steps, or solver.method = \"condensed\"",
       time, most));
+}
+
+// With the bounds of the last step, or of none, friction may not hold a body that it holds with the
+// pressures of this step: then all points stick first.
+template <int dim>
+void MonolithicRoute<dim>::find_held(double time, const StepData &data, const HeldBounds &held,
+                                     std::vector<AugmentedLagrangian> &laws,
+                                     const SaddlePoint &start, StepOutcome &outcome) {
+  for (std::size_t p = 0; p < laws.size(); ++p)
+    laws[p].friction = held.law(p);
+  // An answer to a change of bounds within the tolerance has to be known, too.
+  least_iterations_ = held.is_undecided() ? 1 : 0;
+  try {
+    find(time, data, start, outcome);
+  } catch (const SolveError &) {
+    if (left_to_contact_.empty() || !held.is_new())
+      throw;
+    for (AugmentedLagrangian &law : laws)
+      law.friction = {contact::Tresca{std::numeric_limits<double>::max()}, law.friction.held()};
+    find(time, data, start, outcome);
+  }
+  least_iterations_ = 0;
 }
 
 // What the last tangent answers to what x leaves of the body's equations, over x. The residual is

@@ -213,6 +213,56 @@ TEST(Monolithically, WhatLetsTheBodyGoIsNamed) {
                   ::testing::HasSubstr("nothing keeps the body from a translation along x")));
 }
 
+// With the bounds that the first step begins with, none, nothing holds it.
+TEST(EveryRoute, FindsCoulombsFrictionThatAloneHoldsABody) {
+  const Asked asked{"pressed and pulled", {}, R"toml(
+mesh.box = { min = [0, 0], max = [0.1, 0.09], cells = [4, 4], cell = "quadrilateral" }
+model = { thermal = false, electric = false }
+material.library = "steel"
+time = { regime = "static", end = 1, steps = 1 }
+boundary = [ { on = "right", traction = ["-5e5", 0] }, { on = "top", traction = [0, "8e4*t"] } ]
+[contact]
+on = "left"
+gap = 7e-7
+normal = "unilateral"
+friction = { law = "coulomb", coefficient = 0.3 }
+)toml"};
+  const RunCase condensed = asked.run({});
+  expect_same_runs(condensed, asked.run({"solver.method=monolithic"}));
+  expect_same_runs(condensed, asked.iteratively());
+}
+
+// The first guess of Newton's method on contact and temperatures has the body away from the
+// foundation that holds it.
+TEST(EveryRoute, FindsTheContactThatHoldsABodyWhereHeatCrosses) {
+  for (const std::string other :
+       {"law = \"compliance\", exponent = 1.5, coefficient = 2e14", "law = \"unilateral\""}) {
+    SCOPED_TRACE(other);
+    const Asked asked{"between two foundations",
+                      {},
+                      fmt::format(R"toml(
+mesh.box = {{ min = [0, 0], max = [0.1, 0.1], cells = [2, 2], cell = "quadrilateral" }}
+model.electric = false
+material.library = "aluminium"
+time = {{ end = 1, steps = 1 }}
+boundary = [ {{ on = "top", traction = [0, "-1e6*t"], temperature = 0 }},
+             {{ on = "right", traction = ["-1e5*t", 0] }} ]
+[[contact]]
+on = "bottom"
+foundation_displacement = ["1e-6*t", 0]
+heat = {{ law = "exchange", coefficient = 6e3, foundation_temperature = 2, ramp = 2e-6 }}
+[[contact]]
+on = "left"
+gap = 1e-6
+normal = {{ {} }}
+)toml",
+                                  other)};
+    const RunCase condensed = asked.run({});
+    expect_same_runs(condensed, asked.run({"solver.method=monolithic"}));
+    expect_same_runs(condensed, asked.iteratively());
+  }
+}
+
 // Nodes that close without friction and open with it: they just touch, with a share of it.
 TEST(EveryRoute, FindsNodesThatJustTouch) {
   const auto body = [](const char *size, const char *boundary, const char *bound) {
