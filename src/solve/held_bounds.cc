@@ -42,7 +42,7 @@ HeldBounds::HeldBounds(std::vector<std::shared_ptr<const contact::FrictionBound>
 // resists the slip along the first direction.
 double HeldBounds::whole_bound(std::size_t node, const State &found) const {
   if (bounds_[node])
-    return bounds_[node]->at(std::max(found.pressure, 0.), found.slip).bound;
+    return bounds_[node]->at(found.pressure, found.slip).bound;
   return PointLaw(own_[node].law()).dissipation(Tangent::Unit(n_directions_, 0));
 }
 
@@ -52,8 +52,10 @@ double HeldBounds::asked_for(std::size_t node, const State &found) const {
   const auto row = static_cast<Index>(node);
   if (turns_[node] < undecided)
     return found.is_closed ? whole_[row] : 0;
-  const double wanted = found.is_closed ? found.pressure : -found.opening;
-  return std::clamp(std::min(held_[row], found.friction) + wanted, 0., whole_[row]);
+  if (!found.is_closed)
+    return std::max(std::min(held_[row], found.friction) - found.opening, 0.);
+  const bool sticks = found.slip == 0;  // and would with more
+  return sticks ? whole_[row] : std::clamp(held_[row] + found.pressure, 0., whole_[row]);
 }
 
 PointLaw HeldBounds::law(std::size_t node) const {
