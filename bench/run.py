@@ -144,6 +144,11 @@ def comparison_table(rows, startup, member):
     return lines
 
 
+def floors(sizes, machine):
+    """Seconds: reading the factor twice, and the operations of the factorisation at the DGEMM rate."""
+    return 2 * 8 * sizes["factor_entries"] / machine["read_bandwidth"], sizes["factor_flops"] / machine["dgemm_rate"]
+
+
 def growth(folder, machine, quick):
     runs = []
     for n in (64, 128, 256) if quick else (64, 128, 256, 512):
@@ -155,8 +160,7 @@ def growth(folder, machine, quick):
     for n, run in runs:
         seconds, sizes = run["summary"]["seconds"], run["summary"]["sizes"]
         step, steps = seconds["step"], sizes["steps"]
-        floor = 2 * 8 * sizes["factor_entries"] / machine["read_bandwidth"]
-        dgemm = sizes["factor_flops"] / machine["dgemm_rate"]
+        floor, dgemm = floors(sizes, machine)
         lines.append(
             f"| {n} | {sizes['unknowns']} | {seconds['mesh']:.3f} | {seconds['assemble']:.3f} | "
             f"{seconds['analyse']:.3f} | {seconds['factorise']:.3f} | {1e3 * step['per_step']:.2f} | "
@@ -208,9 +212,7 @@ def factorisations(folder, machine, quick):
         print(f"factorisations: {name}", flush=True)
         runs = factorised(folder, case, count, *overrides)
         own, both, mumps = runs["own"], runs["both cores"], runs["MUMPS"]
-        sizes = own["summary"]["sizes"]
-        floor = 2 * 8 * sizes["factor_entries"] / machine["read_bandwidth"]
-        dgemm = sizes["factor_flops"] / machine["dgemm_rate"]
+        floor, dgemm = floors(own["summary"]["sizes"], machine)
         lines.append(
             f"| {name} | {own['factorise']:.3f} / {mumps['factorise']:.3f} | {own['factorise'] / mumps['factorise']:.2f} | "
             f"{own['factorise'] / dgemm:.1f} | {1e3 * own['step']:.1f} / {1e3 * mumps['step']:.1f} | "

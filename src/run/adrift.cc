@@ -7,6 +7,7 @@
 
 #include "case/holding.h"
 #include "output/place.h"
+#include "solve/leaning.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::run {
@@ -21,27 +22,13 @@ Adrift<dim>::Adrift(const solve::Model<dim> &model)
 // Friction that slips holds, too: whether it lets go is for the balance of forces to say.
 template <int dim>
 bool Adrift<dim>::is_held(const solve::StepOutcome &outcome) const {
-  using Vector = Eigen::Matrix<double, dim, 1>;
-  std::vector<casefile::Support> supports;
-  const auto add = [&](const Vector3 &point, const Vector &direction) {
-    supports.push_back({point, {}});
-    std::copy(direction.begin(), direction.end(), supports.back().direction.begin());
+  const auto rubs = [&](std::size_t node) {
+    const auto first = dim * static_cast<Eigen::Index>(node);
+    return outcome.status[node] == ContactStatus::stick ||
+           !outcome.friction_forces.segment<dim>(first).isZero(0);
   };
-  for (const body::Prescribed &p : model_.prescribed)
-    if (const int c = static_cast<int>(p.unknown % body::Fields<dim>::count); c < dim)
-      add(p.point, Vector::Unit(c));
-  for (std::size_t i = 0; i < model_.interface.size(); ++i) {
-    const contact::InterfaceNode<dim> &at = model_.interface[i];
-    if (outcome.status[i] == ContactStatus::open)
-      continue;
-    const bool rubs =
-        outcome.status[i] == ContactStatus::stick ||
-        !outcome.friction_forces.segment<dim>(dim * static_cast<Eigen::Index>(i)).isZero(0);
-    add(at.point, at.normal);
-    for (int c = 0; rubs && c < dim; ++c)
-      add(at.point, Vector::Unit(c));
-  }
-  return casefile::free_motions(model_.asked, supports).empty();
+  return casefile::free_motions(model_.asked, solve::supports_of(model_, outcome.status, rubs))
+      .empty();
 }
 
 template <int dim>

@@ -80,7 +80,6 @@ bool HeldBounds::just_touches(std::size_t node) const {
 }
 
 bool HeldBounds::settle(const std::vector<State> &found, double tolerance) {
-  is_new_ = false;
   VectorXd asked(held_.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
     const auto row = static_cast<Index>(i);

@@ -32,8 +32,6 @@ class HeldBounds {
 
   /// The law that is held at a node.
   contact::PointLaw law(std::size_t node) const;
-  /// Whether no state was found with its laws yet.
-  bool is_new() const { return is_new_; }
   /// Whether a node has opened and closed so often that it may just touch.
   bool is_undecided() const;
   /// Whether a node just touches: it is closed, though round-off may say otherwise.
@@ -52,7 +50,6 @@ class HeldBounds {
   Eigen::Index n_directions_;
   Eigen::VectorXd held_, whole_;  // bounds, and what they would be of closed nodes [N/m^2]
   std::vector<bool> is_closed_;
-  bool is_new_ = true;
   std::vector<int> turns_;  // how often a node has opened or closed
   Anderson anderson_;
   Stall stall_;

@@ -4,15 +4,14 @@
 
 #include <algorithm>
 
-#include "case/holding.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::solve {
 
-using Eigen::Index;
-
 template <int dim>
-std::string unheld_motions(const Model<dim> &model, const std::vector<ContactStatus> &status) {
+std::vector<casefile::Support> supports_of(const Model<dim> &model,
+                                           const std::vector<ContactStatus> &status,
+                                           const std::function<bool(std::size_t)> &rubs) {
   using Vector = Eigen::Matrix<double, dim, 1>;
   std::vector<casefile::Support> supports;
   const auto add = [&](const Vector3 &point, const Vector &direction) {
@@ -24,12 +23,19 @@ std::string unheld_motions(const Model<dim> &model, const std::vector<ContactSta
       add(p.point, Vector::Unit(c));
   for (std::size_t i = 0; i < model.interface.size(); ++i) {
     const contact::InterfaceNode<dim> &at = model.interface[i];
-    if (!model.laws.of(at).can_open() || status[i] != ContactStatus::open)
-      add(at.point, at.normal);
-    for (int c = 0; status[i] == ContactStatus::stick && c < dim; ++c)
+    if (model.laws.of(at).can_open() && status[i] == ContactStatus::open)
+      continue;
+    add(at.point, at.normal);
+    for (int c = 0; rubs(i) && c < dim; ++c)
       add(at.point, Vector::Unit(c));
   }
-  return casefile::free_motions_in_words(model.asked, supports);
+  return supports;
+}
+
+template <int dim>
+std::string unheld_motions(const Model<dim> &model, const std::vector<ContactStatus> &status) {
+  const auto sticks = [&](std::size_t node) { return status[node] == ContactStatus::stick; };
+  return casefile::free_motions_in_words(model.asked, supports_of(model, status, sticks));
 }
 
 template <int dim>
@@ -58,16 +64,22 @@ void let_go(double time, const std::string &motions) {
 }
 
 void give_up_leaning(double time, const InterfaceSolution &solution,
-                     const std::string &left_to_contact, const std::string &advice) {
+                     const std::string &left_to_contact) {
   throw SolveError(fmt::format(
       "the contact problem at t = {:g} s has no solution that was found: residual {:.3g} of the "
       "largest force after {} iterations. Nothing but the contact keeps the body from {}: where "
       "these loads do not press it to the foundation it moves rigidly, and needs further "
-      "components of `displacement`; where they do, take smaller time steps{}",
-      time, solution.residual, solution.iterations, left_to_contact, advice));
+      "components of `displacement`; where they do, take smaller time steps",
+      time, solution.residual, solution.iterations, left_to_contact));
 }
 
+template std::vector<casefile::Support> supports_of(const Model<2> &,
+                                                    const std::vector<ContactStatus> &,
+                                                    const std::function<bool(std::size_t)> &);
 template std::string unheld_motions(const Model<2> &, const std::vector<ContactStatus> &);
+template std::vector<casefile::Support> supports_of(const Model<3> &,
+                                                    const std::vector<ContactStatus> &,
+                                                    const std::function<bool(std::size_t)> &);
 template std::string unheld_motions(const Model<3> &, const std::vector<ContactStatus> &);
 template std::string unheld_motions(const Model<2> &, const ContactNodes<2> &,
                                     const std::vector<ContactStatus> &);

@@ -1,14 +1,23 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "case/holding.h"
 #include "solve/contact_nodes.h"
 #include "solve/interface_newton.h"
 #include "solve/model.h"
 
 /// Bodies that only their contact holds: what to say where it does not.
 namespace tourmaline::solve {
+
+/// What holds the body, contact nodes having this `status`: supports, normals where it touches, and
+/// all directions where a node that does `rubs`.
+template <int dim>
+std::vector<casefile::Support> supports_of(const Model<dim> &model,
+                                           const std::vector<ContactStatus> &status,
+                                           const std::function<bool(std::size_t node)> &rubs);
 
 /// The rigid motions that are left where the contact nodes that stick or touch, by their `status`,
 /// are all that holds the body beside its supports, as a phrase; empty: none.
@@ -23,9 +32,8 @@ std::string unheld_motions(const Model<dim> &model, const ContactNodes<dim> &con
 [[noreturn]] void let_go(double time, const std::string &motions);
 
 /// Throws SolveError: no equilibrium was found. `left_to_contact`: the motions that only the
-/// contact keeps the body from; `advice`: what else may help, as the end of a sentence.
+/// contact keeps the body from.
 [[noreturn]] void give_up_leaning(double time, const InterfaceSolution &solution,
-                                  const std::string &left_to_contact,
-                                  const std::string &advice = "");
+                                  const std::string &left_to_contact);
 
 }  // namespace tourmaline::solve

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <utility>
 
 #include "body/backward_error.h"
 #include "case/holding.h"
@@ -67,9 +68,8 @@ class MonolithicRoute : public Route {
   void find(double time, const StepData &data, const SaddlePoint &start, StepOutcome &outcome);
   void find_leaning(double time, const StepData &data, SaddlePoint start, StepOutcome &outcome);
   std::string unheld(const StepData &data, const SaddleNewton<dim> &newton) const;
-  void find_held(double time, const StepData &data, const HeldBounds &held,
-                 std::vector<AugmentedLagrangian> &laws, const SaddlePoint &start,
-                 StepOutcome &outcome);
+  void find_stuck(double time, const StepData &data, std::vector<AugmentedLagrangian> &laws,
+                  const SaddlePoint &start, StepOutcome &outcome);
   bool is_carried_off(const SaddleNewton<dim> &newton, double first_force_size) const;
   void take(const SaddleNewton<dim> &newton, StepOutcome &outcome);
   void find_with_bounds(double time, const StepData &data, std::vector<AugmentedLagrangian> &laws,
@@ -163,8 +163,12 @@ void MonolithicRoute<dim>::find_leaning(double time, const StepData &data, Saddl
                                         StepOutcome &outcome) {
   const double first_force_size = system_.row_sizes(data, start).of_field[0];
   constexpr std::array weak{1e-2, 1e-4, 1e-6};
+  constexpr double slightly = 1e-10;
+  std::vector<AugmentedLagrangian> leaning = data.laws;
+  for (std::size_t p = 0; p < leaning.size(); ++p)
+    leaning[p].lean = slightly * system_.stiffness_at(p);
   for (std::size_t k = 0; true; ++k) {
-    SaddleNewton<dim> newton(system_, data, start);
+    SaddleNewton<dim> newton(system_, {data.right_side, data.before, data.rest, leaning}, start);
     const bool is_solved = newton.solve(settings());
     if (is_solved && !is_carried_off(newton, first_force_size))
       return take(newton, outcome);
@@ -174,7 +178,7 @@ void MonolithicRoute<dim>::find_leaning(double time, const StepData &data, Saddl
         let_go(time, unheld(data, newton));
       give_up(time, newton);
     }
-    std::vector<AugmentedLagrangian> sprung = data.laws;
+    std::vector<AugmentedLagrangian> sprung = leaning;
     for (std::size_t p = 0; p < sprung.size(); ++p)
       sprung[p].spring = weak[k] * system_.stiffness_at(p);
     SaddleNewton<dim> held(system_, {data.right_side, data.before, data.rest, sprung}, start);
@@ -256,9 +260,23 @@ void MonolithicRoute<dim>::find_with_bounds(double time, const StepData &data,
     own.push_back(laws[p].friction);
     least_weight = std::min(least_weight, system_.points()[p].weight);
   }
-  HeldBounds held(contact_.bounds(), std::move(own), dim - 1, contact_.first_states(x_));
+  HeldBounds held(contact_.bounds(), own, dim - 1, contact_.first_states(x_));
+  bool may_stick = !left_to_contact_.empty();
   for (int k = 0; k < most; ++k) {
-    find_held(time, data, held, laws, start, outcome);
+    for (std::size_t p = 0; p < laws.size(); ++p)
+      laws[p].friction = held.law(p);
+    // An answer to a change of bounds within the tolerance has to be known, too.
+    least_iterations_ = held.is_undecided() ? 1 : 0;
+    try {
+      find(time, data, start, outcome);
+    } catch (const SolveError &) {
+      if (!std::exchange(may_stick, false))
+        throw;
+      find_stuck(time, data, laws, start, outcome);
+      start = x_;
+      held = {contact_.bounds(), own, dim - 1, contact_.states(data, x_)};
+      continue;
+    }
     start = x_;
     const std::vector<HeldBounds::State> states = contact_.states(data, x_);
     // By the pressures: forces inside the body may be larger by many powers of ten.
@@ -284,25 +302,14 @@ void MonolithicRoute<dim>::find_with_bounds(double time, const StepData &data,
 }
 
 // With the bounds of the last step, or of none, friction may not hold a body that it holds with the
-// pressures of this step: then all points stick first.
+// pressures of this step: those where all points stick.
 template <int dim>
-void MonolithicRoute<dim>::find_held(double time, const StepData &data, const HeldBounds &held,
-                                     std::vector<AugmentedLagrangian> &laws,
-                                     const SaddlePoint &start, StepOutcome &outcome) {
-  for (std::size_t p = 0; p < laws.size(); ++p)
-    laws[p].friction = held.law(p);
-  // An answer to a change of bounds within the tolerance has to be known, too.
-  least_iterations_ = held.is_undecided() ? 1 : 0;
-  try {
-    find(time, data, start, outcome);
-  } catch (const SolveError &) {
-    if (left_to_contact_.empty() || !held.is_new())
-      throw;
-    for (AugmentedLagrangian &law : laws)
-      law.friction = {contact::Tresca{std::numeric_limits<double>::max()}, law.friction.held()};
-    find(time, data, start, outcome);
-  }
-  least_iterations_ = 0;
+void MonolithicRoute<dim>::find_stuck(double time, const StepData &data,
+                                      std::vector<AugmentedLagrangian> &laws,
+                                      const SaddlePoint &start, StepOutcome &outcome) {
+  for (AugmentedLagrangian &law : laws)
+    law.friction = {contact::Tresca{std::numeric_limits<double>::max()}, law.friction.held()};
+  find(time, data, start, outcome);
 }
 
 // What the last tangent answers to what x leaves of the body's equations, over x. The residual is

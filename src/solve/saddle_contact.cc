@@ -6,7 +6,6 @@
 #include <limits>
 #include <optional>
 
-#include "case/holding.h"
 #include "contact/bilateral.h"
 
 namespace tourmaline::solve {
@@ -20,7 +19,6 @@ template <int dim>
 SaddleContact<dim>::SaddleContact(const Model<dim> &model, const SaddleSystem<dim> &system)
     : model_(model),
       system_(system),
-      is_left_to_contact_(!casefile::left_to_contact(model.asked).empty()),
       slipped_(VectorXd::Zero(static_cast<Index>(model.interface.size()))),
       slipped_before_(slipped_) {
   for (const Point &point : system_.points())
@@ -52,7 +50,6 @@ template <int dim>
 std::vector<AugmentedLagrangian> SaddleContact<dim>::laws(std::span<const double> before,
                                                           std::span<const double> state,
                                                           std::span<const double> rest) const {
-  constexpr double slightly = 1e-10;
   const casefile::SolverCase &solver = model_.asked.solver;
   std::vector<AugmentedLagrangian> laws;
   for (std::size_t p = 0; p < system_.points().size(); ++p) {
@@ -62,7 +59,6 @@ std::vector<AugmentedLagrangian> SaddleContact<dim>::laws(std::span<const double
     law.has_normal = point.has_normal;
     law.r_normal = solver.r_normal.value_or(r);
     law.r_slip = solver.r_tangential ? *solver.r_tangential / model_.step : r;
-    law.lean = is_left_to_contact_ ? slightly * system_.stiffness_at(p) : 0;
     if (point.has_normal && model_.laws[point.contact].can_open())
       law.normal = model_.laws[point.contact].normal(point.place, penetration(p));
     law.friction = {

@@ -27,7 +27,6 @@ class SaddleContact {
   void begin_step(double time, std::span<const double> before) {
     time_ = time;
     before_ = before;
-    just_touches_.clear();
   }
   /// A state in which the contact nodes just touch the foundation.
   std::vector<double> rest() const;
@@ -41,7 +40,8 @@ class SaddleContact {
   /// What they depend on: as x, the end of the last step, leaves it, and as x has it now.
   std::vector<HeldBounds::State> first_states(const SaddlePoint &x) const;
   std::vector<HeldBounds::State> states(const StepData &data, const SaddlePoint &x) const;
-  /// Points that are closed though round-off may say that they are open; none: empty.
+  /// Points that are closed though round-off may say that they are open; none: empty. Until this
+  /// is said anew.
   void see_touching(std::vector<bool> just_touches) { just_touches_ = std::move(just_touches); }
   /// What crosses the contact depends on, by point.
   std::vector<contact::ContactState> states_for_exchange(const StepData &data,
@@ -79,7 +79,6 @@ class SaddleContact {
 
   const Model<dim> &model_;
   const SaddleSystem<dim> &system_;
-  const bool is_left_to_contact_;
   double area_ = 0;                           // of the contact boundary [m^(dim-1)]
   Eigen::VectorXd slipped_, slipped_before_;  // accumulated slip by node, and a step ago [m]
   // Of the step at hand:

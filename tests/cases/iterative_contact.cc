@@ -232,6 +232,25 @@ friction = { law = "coulomb", coefficient = 0.3 }
   expect_same_runs(condensed, asked.iteratively());
 }
 
+// Bilateral contact that is pulled has no friction, whatever it would have if all points stuck.
+TEST(EveryRoute, LetsABodySlideAwayThatIsPulled) {
+  const Asked asked{"pulled and pushed aside", {}, R"toml(
+mesh.box = { min = [0, 0], max = [0.02, 0.1], cells = [2, 6], cell = "quadrilateral" }
+model = { thermal = false, electric = false }
+material.library = "steel"
+time = { regime = "static", end = 1, steps = 1 }
+boundary = [ { on = "right", traction = [5e5, 1e5] } ]
+[contact]
+on = "left"
+friction = { law = "coulomb", coefficient = 0.3 }
+)toml"};
+  for (const Overrides &route : {Overrides{}, Overrides{"solver.method=monolithic"}})
+    EXPECT_THAT([&] { asked.run(route); },
+                ::testing::ThrowsMessage<SolveError>(
+                    ::testing::HasSubstr("nothing keeps the body from a translation along y")));
+  EXPECT_THROW(asked.iteratively(), SolveError);
+}
+
 // The first guess of Newton's method on contact and temperatures has the body away from the
 // foundation that holds it.
 TEST(EveryRoute, FindsTheContactThatHoldsABodyWhereHeatCrosses) {
