@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "dense/decompositions.h"
 #include "gradients.h"
 #include "parallel/ranks.h"
 
@@ -38,8 +39,7 @@ output::SymmetricTensor in_file_order(const material::Voigt &v, double shear) {
 Vector3 principal_stresses(const output::SymmetricTensor &s) {
   Eigen::Matrix3d stress;
   stress << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
-  const Eigen::Vector3d ascending =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stress, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::Vector3d ascending = dense::eigenvalues(stress);
   return {ascending[2], ascending[1], ascending[0]};
 }
 
@@ -80,10 +80,7 @@ void add_fields(const Gradients &m, const material::Constants &c, output::CellFi
 // Of the displacement gradient's symmetric part.
 double largest_principal(const Eigen::Matrix3d &gradient) {
   const Eigen::Matrix3d strain = (gradient + gradient.transpose()) / 2;
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(strain, Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .cwiseAbs()
-      .maxCoeff();
+  return dense::eigenvalues(strain).cwiseAbs().maxCoeff();
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "dense/decompositions.h"
 #include "parallel/ranks.h"
 
 namespace tourmaline::body {
@@ -30,7 +31,7 @@ Vector<dim> nearest_in_simplex(const std::vector<Vector<dim>> &corners, const Ve
   Eigen::MatrixXd edges(dim, n);
   for (Eigen::Index i = 0; i < n; ++i)
     edges.col(i) = corners[i + 1] - corners[0];
-  const Eigen::VectorXd along = edges.colPivHouseholderQr().solve(place - corners[0]);
+  const Eigen::VectorXd along = dense::least_squares(edges, place - corners[0]);
   if (along.minCoeff() >= 0 && along.sum() <= 1)
     return corners[0] + edges * along;
   Vector<dim> best = corners[0];
@@ -123,7 +124,7 @@ class Cell {
       Eigen::Matrix<double, dim, dim> jacobian = Eigen::Matrix<double, dim, dim>::Zero();
       for (std::size_t v = 0; v < corners_.size(); ++v)
         jacobian += corners_[v] * vector_of(shapes.corner_gradients[v]).transpose();
-      const Vector<dim> step = jacobian.partialPivLu().solve(lacks);
+      const Vector<dim> step = jacobian.inverse() * lacks;
       for (int axis = 0; axis < dim; ++axis)
         at[axis] += std::clamp(step[axis], -1., 1.);
       if (step.norm() < 1e-15)

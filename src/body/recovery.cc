@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dense/decompositions.h"
 #include "gradients.h"
 #include "parallel/ranks.h"
 
@@ -28,13 +29,12 @@ Powers monomials(int dim, Eigen::Index terms, const std::array<double, 3> &x) {
 
 /// The inverse of what is determined, 0 on the rest: the least of all solutions.
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd &normal) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(normal);
-  const Eigen::VectorXd &values = eigen.eigenvalues();
+  const auto [values, vectors] = dense::spectrum(normal);
   Eigen::VectorXd inverse = Eigen::VectorXd::Zero(values.size());
   for (Eigen::Index i = 0; i < values.size(); ++i)
     if (values[i] > 1e-11 * values[values.size() - 1])
       inverse[i] = 1 / values[i];
-  return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
+  return vectors * inverse.asDiagonal() * vectors.transpose();
 }
 
 bool is_regular(const Eigen::LDLT<Eigen::MatrixXd> &factor) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "case/sides.h"
+#include "dense/decompositions.h"
 #include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
@@ -19,14 +20,6 @@ using Eigen::Vector3d;
 
 // Of the supports' rows, whose entries are of order one.
 constexpr double tolerance = 1e-9;
-
-Eigen::Index rank(const MatrixXd &matrix) {
-  if (matrix.rows() == 0)
-    return 0;
-  Eigen::CompleteOrthogonalDecomposition<MatrixXd> decomposition;
-  decomposition.setThreshold(tolerance);
-  return decomposition.compute(matrix).rank();
-}
 
 /// The rows that a rigid motion v(p) = T + W x (p - c)/l must annihilate: d.T + ((p - c)/l x d).W =
 /// 0 for a support at p in the direction d.
@@ -65,14 +58,13 @@ bool can_rotate_about(const Constraints &constraints, Eigen::Index axis) {
   if (turning.size() == 0)
     return true;
   // Some translation must undo what the rotation does at the supports.
-  const Eigen::VectorXd translation =
-      constraints.translation.completeOrthogonalDecomposition().solve(-turning);
+  const Eigen::VectorXd translation = dense::least_squares(constraints.translation, -turning);
   return (constraints.translation * translation + turning).norm() < tolerance;
 }
 
 void add_translations(const Constraints &constraints, std::vector<std::string> &free) {
   const Eigen::Index dimension = constraints.translation.cols();
-  Eigen::Index missing = dimension - rank(constraints.translation);
+  Eigen::Index missing = dimension - dense::rank(constraints.translation, tolerance);
   for (Eigen::Index axis = 0; axis < dimension; ++axis)
     if (constraints.translation.col(axis).norm() < tolerance) {
       free.push_back(fmt::format("a translation along {}", "xyz"[axis]));
@@ -87,7 +79,8 @@ void add_rotations(const Constraints &constraints, std::vector<std::string> &fre
                constraints.translation.cols() + constraints.rotation.cols());
   all << constraints.translation, constraints.rotation;
   const Eigen::Index axes = constraints.rotation.cols();
-  Eigen::Index missing = axes - (rank(all) - rank(constraints.translation));
+  Eigen::Index missing =
+      axes - (dense::rank(all, tolerance) - dense::rank(constraints.translation, tolerance));
   for (Eigen::Index axis = 0; axis < axes; ++axis)
     if (can_rotate_about(constraints, axis)) {
       free.push_back(axes == 1

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
+#include "dense/decompositions.h"
 #include "material/completeness.h"
 #include "material/orientation.h"
 #include "tourmaline/case/case.h"
@@ -83,10 +84,7 @@ template <int dim>
 void Composition<dim>::fill_conductors() {
   double largest = 0;
   for (const Part &part : parts_)
-    largest = std::max(largest, Eigen::SelfAdjointEigenSolver<Tensor>(part.crystal.permittivity,
-                                                                      Eigen::EigenvaluesOnly)
-                                    .eigenvalues()
-                                    .maxCoeff());
+    largest = std::max(largest, dense::eigenvalues(part.crystal.permittivity).maxCoeff());
   if (largest == 0)              // all metal
     largest = 8.8541878128e-12;  // of the vacuum
   for (Part &part : parts_)

@@ -9,6 +9,7 @@
 
 #include "case/given.h"
 #include "case/symmetry.h"
+#include "dense/decompositions.h"
 #include "material/completeness.h"
 #include "material/coupling.h"
 #include "material/crystal_class.h"
@@ -102,7 +103,7 @@ class Conversion {
   }
 
   Vector pyroelectric(const Stiffness &c, const Piezoelectric &e, const Voigt &m) const {
-    const Vector by_expansion = e * c.ldlt().solve(m);  // p^T - p^S
+    const Vector by_expansion = e * dense::solve(c, m);  // p^T - p^S
     if (given_.pyroelectric)
       return pyroelectric_of(*given_.pyroelectric);
     if (given_.pyroelectric_T)
@@ -137,7 +138,7 @@ class Conversion {
 
   Stiffness inverse(const Stiffness &compliance) const {
     need_positive(compliance, "compliance", given_.place());
-    const Stiffness c = compliance.inverse();
+    const Stiffness c = dense::inverse(compliance);
     return (c + c.transpose()) / 2;
   }
 

@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dense/decompositions.h"
+
 namespace tourmaline::material {
 
 Tensor clamped_part(const Constants &c) {
-  return c.piezoelectric * c.stiffness.ldlt().solve(c.piezoelectric.transpose());
+  return c.piezoelectric * dense::inverse(c.stiffness) * c.piezoelectric.transpose();
 }
 
 double coupling_factor(const Tensor &clamped, const Tensor &free) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Tensor> shares(clamped, free,
-                                                                Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0., shares.eigenvalues()(2)));
+  return std::sqrt(std::max(0., dense::eigenvalues(clamped, free)[2]));
 }
 
 double coupling_factor(const Constants &c) {

@@ -9,6 +9,7 @@
 
 #include "case/given.h"
 #include "case/symmetry.h"
+#include "dense/decompositions.h"
 #include "material/completeness.h"
 #include "material/constants.h"
 #include "material/library.h"
@@ -57,7 +58,7 @@ struct Forms {
 
   explicit Forms(const Constants &constants)
       : c(constants.stiffness),
-        s(c.inverse()),
+        s(dense::inverse(c)),
         e(constants.piezoelectric),
         d(e * s),
         strain_free(constants.permittivity),
@@ -106,7 +107,7 @@ std::string couplings(const Forms &f, bool round) {
 
 std::string thermal(const MaterialCase &given) {
   const Constants c = constants_of(given);
-  const Voigt expansion = c.stiffness.ldlt().solve(c.thermal_stress);
+  const Voigt expansion = dense::solve(c.stiffness, c.thermal_stress);
   std::string text = "\nThermal constants:\n";
   text +=
       table("thermal stress M [N/(K m^2)]", c.thermal_stress.transpose().eval()) +

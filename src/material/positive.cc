@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <vector>
 
+#include "dense/decompositions.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::material {
@@ -32,8 +32,8 @@ std::string text(const Eigen::VectorXd &state) {
 }  // namespace
 
 LeastEnergy least_energy(const Eigen::MatrixXd &constants) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(constants);
-  return {spectrum.eigenvalues()(0), text(spectrum.eigenvectors().col(0))};
+  const auto [values, vectors] = dense::spectrum(constants);
+  return {values[0], text(vectors.col(0))};
 }
 
 void need_positive(const Eigen::MatrixXd &constants, const std::string &name,

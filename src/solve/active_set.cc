@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "dense/decompositions.h"
 #include "larger.h"
 
 namespace tourmaline::solve {
@@ -257,13 +258,13 @@ std::vector<krylov::NodeTangent<dim>> ActiveSet<dim>::tangents(
     if (!is_smooth[i])
       continue;
     const auto &d = points_[i].admissible.directions;
-    const Eigen::SelfAdjointEigenSolver<TangentMatrix> modes(hessian[i]);
+    const auto modes = dense::spectrum(hessian[i]);
     for (Index k = 0; k < d.cols(); ++k) {
-      if (modes.eigenvalues()[k] > too_stiff * curvature(i))
+      if (modes.values[k] > too_stiff * curvature(i))
         continue;
-      const Vector mode = d * modes.eigenvectors().col(k);
+      const Vector mode = d * modes.vectors.col(k);
       tangents[i].projector += mode * mode.transpose();
-      tangents[i].stiffness += modes.eigenvalues()[k] * mode * mode.transpose();
+      tangents[i].stiffness += modes.values[k] * mode * mode.transpose();
     }
   }
   return tangents;

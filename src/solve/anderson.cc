@@ -1,5 +1,7 @@
 #include "solve/anderson.h"
 
+#include "dense/decompositions.h"
+
 namespace tourmaline::solve {
 
 using Eigen::Index;
@@ -23,7 +25,7 @@ VectorXd Anderson::next(const VectorXd &x, const VectorXd &image) {
     changes.col(k) = changes_[at + 1] - changes_[at];
     images.col(k) = images_[at + 1] - images_[at];
   }
-  return image - images * changes.completeOrthogonalDecomposition().solve(changes_.back());
+  return image - images * dense::least_squares(changes, changes_.back());
 }
 
 }  // namespace tourmaline::solve

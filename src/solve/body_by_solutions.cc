@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "dense/decompositions.h"
 #include "larger.h"
 
 namespace tourmaline::solve {
@@ -285,7 +286,7 @@ bool BodyBySolutions<dim>::add_shares(const NodeSystem<dim> &system, const Conta
       matrix(row, k) = left(units[static_cast<std::size_t>(k)]) + (k == row ? share.of_share : 0);
     right_side[row] = share.right_side - left(moved);
   }
-  const VectorXd found = matrix.partialPivLu().solve(right_side);
+  const VectorXd found = dense::solve(matrix, right_side);
   for (Index k = 0; k < n; ++k) {
     const auto at = static_cast<std::size_t>(k);
     moved.share[static_cast<Index>(tangent.shares[at].share)] = found[k];

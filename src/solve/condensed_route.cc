@@ -9,6 +9,7 @@
 #include <string>
 
 #include "case/holding.h"
+#include "dense/decompositions.h"
 #include "larger.h"
 #include "parallel/ranks.h"
 #include "solve/connected_body.h"
@@ -152,9 +153,9 @@ double CondensedRoute<dim>::error_of_slips() const {
   double error = 0;
   const std::vector<Index> entries = contact_ ? contact_->movable() : std::vector<Index>{};
   if (parallel::is_first() && !entries.empty() && left_to_contact_.empty()) {
-    const Eigen::LLT<MatrixXd> factor(slip_stiffness_(entries, entries));
-    error = factor.info() == Eigen::Success
-                ? std::numeric_limits<double>::epsilon() / factor.rcond()
+    const dense::Cholesky factor(slip_stiffness_(entries, entries));
+    error = factor.is_definite()
+                ? std::numeric_limits<double>::epsilon() / factor.inverse_condition()
                 : std::numeric_limits<double>::infinity();
   }
   parallel::from_first(std::span(&error, 1));
@@ -200,8 +201,8 @@ void CondensedRoute<dim>::condense_exchanges() {
   whole_stiffness_ = (whole_stiffness_ + whole_stiffness_.transpose()).eval() / 2;
   slip_stiffness_ = whole_stiffness_.topLeftCorner(n, n);
   // All or none: not quasi-definite it would be of no use.
-  const Eigen::LLT<MatrixXd> factor(-whole_stiffness_.bottomRightCorner(m, m));
-  negative_at_contact_ = factor.info() == Eigen::Success ? static_cast<int>(m) : 0;
+  const dense::Cholesky factor(-whole_stiffness_.bottomRightCorner(m, m));
+  negative_at_contact_ = factor.is_definite() ? static_cast<int>(m) : 0;
 }
 
 template <int dim>

@@ -66,15 +66,16 @@ void ConnectedBody<dim>::add_responses() {
   for (Index e = 0; e < m; ++e)
     for (Index f = 0; f < m; ++f)
       capacitance(e, f) = -dot(response_[e], reaction_[f]);
-  admittance_.compute((capacitance + capacitance.transpose()) / 2 + circuit_.admittance());
-  if (admittance_.info() != Eigen::Success)
+  admittance_ =
+      dense::Cholesky((capacitance + capacitance.transpose()) / 2 + circuit_.admittance());
+  if (!admittance_.is_definite())
     throw SolveError(
         "the charges on the electrodes do not determine their voltages; does every "
         "electrode see a given voltage through the body or its circuit?");
   if (coupling_.rows() == 0)  // which BLAS refuses
     return;
   if (parallel::is_first())
-    stiffness_ = body_.stiffness() + coupling_ * admittance_.solve(coupling_.transpose());
+    stiffness_ = body_.stiffness() + coupling_ * admittance_.solve(MatrixXd(coupling_.transpose()));
 }
 
 template <int dim>

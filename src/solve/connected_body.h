@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "condensation/condensed_body.h"
+#include "dense/decompositions.h"
 #include "output/checkpoint.h"
 #include "solve/circuit.h"
 #include "solve/electrode_history.h"
@@ -70,7 +71,7 @@ class ConnectedBody {
   std::vector<std::size_t> lifted_;                       // prescribed unknowns that are not in c
   std::vector<std::vector<double>> response_, reaction_;  // psi and K psi, by free electrode
   Eigen::MatrixXd coupling_;                              // G [C/m]
-  Eigen::LLT<Eigen::MatrixXd> admittance_;                // C + Y [F]
+  dense::Cholesky admittance_;                            // C + Y [F]
   Eigen::MatrixXd stiffness_;
   Eigen::VectorXd supplied_, released_;  // of this step: j, and what is left of it for V [C]
 };

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "dense/decompositions.h"
+
 namespace tourmaline::solve {
 
 using contact::TangentMatrix;
@@ -35,8 +37,8 @@ double DenseBody::largest_force() const {
 }
 
 VectorXd DenseBody::without_contact() {
-  const Eigen::LLT<MatrixXd> factor(programme_.stiffness);
-  if (factor.info() != Eigen::Success)
+  const dense::Cholesky factor(programme_.stiffness);
+  if (!factor.is_definite())
     return VectorXd::Zero(programme_.force.size());
   return factor.solve(programme_.force);
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "dense/decompositions.h"
 #include "solve/anderson.h"
 #include "solve/damped_newton.h"
 #include "solve/natural_map.h"
@@ -261,7 +262,7 @@ bool slip_sets_in_unstable(const CoupledContact &contact, const VectorXd &start,
     return false;
   for (const auto &[row, fall] : falls)
     stiffness->block(row, row, fall.rows(), fall.cols()) += fall;
-  return Eigen::LLT<MatrixXd>(*stiffness).info() != Eigen::Success;
+  return !dense::Cholesky(*stiffness).is_definite();
 }
 
 CoupledSolution solve_coupled(const CoupledProgramme &programme, const VectorXd &start,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "dense/decompositions.h"
 #include "larger.h"
 #include "solve/anderson.h"
 #include "solve/damped_newton.h"
@@ -99,10 +100,10 @@ CoupledSolution Fixed::with(const Held &held, const VectorXd &start) {
   const auto b = a.topRightCorner(n_, m_);
   MatrixXd inner = -a.bottomRightCorner(m_, m_);
   inner.diagonal() += held.slope;
-  const Eigen::LLT<MatrixXd> factor(inner);
+  const dense::Cholesky factor(inner);
   CoupledSolution found;
   found.interface.increment = start;
-  if (factor.info() != Eigen::Success)
+  if (!factor.is_definite())
     return found;
   const VectorXd given = programme_.whole.force.tail(m_) + held.rest;
   MatrixXd stiffness = a.topLeftCorner(n_, n_) + b * factor.solve(MatrixXd(b.transpose()));
@@ -115,7 +116,7 @@ CoupledSolution Fixed::with(const Held &held, const VectorXd &start) {
   count_.made += found.interface.iterations;
   VectorXd d(n_ + m_);
   d << found.interface.increment,
-      factor.solve(b.transpose() * found.interface.increment - given).eval();
+      factor.solve(VectorXd(b.transpose() * found.interface.increment - given));
   found.interface.increment = d;
   found.interface.force.conservativeResize(n_ + m_);
   return found;

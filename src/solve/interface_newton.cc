@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "dense/decompositions.h"
 #include "larger.h"
 #include "solve/truncation.h"
 
@@ -382,9 +383,7 @@ double largest_curvature(const Eigen::MatrixXd &stiffness, const ContactPoint &p
   const TangentMatrix block = stiffness.block(p.offset, p.offset, p.size, p.size);
   if (p.size == 1)
     return block(0, 0);
-  return p.size == 0
-             ? 0
-             : Eigen::SelfAdjointEigenSolver<TangentMatrix>(block).eigenvalues()(p.size - 1);
+  return p.size == 0 ? 0 : dense::spectrum(block).values[p.size - 1];
 }
 
 namespace {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "dense/decompositions.h"
+
 namespace tourmaline::solve {
 
 using Eigen::Index;
@@ -312,7 +314,7 @@ std::optional<KeptFactor::Solved> KeptFactor::solve(const InterfaceSystem &syste
                                                     const MatrixXd &a, const VectorXd &b) {
   if (auto found = solve_large(system, a, b))
     return found;
-  const VectorXd x = matrix_of<MatrixXd>(system, a).partialPivLu().solve(b);
+  const VectorXd x = dense::solve(matrix_of<MatrixXd>(system, a), b);
   return x.allFinite() ? std::optional(spread(system, a, x)) : std::nullopt;
 }
 
@@ -320,8 +322,8 @@ std::optional<KeptFactor::Solved> KeptFactor::solve_definite(const InterfaceSyst
                                                              const MatrixXd &a, const VectorXd &b) {
   if (auto found = solve_large(system, a, b))
     return found;
-  const Eigen::LLT<MatrixXd> factor(matrix_of<MatrixXd>(system, a));
-  if (factor.info() != Eigen::Success)
+  const dense::Cholesky factor(matrix_of<MatrixXd>(system, a));
+  if (!factor.is_definite())
     return std::nullopt;
   return spread(system, a, factor.solve(b));
 }

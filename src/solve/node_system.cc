@@ -1,5 +1,7 @@
 #include "solve/node_system.h"
 
+#include "dense/decompositions.h"
+
 namespace tourmaline::solve {
 
 using contact::Tangent;
@@ -40,12 +42,12 @@ void NodeSystem<dim>::add(const ContactTangent::Point &at, const ContactTangent 
   if (at.share)
     right_side -= tangent.known_share[static_cast<Index>(*at.share)] * at.of_share;
   const double vertical = p.law.normal() == nullptr ? 1e-3 : 1e-9;
-  const Eigen::SelfAdjointEigenSolver<TangentMatrix> modes(TangentMatrix::Identity(p.size, p.size) -
-                                                           at.derivative);
+  const auto modes =
+      dense::spectrum(TangentMatrix(TangentMatrix::Identity(p.size, p.size) - at.derivative));
   TangentMatrix inverse = TangentMatrix::Zero(p.size, p.size), free = inverse;
   for (Index k = 0; k < p.size; ++k) {
-    const Tangent v = modes.eigenvectors().col(k);
-    const double left = modes.eigenvalues()[k];
+    const Tangent v = modes.vectors.col(k);
+    const double left = modes.values[k];
     if (left > vertical) {
       inverse += v * v.transpose() / left;
       free += v * v.transpose();
@@ -55,10 +57,8 @@ void NodeSystem<dim>::add(const ContactTangent::Point &at, const ContactTangent 
   }
   const Directions d = directions(at.point);
   const TangentMatrix own = -inverse * at.of_own * free;
-  const Eigen::SelfAdjointEigenSolver<TangentMatrix> stiffness((own + own.transpose()) / 2);
-  const TangentMatrix resists = stiffness.eigenvectors() *
-                                stiffness.eigenvalues().cwiseMax(0).asDiagonal() *
-                                stiffness.eigenvectors().transpose();
+  const auto [stiffness, along] = dense::spectrum(TangentMatrix((own + own.transpose()) / 2));
+  const TangentMatrix resists = along * stiffness.cwiseMax(0).asDiagonal() * along.transpose();
   tangents[node].projector += d * free * d.transpose();
   tangents[node].stiffness += d * resists * d.transpose();
   force.segment(p.offset, p.size) = -inverse * right_side;

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "dense/decompositions.h"
+
 namespace tourmaline::solve {
 
 using Eigen::Index;
@@ -10,7 +12,7 @@ using Eigen::VectorXd;
 
 VectorXd ProbedNewton::step_for(const VectorXd &residual) const {
   const Eigen::MatrixXd scaled = sizes_.cwiseInverse().asDiagonal() * slope_;
-  return scaled.completeOrthogonalDecomposition().solve(residual.cwiseQuotient(sizes_));
+  return dense::least_squares(scaled, residual.cwiseQuotient(sizes_));
 }
 
 VectorXd ProbedNewton::distance(const VectorXd &residual) const {

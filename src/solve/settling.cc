@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "condensation/condensed_body.h"
+#include "dense/decompositions.h"
 #include "larger.h"
 #include "parallel/ranks.h"
 #include "solve/exchange_nodes.h"
@@ -123,7 +124,7 @@ class Settling {
     constexpr int rounds = 3;
     VectorXd left_over = lacks;
     for (int i = 0; i < rounds; ++i) {
-      potentials -= slope.completeOrthogonalDecomposition().solve(left_over);
+      potentials -= dense::least_squares(slope, left_over);
       left_over = lacks_with(potentials);
     }
   }
@@ -194,7 +195,7 @@ class Settling {
     parallel::on_first([&] {
       if (s.size() > 0)
         VectorXd::Map(potentials.data(), s.size()) =
-            (MatrixXd(slope.asDiagonal()) - body_->stiffness()).llt().solve(-s);
+            dense::Cholesky(MatrixXd(slope.asDiagonal()) - body_->stiffness()).solve(VectorXd(-s));
     });
     parallel::from_first(std::span<double>(potentials));
     return VectorXd::Map(potentials.data(), s.size());
