@@ -22,8 +22,8 @@ constexpr const char *take_time = "take \"quasistatic\"";
 
 void check(const Case &asked, const ContactCase &contact) {
   const std::string place = asked.source + " [contact]";
-  if (contact.normal.law == "damped")
-    refuse_without_time(place, "normal = \"damped\"", take_time);
+  if (contact.normal.depends_on_rate())
+    refuse_without_time(place, fmt::format("normal = \"{}\"", contact.normal.law), take_time);
   if (contact.friction.coefficient.speed)
     refuse_without_time(place, "a coefficient of friction that falls with the slip rate (`speed`)",
                         "take \"quasistatic\", or let it fall with the slip (`distance`)");

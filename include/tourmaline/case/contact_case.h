@@ -16,6 +16,7 @@ struct NormalCase {
   double exponent = 1;            ///< m >= 1 of compliance
 
   bool can_open() const { return law != "bilateral"; }
+  bool depends_on_rate() const { return law == "damped"; }
 };
 
 /// mu of Coulomb's law: `value` alone, or from `at_rest` to `kinetic` over `speed` or `distance`.
