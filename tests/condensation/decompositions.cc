@@ -37,8 +37,10 @@ void expect_spectrum(const Matrix &matrix) {
   const auto [values, vectors] = spectrum(matrix);
   const Eigen::Index n = matrix.rows();
   const double size = n > 0 ? matrix.cwiseAbs().maxCoeff() : 0;
-  EXPECT_LE((matrix * vectors - vectors * values.asDiagonal()).norm(), 1e-14 * n * size);
-  EXPECT_LE((vectors.transpose() * vectors - Matrix::Identity(n, n)).norm(), 1e-14 * n);
+  EXPECT_LE((matrix * vectors - vectors * values.asDiagonal()).norm(),
+            1e-14 * static_cast<double>(n) * size);
+  EXPECT_LE((vectors.transpose() * vectors - Matrix::Identity(n, n)).norm(),
+            1e-14 * static_cast<double>(n));
   for (Eigen::Index i = 1; i < n; ++i)
     EXPECT_LE(values[i - 1], values[i]);
 }
@@ -82,7 +84,7 @@ TEST_F(Decompositions, OfLargerMatricesToo) {
     const MatrixXd a = symmetric(n), b = definite(n), root = b.llt().matrixL();
     const MatrixXd same = root.inverse() * a * root.transpose().inverse();
     EXPECT_LE((eigenvalues(a, b) - spectrum(MatrixXd((same + same.transpose()) / 2)).values).norm(),
-              1e-12 * n);
+              1e-12 * static_cast<double>(n));
   }
 }
 
@@ -91,11 +93,12 @@ TEST_F(Decompositions, SystemsAreSolved) {
     const MatrixXd a = random(n, n), spd = definite(n);
     const VectorXd x = random(n, 1);
     EXPECT_LE((solve(a, a * x) - x).norm(), 1e-10 * x.norm());
-    EXPECT_LE((inverse(a) * a - MatrixXd::Identity(n, n)).norm(), 1e-10 * n);
+    EXPECT_LE((inverse(a) * a - MatrixXd::Identity(n, n)).norm(), 1e-10 * static_cast<double>(n));
     const Cholesky factor(spd);
     ASSERT_TRUE(factor.is_definite());
     EXPECT_LE((factor.solve(VectorXd(spd * x)) - x).norm(), 1e-11 * x.norm());
-    EXPECT_LE((factor.solve(spd) - MatrixXd::Identity(n, n)).norm(), 1e-11 * n);
+    EXPECT_LE((factor.solve(spd) - MatrixXd::Identity(n, n)).norm(),
+              1e-11 * static_cast<double>(n));
     EXPECT_GT(factor.inverse_condition(), 0);
     EXPECT_LE(factor.inverse_condition(), 1);
   }
