@@ -3,6 +3,8 @@
 // Open MPI ends the process with words of its own where it may not open files. So this runs before
 // all constructors, and uses nothing that has one.
 
+#include "limits.h"
+
 #include <fcntl.h>
 #include <sched.h>
 #include <signal.h>
@@ -138,7 +140,9 @@ void watch_time() {
     setitimer(ITIMER_PROF, &alarm, nullptr);
 }
 
-void look_at_limits(int, char **, char **environment) {
+}  // namespace
+
+void look_at_limits(char **environment) {
   const int n_threads = threads(environment);
   if (!has_stack())
     refuse("tourmaline: not enough stack to start: 1 MiB is needed; raise the limit (ulimit -s)\n",
@@ -164,9 +168,15 @@ void look_at_limits(int, char **, char **environment) {
   watch_time();
 }
 
-[[gnu::section(".preinit_array"), gnu::used]] void (*const before_all)(int, char **,
-                                                                       char **) = look_at_limits;
+namespace {
+
+[[gnu::section(".preinit_array"), gnu::used]] void (*const before_all)(int, char **, char **) =
+    [](int, char **, char **environment) { look_at_limits(environment); };
 
 }  // namespace
+
+#else
+
+void look_at_limits(char **) {}
 
 #endif

@@ -1,3 +1,6 @@
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -333,9 +336,19 @@ void require_room_or_end() {
   }
 }
 
+// Of standard streams that are closed: a file of the results that got one would have what is
+// printed in it.
+void keep_standard_descriptors() {
+  int next = ::open("/dev/null", O_RDONLY);
+  while (next >= 0 && next <= STDERR_FILENO)
+    next = ::open("/dev/null", O_RDONLY);
+  ::close(next);
+}
+
 }  // namespace
 
 int main(int argc, char **argv) {
+  keep_standard_descriptors();
   const PrintableOutput said(std::cout), complained(std::cerr);
   // A write beyond the limit of file sizes (ulimit -f) fails like one on a full disk.
   std::signal(SIGXFSZ, SIG_IGN);

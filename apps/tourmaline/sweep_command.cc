@@ -1,11 +1,13 @@
 #include "sweep_command.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <iostream>
 #include <memory>
 
+#include "limits.h"
 #include "parallel/ranks.h"
 #include "sweep/sweep.h"
 #include "tourmaline/error.h"
@@ -22,6 +24,8 @@ void tell(const Outcome &outcome, bool quiet) {
     std::cerr << fmt::format(
         "tourmaline: warning in {}{}: {}\n", members.front(),
         members.size() > 1 ? fmt::format(" and {} more", members.size() - 1) : "", warning);
+  if (!outcome.unwritten.empty())
+    std::cerr << "tourmaline: " << outcome.unwritten << '\n';
   if (outcome.signal != 0)
     std::cerr << fmt::format(
         "tourmaline: stopped; {} of {} cases have not run to their end, and run when the same "
@@ -42,11 +46,16 @@ int sweep(Request request, char *name, const CommandLine &program) {
         "--jobs says how many run side by side");
   if (request.folder.empty())
     request.folder = std::filesystem::path("results") / (request.file.stem().string() + "-sweep");
+  // Descriptors of this process mean others in its copies.
+  if (std::error_code ignored; request.file.string().starts_with("/dev/"))
+    if (const auto file = std::filesystem::canonical(request.file, ignored); !file.empty())
+      request.file = file;
   request.program = [&](std::vector<std::string> words) {
     std::vector<char *> argv{name};
     for (std::string &word : words)
       argv.push_back(word.data());
     argv.push_back(nullptr);
+    look_at_limits(environ);
     return program(static_cast<int>(words.size()) + 1, argv.data());
   };
   const Outcome outcome = tourmaline::sweep::run(request);

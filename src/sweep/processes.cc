@@ -39,10 +39,31 @@ void hear_as_before() {
     sigaction(heard[i], &previous[i], nullptr);
 }
 
-[[noreturn]] void become(const Processes::Work &work, int log, pid_t parent) {
+// Signals wait while there is one: a copy would note what it hears where nobody looks.
+class Deaf {
+ public:
+  Deaf() {
+    sigset_t all;
+    sigemptyset(&all);
+    for (const int signal : heard)
+      sigaddset(&all, signal);
+    sigprocmask(SIG_BLOCK, &all, &before_);
+  }
+  ~Deaf() { hear(); }
+  Deaf(const Deaf &) = delete;
+  Deaf &operator=(const Deaf &) = delete;
+
+  void hear() const { sigprocmask(SIG_SETMASK, &before_, nullptr); }
+
+ private:
+  sigset_t before_;
+};
+
+[[noreturn]] void become(const Processes::Work &work, int log, pid_t parent, const Deaf &deaf) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   hear_as_before();
+  deaf.hear();
   const int nothing = ::open("/dev/null", O_RDONLY);
   if (::getppid() != parent || ::dup2(nothing, STDIN_FILENO) < 0 ||
       ::dup2(log, STDOUT_FILENO) < 0 || ::dup2(log, STDERR_FILENO) < 0)
@@ -84,9 +105,10 @@ void Processes::start(std::size_t number, const Work &work, const std::filesyste
   if (file < 0)
     throw MachineError("cannot write " + log.string() + ": " + std::strerror(errno));
   std::cout.flush();  // or the copy would write it, too
+  const Deaf deaf;
   const pid_t parent = ::getpid(), id = ::fork();
   if (id == 0)
-    become(work, file, parent);
+    become(work, file, parent, deaf);
   const int error_number = errno;
   ::close(file);
   if (id < 0)

@@ -119,11 +119,17 @@ class Study {
       return false;
     try {
       take_results(i);
-      return true;
     } catch (const CaseError &) {
       found_[i] = {};
       return false;
     }
+    forget_words(i);  // of one that was done when the sweep before was killed
+    return true;
+  }
+
+  void forget_words(std::size_t i) {
+    std::error_code ignored;
+    fs::remove(log_of(i), ignored);
   }
 
   void fill() {
@@ -166,8 +172,7 @@ class Study {
       ++finished_;
       return fail(i, failure_status(end.status), reason_of(end.status, log_of(i)));
     }
-    std::error_code ignored;
-    fs::remove(log_of(i), ignored);
+    forget_words(i);
     if (end.status != 0)
       return;
     ++finished_;
@@ -253,7 +258,7 @@ std::vector<fs::path> write_results(const Results &results, const fs::path &fold
 int Outcome::exit_status() const {
   if (signal != 0)
     return 128 + signal;
-  int status = 0;
+  int status = unwritten.empty() ? 0 : machine_failed;
   for (const Failure &failure : failures)
     status = std::max(status, failure.status);
   return status;
@@ -276,7 +281,11 @@ Outcome run(const Request &request) {
   results.rows.assign(results.members.size(), {"stopped", none});
   const output::FolderLock lock(request.folder);  // before anything there is looked at
   Outcome outcome = Study(request, results, cases).run();
-  outcome.files = write_results(results, request.folder);
+  try {
+    outcome.files = write_results(results, request.folder);
+  } catch (const MachineError &error) {
+    outcome.unwritten = error.what();
+  }
   return outcome;
 }
 

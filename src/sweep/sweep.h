@@ -37,8 +37,9 @@ struct Outcome {
   std::vector<Failure> failures;
   std::map<std::string, std::vector<std::string>> warnings;  ///< and the members that have them
   std::vector<std::filesystem::path> files;  ///< the table, and the plot when a member is done
+  std::string unwritten;                     ///< why these could not be written
 
-  /// Of the command: 128 + signal; the greatest of the failures; 0.
+  /// Of the command: 128 + signal; the greatest of the failures, 4 where files are unwritten; 0.
   int exit_status() const;
 };
 

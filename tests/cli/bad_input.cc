@@ -294,6 +294,17 @@ TEST_F(Program, ResultsGoToAFolderNamedAfterTheCase) {
   EXPECT_TRUE(std::filesystem::exists(here() / "results" / "square" / "summary.json"));
 }
 
+TEST_F(Program, WhatIsPrintedIntoAClosedStreamIsInNoFileOfTheResults) {
+  const std::string small = "run " + paper + " --set time.steps=1 -o ";
+  ASSERT_EQ(run(small + "open"), 0);
+  for (const std::string closed : {">&-", "<&- >&-", "<&- >&- 2>&-"}) {
+    SCOPED_TRACE(closed);
+    EXPECT_EQ(run(small + "closed " + closed), 4);
+    for (const char *file : {"history.csv", "contact.csv", "nodes.csv"})
+      EXPECT_EQ(content_of(here() / "closed" / file), content_of(here() / "open" / file));
+  }
+}
+
 TEST_F(Program, AQuietRunSaysNothingInAnyRegime) {
   std::ofstream(here() / "square.toml") << good_case;
   for (const char *regime : {"static", "quasistatic", "dynamic"}) {

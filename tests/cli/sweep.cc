@@ -1,6 +1,7 @@
 // A study runs the cases that it names and puts together what they say.
 
 #include <gmock/gmock.h>
+#include <sys/mount.h>
 
 #include <cmath>
 
@@ -116,6 +117,52 @@ TEST_F(Sweep, MembersThatFailDoNotStopTheOthers) {
 TEST_F(Sweep, AFolderThatCannotBeMadeIsTheMachinesFailure) {
   EXPECT_EQ(run("sweep small.toml --vary contact.friction.bound=5 -o small.toml/study"), 4);
   EXPECT_THAT(complained_, HasSubstr("cannot make the folder"));
+}
+
+TEST_F(Sweep, AMemberThatReachesALimitOfTheProcessSaysSo) {
+#ifdef TOURMALINE_SANITIZED
+  GTEST_SKIP() << "the sanitizer reserves terabytes of address space, and limits are not looked at";
+#endif
+  EXPECT_EQ(run("sweep small.toml --set time.steps=1000000 --set output.every=1000000 "
+                "--vary contact.friction.bound=5 -q -o study",
+                "ulimit -t 2;"),
+            4);
+  EXPECT_THAT(complained_, AllOf(HasSubstr("bound=5 failed: the limit of processor time"),
+                                 HasSubstr("(ulimit -t)")));
+}
+
+TEST_F(Sweep, WhatAMemberSaidBeforeItWasDoneAfterAllIsForgotten) {
+  const std::string study = "sweep small.toml --vary contact.friction.bound=15 -q -o study";
+  ASSERT_EQ(run(study), 0);
+  const auto words = here() / "study/bound=15/error.txt";
+  std::ofstream(words) << "stopped";
+  ASSERT_EQ(run(study), 0);
+  EXPECT_FALSE(exists(words));
+}
+
+TEST_F(Sweep, ACaseOnADescriptorIsItsFile) {
+  EXPECT_EQ(
+      run("sweep /dev/fd/9 --vary contact.friction.bound=5,15 -q -o study", "exec 9< small.toml;"),
+      0)
+      << complained_;
+  EXPECT_EQ(table_in(here() / "study/sweep.csv").size(), 3u);
+}
+
+/// With a study in a small file system of its own.
+class FullSweep : public Sweep {
+ protected:
+  void TearDown() override { umount((here() / "disk").c_str()); }
+};
+
+TEST_F(FullSweep, ThatCannotWriteItsTableStillTellsWhatFailed) {
+  std::filesystem::create_directory(here() / "disk");
+  if (mount("none", (here() / "disk").c_str(), "tmpfs", 0, "size=64k") != 0)
+    GTEST_SKIP() << "only root may mount a small file system";
+  EXPECT_EQ(run("sweep small.toml --vary contact.friction.bound=5,15 -o disk/study"), 4);
+  for (const char *words :
+       {"bound=5 failed: ", "bound=15 failed: ", "cannot write disk/study/sweep.csv"})
+    EXPECT_THAT(complained_, HasSubstr(words));
+  EXPECT_THAT(said_, HasSubstr("2 cases: 0 done before, 2 failed"));
 }
 
 }  // namespace
