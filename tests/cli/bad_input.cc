@@ -295,7 +295,8 @@ TEST_F(Program, ResultsGoToAFolderNamedAfterTheCase) {
 }
 
 TEST_F(Program, WhatIsPrintedIntoAClosedStreamIsInNoFileOfTheResults) {
-  const std::string small = "run " + paper + " --set time.steps=1 -o ";
+  std::ofstream(here() / "square.toml") << good_case;
+  const std::string small = "run square.toml -o ";
   ASSERT_EQ(run(small + "open"), 0);
   for (const std::string closed : {">&-", "<&- >&-", "<&- >&- 2>&-"}) {
     SCOPED_TRACE(closed);
