@@ -112,6 +112,15 @@ bool has_processes(int n_threads) {
   return n == wanted;
 }
 
+void need_processes(char **environment) {
+  if (!has_processes(threads(environment)))
+    refuse(
+        "tourmaline: too few processes to start: Open MPI needs one thread, OpenBLAS one for each "
+        "core, or as many as OPENBLAS_NUM_THREADS says; lower that or raise the limit (ulimit "
+        "-u)\n",
+        environment);
+}
+
 void out_of_time(int) {
   constexpr char text[] =
       "tourmaline: the limit of processor time (ulimit -t) is reached; raise it. What is written "
@@ -140,9 +149,7 @@ void watch_time() {
     setitimer(ITIMER_PROF, &alarm, nullptr);
 }
 
-}  // namespace
-
-void look_at_limits(char **environment) {
+void look_at_limits(int, char **, char **environment) {
   const int n_threads = threads(environment);
   if (!has_stack())
     refuse("tourmaline: not enough stack to start: 1 MiB is needed; raise the limit (ulimit -s)\n",
@@ -157,26 +164,24 @@ void look_at_limits(char **environment) {
         "tourmaline: not enough memory to start: OpenBLAS and Open MPI need 480 MiB of address "
         "space beside the program's own; raise the limit (ulimit -v)\n",
         environment);
-  if (!has_processes(n_threads))
-    refuse(
-        "tourmaline: too few processes to start: Open MPI needs one thread, OpenBLAS one for each "
-        "core, or as many as OPENBLAS_NUM_THREADS says; lower that or raise the limit (ulimit "
-        "-u)\n",
-        environment);
+  need_processes(environment);
   // A file that may not grow is told by who writes it, with its name.
   signal(SIGXFSZ, SIG_IGN);
   watch_time();
 }
 
-namespace {
-
-[[gnu::section(".preinit_array"), gnu::used]] void (*const before_all)(int, char **, char **) =
-    [](int, char **, char **environment) { look_at_limits(environment); };
+[[gnu::section(".preinit_array"), gnu::used]] void (*const before_all)(int, char **,
+                                                                       char **) = look_at_limits;
 
 }  // namespace
 
+void look_at_limits_of_copy(char **environment) {
+  need_processes(environment);
+  watch_time();
+}
+
 #else
 
-void look_at_limits(char **) {}
+void look_at_limits_of_copy(char **) {}
 
 #endif

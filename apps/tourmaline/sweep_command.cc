@@ -55,7 +55,7 @@ int sweep(Request request, char *name, const CommandLine &program) {
     for (std::string &word : words)
       argv.push_back(word.data());
     argv.push_back(nullptr);
-    look_at_limits(environ);
+    look_at_limits_of_copy(environ);
     return program(static_cast<int>(words.size()) + 1, argv.data());
   };
   const Outcome outcome = tourmaline::sweep::run(request);
