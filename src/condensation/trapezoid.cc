@@ -19,7 +19,7 @@ struct Block {
 };
 
 // Rows that one thread takes at a time, whatever their number is.
-constexpr int rows_of_a_product = 512, rows_of_a_vector = 4096;
+constexpr int rows_of_a_product = 512;
 
 template <typename Task>
 void in_chunks(int begin, int end, int rows, int threads, const Task &task) {
@@ -139,35 +139,6 @@ int factorise(const Trapezoid &l, const Trapezoid &rest, int positive, int threa
   }
   subtract_from_rest(l, done, rest, threads);
   return -1;
-}
-
-void substitute_forward(const Trapezoid &l, double *x, int threads) {
-  for (int p = 0; p < l.panels(); ++p) {
-    const int first = l.first(p), last = l.last(p), leading = l.leading(p);
-    cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, last - first,
-                l.at(first, first), leading, x + first, 1);
-    in_chunks(last, l.height, rows_of_a_vector, threads, [&](int r0, int r1) {
-      cblas_dgemv(CblasColMajor, CblasNoTrans, r1 - r0, last - first, -1, l.at(r0, first), leading,
-                  x + first, 1, 1, x + r0, 1);
-    });
-  }
-}
-
-void substitute_backward(const Trapezoid &l, double *x, int threads) {
-  std::vector<double> parts;
-  for (int p = l.panels() - 1; p >= 0; --p) {
-    const int first = l.first(p), last = l.last(p), leading = l.leading(p), n = last - first;
-    const int chunks = (l.height - last + rows_of_a_vector - 1) / rows_of_a_vector;
-    parts.assign(std::size_t(chunks) * n, 0.);
-    in_chunks(last, l.height, rows_of_a_vector, threads, [&](int r0, int r1) {
-      cblas_dgemv(CblasColMajor, CblasTrans, r1 - r0, n, 1, l.at(r0, first), leading, x + r0, 1, 0,
-                  parts.data() + std::size_t((r0 - last) / rows_of_a_vector) * n, 1);
-    });
-    for (std::size_t i = 0; i < parts.size(); ++i)
-      x[first + static_cast<int>(i % n)] -= parts[i];
-    cblas_dtrsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, n, l.at(first, first), leading,
-                x + first, 1);
-  }
 }
 
 }  // namespace tourmaline::condensation

@@ -233,6 +233,36 @@ TEST(Trapezoid, HasItsPanelsOneAfterAnotherAndEachEntryOnce) {
   }
 }
 
+// L, whose columns have strips of all widths, and rows that one task or several take.
+TEST(Trapezoid, SubstitutionsAreThoseOfItsColumns) {
+  using Sizes = std::initializer_list<std::pair<int, int>>;
+  for (const auto &[height, columns] :
+       Sizes{{1, 1}, {7, 3}, {8, 8}, {13, 12}, {70, 66}, {40, 23}, {4103, 9}, {9000, 67}}) {
+    const Trapezoid shape = Trapezoid::at(nullptr, height, columns);
+    std::vector<double> room(shape.size());
+    const Trapezoid l = Trapezoid::at(room.data(), height, columns);
+    MatrixXd dense = MatrixXd::Random(height, columns);
+    for (int j = 0; j < columns; ++j) {
+      dense(j, j) += 3;
+      for (int i = j; i < height; ++i)
+        *l.at(i, j) = dense(i, j);
+    }
+    const auto top = dense.topRows(columns).triangularView<Eigen::Lower>();
+    const MatrixXd below = dense.bottomRows(height - columns);
+    const VectorXd given = VectorXd::Random(height);
+    VectorXd expected = given, x = given;
+    top.solveInPlace(expected.head(columns));
+    expected.tail(height - columns) -= below * expected.head(columns);
+    substitute_forward(l, x.data(), 2);
+    EXPECT_LE((x - expected).cwiseAbs().maxCoeff(), 1e-13 * expected.cwiseAbs().maxCoeff());
+    expected = x = given;
+    expected.head(columns) -= below.transpose() * expected.tail(height - columns);
+    top.transpose().solveInPlace(expected.head(columns));
+    substitute_backward(l, x.data(), 2);
+    EXPECT_LE((x - expected).cwiseAbs().maxCoeff(), 1e-13 * expected.cwiseAbs().maxCoeff());
+  }
+}
+
 // Fronts that are so high are worked on by all threads at once, in tiles.
 TEST(Trapezoid, HasTheSameBitsForAnyNumberOfThreads) {
   constexpr int height = 1300, columns = 300, positive = 170, below = height - columns;

@@ -1,0 +1,177 @@
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "condensation/trapezoid.h"
+
+// A substitution reads each number of the factor once, so memory bounds it where fronts are large.
+// Most are small: there calls of BLAS, and a vector that is read and written anew for each column,
+// take longer than memory does. So columns are taken by strips, which read or write the vector
+// once.
+
+// GCC compiles what has this for each kind of processor; the sanitizers' start comes too late for
+// it.
+#if defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define FOR_EACH_PROCESSOR [[gnu::target_clones("default", "avx2", "avx512f")]]
+#else
+#define FOR_EACH_PROCESSOR
+#endif
+
+namespace tourmaline::condensation {
+
+namespace {
+
+constexpr int strip = 8, half_a_strip = 4;
+// Rows that one thread takes at a time, whatever their number is.
+constexpr int rows_of_a_task = 4096;
+
+// Columns of a panel that are some rows long: entry (i, k) is l[i + k leading].
+struct Strip {
+  const double *l;
+  std::size_t leading;
+  int rows;
+};
+
+// Four rows at once.
+using Four [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
+
+// y -= L x.
+template <int columns>
+[[gnu::always_inline]] inline void subtract(const Strip &a, const double *x, double *y) {
+  std::array<double, columns> by;
+  std::copy_n(x, columns, by.begin());
+  int i = 0;
+  for (; i + 4 <= a.rows; i += 4) {
+    Four &rest = *reinterpret_cast<Four *>(y + i);
+    Four sum = rest;
+    for (int k = 0; k < columns; ++k)
+      sum -= *reinterpret_cast<const Four *>(a.l + i + k * a.leading) * by[k];
+    rest = sum;
+  }
+  for (; i < a.rows; ++i)
+    for (int k = 0; k < columns; ++k)
+      y[i] -= a.l[i + k * a.leading] * by[k];
+}
+
+// sums += L^T y.
+template <int columns>
+[[gnu::always_inline]] inline void add_products(const Strip &a, const double *y, double *sums) {
+  Four parts[columns] = {};
+  int i = 0;
+  for (; i + 4 <= a.rows; i += 4) {
+    const Four by = *reinterpret_cast<const Four *>(y + i);
+    for (int k = 0; k < columns; ++k)
+      parts[k] += *reinterpret_cast<const Four *>(a.l + i + k * a.leading) * by;
+  }
+  for (int k = 0; k < columns; ++k) {
+    double sum = (parts[k][0] + parts[k][1]) + (parts[k][2] + parts[k][3]);
+    for (int row = i; row < a.rows; ++row)
+      sum += a.l[row + k * a.leading] * y[row];
+    sums[k] += sum;
+  }
+}
+
+// What columns [c0, c1) of one panel have in rows [r0, r1).
+Strip part(const Trapezoid &l, int c, int c0, int r0, int r1) {
+  return {l.at(r0, c), static_cast<std::size_t>(l.leading(c0 / l.width)), r1 - r0};
+}
+
+// Rows [r0, r1) of x less what columns [c0, c1) of one panel eliminate there.
+FOR_EACH_PROCESSOR
+void subtract(const Trapezoid &l, int c0, int c1, double *x, int r0, int r1) {
+  int c = c0;
+  for (; c + strip <= c1; c += strip)
+    subtract<strip>(part(l, c, c0, r0, r1), x + c, x + r0);
+  for (; c + half_a_strip <= c1; c += half_a_strip)
+    subtract<half_a_strip>(part(l, c, c0, r0, r1), x + c, x + r0);
+  for (; c < c1; ++c)
+    subtract<1>(part(l, c, c0, r0, r1), x + c, x + r0);
+}
+
+// sums[c - c0] += what rows [r0, r1) of x give to columns [c0, c1) of one panel.
+FOR_EACH_PROCESSOR
+void add_products(const Trapezoid &l, int c0, int c1, const double *x, int r0, int r1,
+                  double *sums) {
+  int c = c0;
+  for (; c + strip <= c1; c += strip)
+    add_products<strip>(part(l, c, c0, r0, r1), x + r0, sums + (c - c0));
+  for (; c + half_a_strip <= c1; c += half_a_strip)
+    add_products<half_a_strip>(part(l, c, c0, r0, r1), x + r0, sums + (c - c0));
+  for (; c < c1; ++c)
+    add_products<1>(part(l, c, c0, r0, r1), x + r0, sums + (c - c0));
+}
+
+// A strip's own triangle.
+void divide_forward(const Trapezoid &l, int c0, int c1, double *x) {
+  for (int c = c0; c < c1; ++c) {
+    const double *const column = l.column_from_row_0(c);
+    x[c] /= column[c];
+    for (int i = c + 1; i < c1; ++i)
+      x[i] -= column[i] * x[c];
+  }
+}
+
+void divide_backward(const Trapezoid &l, int c0, int c1, double *x) {
+  for (int c = c1; c-- > c0;) {
+    const double *const column = l.column_from_row_0(c);
+    double sum = x[c];
+    for (int i = c + 1; i < c1; ++i)
+      sum -= column[i] * x[i];
+    x[c] = sum / column[c];
+  }
+}
+
+int tasks(int begin, int end) {
+  return (end - begin + rows_of_a_task - 1) / rows_of_a_task;
+}
+
+template <typename Task>
+void for_each_task(int begin, int end, int threads, const Task &task) {
+  const int n = tasks(begin, end);
+#pragma omp parallel for schedule(dynamic) num_threads(threads) if (threads > 1 && n > 1)
+  for (int k = 0; k < n; ++k)
+    task(k, begin + k * rows_of_a_task, std::min(end, begin + (k + 1) * rows_of_a_task));
+}
+
+// Strips reach down to this row at once; what is below waits for its panel, and is shared out.
+int reach(const Trapezoid &l, int panel) {
+  return std::max(l.last(panel), std::min(l.height, rows_of_a_task));
+}
+
+}  // namespace
+
+void substitute_forward(const Trapezoid &l, double *x, int threads) {
+  for (int p = 0; p < l.panels(); ++p) {
+    const int first = l.first(p), last = l.last(p), end = reach(l, p);
+    for (int c = first; c < last; c += strip) {
+      const int next = std::min(last, c + strip);
+      divide_forward(l, c, next, x);
+      subtract(l, c, next, x, next, end);
+    }
+    for_each_task(end, l.height, threads,
+                  [&](int, int r0, int r1) { subtract(l, first, last, x, r0, r1); });
+  }
+}
+
+void substitute_backward(const Trapezoid &l, double *x, int threads) {
+  std::vector<double> parts;
+  for (int p = l.panels() - 1; p >= 0; --p) {
+    const int first = l.first(p), last = l.last(p), end = reach(l, p), n = last - first;
+    parts.assign(std::size_t(n) * tasks(end, l.height), 0.);
+    for_each_task(end, l.height, threads, [&](int k, int r0, int r1) {
+      add_products(l, first, last, x, r0, r1, parts.data() + std::size_t(k) * n);
+    });
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      x[first + static_cast<int>(i % n)] -= parts[i];
+    for (int next = last, c = first + (n - 1) / strip * strip; next > first; next = c, c -= strip) {
+      std::array<double, strip> sums{};
+      add_products(l, c, next, x, next, end, sums.data());
+      for (int k = c; k < next; ++k)
+        x[k] -= sums[k - c];
+      divide_backward(l, c, next, x);
+    }
+  }
+}
+
+}  // namespace tourmaline::condensation
