@@ -27,6 +27,7 @@ template <int dim>
 struct CellModes {
   static constexpr int n_nodes = 1 << dim, n_unknowns = n_nodes * Fields<dim>::count;
   static constexpr int n_displacement = dim * dim, n_amplitudes = n_displacement + dim;
+  using Amplitudes = Eigen::Matrix<double, n_amplitudes, 1>;
   using Stiffness = Eigen::Matrix<double, n_amplitudes, n_amplitudes>;
   using Coupling = Eigen::Matrix<double, n_amplitudes, n_unknowns>;
 

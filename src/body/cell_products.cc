@@ -53,9 +53,8 @@ struct Point {
   double temperature = 0;
 };
 
-// Of a cell's incompatible modes.
 template <int dim>
-using Amplitudes = Eigen::Matrix<double, CellModes<dim>::n_amplitudes, 1>;
+using Amplitudes = typename CellModes<dim>::Amplitudes;
 
 template <int dim>
 Vector<dim> gradient(const Quadrature<dim> &cell, std::size_t q, std::size_t a) {
@@ -106,6 +105,52 @@ Point<dim> part_of(const Point<dim> &p, int field, const Quadrature<dim> &cell, 
   return part;
 }
 
+template <int dim>
+Point<dim> whole_of(const Point<dim> &p, const Quadrature<dim> &cell, std::size_t q,
+                    const std::array<Amplitudes<dim>, 3> &modes) {
+  if (cell.mode_gradients.empty())
+    return p;
+  Point<dim> whole = part_of(p, 0, cell, q, modes[0]);
+  for (int field = 1; field < 3; ++field) {
+    const Point<dim> part = part_of(p, field, cell, q, modes[field]);
+    whole.strain += part.strain;
+    whole.potential_gradient += part.potential_gradient;
+  }
+  whole.temperature = p.temperature;
+  whole.temperature_gradient = p.temperature_gradient;
+  return whole;
+}
+
+// Stress, charge and a heat that is not a derivative.
+template <int dim>
+struct Response {
+  Strain<dim> stress;
+  Vector<dim> charge;
+  double heat;
+};
+
+template <int dim>
+Response<dim> response_of(const material::BodyConstants<dim> &c, const Point<dim> &p) {
+  return {c.stiffness * p.strain + c.piezoelectric.transpose() * p.potential_gradient -
+              c.thermal_stress * p.temperature,
+          c.piezoelectric * p.strain - c.permittivity * p.potential_gradient +
+              c.pyroelectric * p.temperature,
+          c.pyroelectric.dot(p.potential_gradient) - c.thermal_stress.dot(p.strain) -
+              c.heat_capacity * p.temperature};
+}
+
+// Adds the heat that flows out of each node.
+template <int dim>
+void conduct(const Quadrature<dim> &cell, std::size_t q, const Tensor<dim> &conductivity,
+             const Vector<dim> &temperature_gradient, std::vector<double> &taken) {
+  const Vector<dim> flow = cell.jxw[q] * (conductivity * temperature_gradient);
+  for (std::size_t a = 1; a < cell.nodes.size(); ++a) {
+    const double tested = gradient(cell, q, a).dot(flow);
+    taken[cell.nodes[a]] += tested;
+    taken[cell.nodes[0]] -= tested;
+  }
+}
+
 // The amplitudes that each field of x causes; of u and phi only differences to the first node do,
 // as long as no strain around an axis comes from u itself.
 template <int dim>
@@ -129,37 +174,36 @@ std::array<Amplitudes<dim>, 3> amplitudes(const CellModes<dim> &cell, bool is_re
 
 }  // namespace
 
-// Forces and charges of each node, and a heat that is not a derivative, by the field they come
-// from.
+// What a cell adds to the rows of its nodes.
 template <int dim>
 struct CellProducts<dim>::Rows {
   static constexpr int n = Fields<dim>::count;
   using Row = Eigen::Matrix<double, n, 1>;
 
-  explicit Rows(std::size_t n_nodes) {
-    for (auto &rows : of)
-      rows.assign(n_nodes, Row::Zero());
-  }
-
   // stress and charge are tested by gradients: the first node's share is what the others' lack.
-  void add(int field, const Quadrature<dim> &cell, std::size_t q, const Strain<dim> &stress,
-           const Vector<dim> &charge, double heat) {
-    const Tensor<dim> tensor = stress_tensor(stress);
+  void add(const Quadrature<dim> &cell, std::size_t q, const Response<dim> &response) {
+    const Tensor<dim> tensor = stress_tensor(response.stress);
     for (std::size_t a = 0; a < cell.nodes.size(); ++a) {
-      of[field][a][n - 1] += cell.jxw[q] * cell.value(q, a) * heat;
-      of[field][a][0] += cell.jxw[q] * cell.around(q, a) * stress_around(stress);
+      of[a][n - 1] += cell.jxw[q] * cell.value(q, a) * response.heat;
+      of[a][0] += cell.jxw[q] * cell.around(q, a) * stress_around(response.stress);
       if (a == 0)
         continue;
       const Vector<dim> g = cell.jxw[q] * gradient(cell, q, a);
       Row tested = Row::Zero();
       tested.template head<dim>() = tensor * g;
-      tested[dim] = charge.dot(g);
-      of[field][a] += tested;
-      of[field][0] -= tested;
+      tested[dim] = response.charge.dot(g);
+      of[a] += tested;
+      of[0] -= tested;
     }
   }
 
-  std::array<std::vector<Row>, 3> of;
+  void add_to(std::span<double> product, const std::vector<Node> &nodes) const {
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      for (int i = 0; i < n; ++i)
+        product[unknown<dim>(nodes[a], i)] += of[a][i];
+  }
+
+  std::vector<Row> of;
 };
 
 template <int dim>
@@ -181,51 +225,59 @@ void CellProducts<dim>::add_capacitors(const std::vector<std::string> &boundarie
 }
 
 template <int dim>
-void CellProducts<dim>::storage(std::span<const double> x, FieldProducts &products) const {
-  for (std::vector<double> &product : products.of)
-    product.assign(x.size(), 0.);
+void CellProducts<dim>::for_each_cell(std::span<const double> x, const Visit &visit) const {
   std::size_t number = 0;
-  const auto add_cell = [&](const Quadrature<dim> &cell) {
-    const material::BodyConstants<dim> c = composition_.at(cell.region, cell.centre());
+  const auto visit_cell = [&](const Quadrature<dim> &cell) {
     std::array<Amplitudes<dim>, 3> modes;
     if (!modes_.empty())
       modes = amplitudes(modes_[number++], !cell.inverse_radius.empty(), x);
-    Rows rows(cell.nodes.size());
+    visit(cell, composition_.at(cell.region, cell.centre()), modes);
+  };
+  body_.for_each_cell(visit_cell, modes_.empty() ? Modes::none : Modes::incompatible);
+}
+
+template <int dim>
+void CellProducts<dim>::storage(std::span<const double> x, FieldProducts &products) const {
+  for (std::vector<double> &product : products.of)
+    product.assign(x.size(), 0.);
+  std::array<Rows, 3> rows;
+  for_each_cell(x, [&](const Quadrature<dim> &cell, const Constants &c, const CellAmplitudes &m) {
+    for (int field = 0; field < 3; ++field)
+      rows[field].of.assign(cell.nodes.size(), Rows::Row::Zero());
     for (std::size_t q = 0; q < cell.jxw.size(); ++q) {
       const Point<dim> all = fields_at(cell, q, x);
-      for (int field = 0; field < 3; ++field) {
-        const Point<dim> p = part_of(all, field, cell, q, modes[field]);
-        const Strain<dim> stress = c.stiffness * p.strain +
-                                   c.piezoelectric.transpose() * p.potential_gradient -
-                                   c.thermal_stress * p.temperature;
-        rows.add(field, cell, q, stress,
-                 c.piezoelectric * p.strain - c.permittivity * p.potential_gradient +
-                     c.pyroelectric * p.temperature,
-                 c.pyroelectric.dot(p.potential_gradient) - c.thermal_stress.dot(p.strain) -
-                     c.heat_capacity * p.temperature);
-      }
+      for (int field = 0; field < 3; ++field)
+        rows[field].add(cell, q, response_of(c, part_of(all, field, cell, q, m[field])));
     }
     for (int field = 0; field < 3; ++field)
-      for (std::size_t a = 0; a < cell.nodes.size(); ++a)
-        for (int i = 0; i < Rows::n; ++i)
-          products.of[field][unknown<dim>(cell.nodes[a], i)] += rows.of[field][a][i];
-  };
-  body_.for_each_cell(add_cell, modes_.empty() ? Modes::none : Modes::incompatible);
+      rows[field].add_to(products.of[field], cell.nodes);
+  });
 }
 
 template <int dim>
 void CellProducts<dim>::conduction(std::span<const double> x, std::vector<double> &taken) const {
   body_.for_each_cell([&](const Quadrature<dim> &cell) {
-    const material::BodyConstants<dim> c = composition_.at(cell.region, cell.centre());
+    const Constants c = composition_.at(cell.region, cell.centre());
+    for (std::size_t q = 0; q < cell.jxw.size(); ++q)
+      conduct<dim>(cell, q, c.conductivity, fields_at(cell, q, x).temperature_gradient, taken);
+  });
+  exchange(exchanges_, Fields<dim>::temperature, x, taken);
+}
+
+// Storage of all fields together and conduction.
+template <int dim>
+void CellProducts<dim>::storage_and_conduction(std::span<const double> x, std::span<double> y,
+                                               std::vector<double> &taken) const {
+  std::fill(y.begin(), y.end(), 0.);
+  Rows rows;
+  for_each_cell(x, [&](const Quadrature<dim> &cell, const Constants &c, const CellAmplitudes &m) {
+    rows.of.assign(cell.nodes.size(), Rows::Row::Zero());
     for (std::size_t q = 0; q < cell.jxw.size(); ++q) {
-      const Vector<dim> flow =
-          cell.jxw[q] * (c.conductivity * fields_at(cell, q, x).temperature_gradient);
-      for (std::size_t a = 1; a < cell.nodes.size(); ++a) {
-        const double tested = gradient(cell, q, a).dot(flow);
-        taken[cell.nodes[a]] += tested;
-        taken[cell.nodes[0]] -= tested;
-      }
+      const Point<dim> all = fields_at(cell, q, x);
+      rows.add(cell, q, response_of(c, whole_of(all, cell, q, m)));
+      conduct<dim>(cell, q, c.conductivity, all.temperature_gradient, taken);
     }
+    rows.add_to(y, cell.nodes);
   });
   exchange(exchanges_, Fields<dim>::temperature, x, taken);
 }
@@ -277,30 +329,18 @@ template <int dim>
 std::vector<Energies> CellProducts<dim>::stored(std::span<const double> x,
                                                 std::size_t n_regions) const {
   std::vector<double> sums(4 * n_regions, 0.);
-  std::size_t number = 0;
-  const auto add_cell = [&](const Quadrature<dim> &cell) {
-    const material::BodyConstants<dim> c = composition_.at(cell.region, cell.centre());
-    std::array<Amplitudes<dim>, 3> modes;
-    if (!modes_.empty())
-      modes = amplitudes(modes_[number++], !cell.inverse_radius.empty(), x);
+  const auto add_cell = [&](const Quadrature<dim> &cell, const Constants &c,
+                            const CellAmplitudes &modes) {
     for (std::size_t q = 0; q < cell.jxw.size(); ++q) {
-      const Point<dim> all = fields_at(cell, q, x);
-      Point<dim> p;
-      p.strain.setZero();
-      for (int field = 0; field < 3; ++field) {
-        const Point<dim> part = part_of(all, field, cell, q, modes[field]);
-        p.strain += part.strain;
-        p.potential_gradient += part.potential_gradient;
-      }
+      const Point<dim> p = whole_of(fields_at(cell, q, x), cell, q, modes);
       double *sum = &sums[4 * cell.region];
       sum[0] += cell.jxw[q] * p.strain.dot(c.stiffness * p.strain) / 2;
       sum[1] += cell.jxw[q] * p.potential_gradient.dot(c.permittivity * p.potential_gradient) / 2;
-      sum[2] += cell.jxw[q] * c.heat_capacity * all.temperature * all.temperature / 2;
-      sum[3] -= cell.jxw[q] * c.pyroelectric.dot(p.potential_gradient) * all.temperature;
+      sum[2] += cell.jxw[q] * c.heat_capacity * p.temperature * p.temperature / 2;
+      sum[3] -= cell.jxw[q] * c.pyroelectric.dot(p.potential_gradient) * p.temperature;
     }
   };
-  parallel::together(
-      [&] { body_.for_each_cell(add_cell, modes_.empty() ? Modes::none : Modes::incompatible); });
+  parallel::together([&] { for_each_cell(x, add_cell); });
   parallel::sum(sums);
   std::vector<Energies> energies;
   for (std::size_t r = 0; r < sums.size(); r += 4)
@@ -311,15 +351,11 @@ std::vector<Energies> CellProducts<dim>::stored(std::span<const double> x,
 template <int dim>
 void CellProducts<dim>::multiply(double step, std::span<const double> x,
                                  std::span<double> y) const {
-  FieldProducts products;
   std::vector<double> taken(body_.n_nodes(), 0.), held(body_.n_nodes(), 0.);
   parallel::together([&] {
-    storage(x, products);
-    conduction(x, taken);
+    storage_and_conduction(x, y, taken);
     exchange(capacitors_, Fields<dim>::potential, x, held);
   });
-  for (std::size_t i = 0; i < x.size(); ++i)
-    y[i] = products.sum(i);
   for (Node node = 0; node < taken.size(); ++node)
     y[unknown<dim>(node, Fields<dim>::temperature)] -=
         step / composition_.reference_temperature() * taken[node];

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <span>
 #include <string>
@@ -45,11 +46,18 @@ class CellProducts {
   std::vector<Energies> stored(std::span<const double> x, std::size_t n_regions) const;
 
  private:
-  /// What one cell or facet adds to the rows of its nodes.
   struct Rows;
+  using Constants = material::BodyConstants<dim>;
+  /// Of a cell's incompatible modes, by the field that causes them.
+  using CellAmplitudes = std::array<typename CellModes<dim>::Amplitudes, 3>;
+  using Visit =
+      std::function<void(const Quadrature<dim> &, const Constants &, const CellAmplitudes &)>;
 
+  void for_each_cell(std::span<const double> x, const Visit &visit) const;
   void storage(std::span<const double> x, FieldProducts &products) const;
   void conduction(std::span<const double> x, std::vector<double> &taken) const;
+  void storage_and_conduction(std::span<const double> x, std::span<double> y,
+                              std::vector<double> &taken) const;
   struct Exchange;
   void exchange(const std::vector<Exchange> &exchanges, int component, std::span<const double> x,
                 std::vector<double> &taken) const;
