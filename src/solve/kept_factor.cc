@@ -42,18 +42,18 @@ void add_local(const InterfaceSystem &system, Block &&block) {
         block(row, k) += static_cast<Scalar>(it.value());
 }
 
-// M, by groups of columns: a copy of A's would take as much memory as A.
+// M; a product of Eigen's would copy the columns of A first.
 template <class Matrix>
 Matrix matrix_of(const InterfaceSystem &system, const MatrixXd &a) {
-  constexpr Index group = 256;
   Matrix m = Matrix::Zero(system.size(), system.size());
-  const Index of_a = n_of_a(system, a);
-  for (Index first = 0; first < of_a; first += group) {
-    const Index n = std::min(group, of_a - first);
-    const std::vector<Index> columns(system.unknowns.begin() + first,
-                                     system.unknowns.begin() + first + n);
-    const MatrixXd some = system.of_force * a(Eigen::all, columns);
-    m.middleCols(first, n) = some.template cast<typename Matrix::Scalar>();
+  for (Index k = 0; k < n_of_a(system, a); ++k) {
+    const double *const column = a.col(system.unknowns[static_cast<std::size_t>(k)]).data();
+    for (Index row = 0; row < system.of_force.outerSize(); ++row) {
+      double sum = 0;
+      for (Sparse::InnerIterator it(system.of_force, row); it; ++it)
+        sum += it.value() * column[it.col()];
+      m(row, k) = static_cast<typename Matrix::Scalar>(sum);
+    }
   }
   add_local(system, m);
   return m;
