@@ -1,14 +1,14 @@
 #include "output/checksum.h"
 
-#include <zlib.h>
+#include <libdeflate.h>
 
 namespace tourmaline::output {
 
-// Of nothing zlib says 0, whatever stood before.
+// Of nothing libdeflate may say 0, whatever stood before.
 std::uint64_t checksum(std::uint64_t before, std::string_view bytes) {
   return bytes.empty()
              ? before
-             : crc32_z(before, reinterpret_cast<const unsigned char *>(bytes.data()), bytes.size());
+             : libdeflate_crc32(static_cast<std::uint32_t>(before), bytes.data(), bytes.size());
 }
 
 }  // namespace tourmaline::output

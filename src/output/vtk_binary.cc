@@ -1,7 +1,5 @@
 #include "output/vtk_binary.h"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <future>
@@ -9,7 +7,7 @@
 #include <vector>
 
 #include "output/base64.h"
-#include "tourmaline/error.h"
+#include "output/deflate.h"
 
 namespace tourmaline::output {
 namespace {
@@ -32,45 +30,15 @@ struct Compressed {
   std::vector<std::uint64_t> sizes;  // of each block
 };
 
-/// One zlib stream, used again for every block.
-class Compressor {
- public:
-  Compressor() {
-    if (deflateInit(&stream_, compression_level) != Z_OK)
-      throw MachineError("out of memory while compressing a field");
-  }
-  Compressor(const Compressor &) = delete;
-  Compressor &operator=(const Compressor &) = delete;
-  ~Compressor() { deflateEnd(&stream_); }
-
-  /// Compresses `block` into `to`, which has `bound(block.size())` bytes; returns how many were
-  /// used.
-  std::size_t operator()(Bytes block, std::byte *to) {
-    deflateReset(&stream_);
-    // zlib does not write through next_in; its C interface only lacks the const.
-    stream_.next_in = reinterpret_cast<Bytef *>(const_cast<std::byte *>(block.data()));
-    stream_.avail_in = static_cast<uInt>(block.size());
-    stream_.next_out = reinterpret_cast<Bytef *>(to);
-    stream_.avail_out = static_cast<uInt>(bound(block.size()));
-    deflate(&stream_, Z_FINISH);
-    return stream_.total_out;
-  }
-
-  std::size_t bound(std::size_t size) { return deflateBound(&stream_, size); }
-
- private:
-  z_stream stream_{};
-};
-
 /// Compresses `array` in blocks, the last one shorter where its size is no multiple.
 Compressed compress(Bytes array) {
-  Compressor compressor;
+  const Deflater deflate(compression_level);
   Compressed result;
-  result.bytes.resize((array.size() / block_bytes + 1) * compressor.bound(block_bytes));
+  result.bytes.resize((array.size() / block_bytes + 1) * deflate.bound(block_bytes));
   std::size_t used = 0;
   for (; !array.empty(); array = array.subspan(std::min(block_bytes, array.size()))) {
     const Bytes block = array.first(std::min(block_bytes, array.size()));
-    result.sizes.push_back(compressor(block, result.bytes.data() + used));
+    result.sizes.push_back(deflate(block, result.bytes.data() + used));
     used += result.sizes.back();
   }
   result.bytes.resize(used);

@@ -1,13 +1,11 @@
 #include "report/packing.h"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <bit>
 #include <vector>
 
 #include "output/base64.h"
-#include "tourmaline/error.h"
+#include "output/deflate.h"
 
 namespace tourmaline::report {
 namespace {
@@ -18,13 +16,9 @@ constexpr int compression_level = 6;
 static_assert(std::endian::native == std::endian::little, "the page reads little-endian numbers");
 
 std::vector<std::byte> deflated(std::span<const std::byte> bytes) {
-  uLongf size = compressBound(bytes.size());
-  std::vector<std::byte> packed(size);
-  if (compress2(reinterpret_cast<Bytef *>(packed.data()), &size,
-                reinterpret_cast<const Bytef *>(bytes.data()), bytes.size(),
-                compression_level) != Z_OK)
-    throw MachineError("not enough memory to compress the fields of the report");
-  packed.resize(size);
+  const output::Deflater deflate(compression_level);
+  std::vector<std::byte> packed(deflate.bound(bytes.size()));
+  packed.resize(deflate(bytes, packed.data()));
   return packed;
 }
 

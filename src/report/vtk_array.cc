@@ -1,11 +1,10 @@
 #include "report/vtk_array.h"
 
-#include <zlib.h>
-
 #include <array>
 #include <cstdint>
 #include <cstring>
 
+#include "output/deflate.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::report {
@@ -125,14 +124,13 @@ std::vector<double> read_vtk_binary(std::string_view text, const std::string &ty
   }
   const std::vector<unsigned char> compressed = take_base64(text, compressed_bytes, name);
   std::vector<unsigned char> plain(bytes);
-  const unsigned char *from = compressed.data();
-  unsigned char *to = plain.data();
+  auto from = std::as_bytes(std::span(compressed));
+  auto to = std::as_writable_bytes(std::span(plain));
   for (std::size_t i = 0; i < header.compressed.size(); ++i) {
-    uLongf size = header.bytes(i);
-    if (uncompress(to, &size, from, header.compressed[i]) != Z_OK || size != header.bytes(i))
+    if (!output::inflate(from.first(header.compressed[i]), to.first(header.bytes(i))))
       damaged(name);
-    from += header.compressed[i];
-    to += size;
+    from = from.subspan(header.compressed[i]);
+    to = to.subspan(header.bytes(i));
   }
   return numbers(plain, type, name);
 }
