@@ -59,6 +59,19 @@ TEST(Factorisations, GiveTheSameFieldsWithElectrodesRegionsAndRevolution) {
   expect_same_fields("cases/devices/bimorph.toml", {}, 1e-8);
 }
 
+TEST(Factorisations, ThreadsChangeNoBitOfABodyWithoutContact) {
+  for (const char *degree : {"mesh.degree=1", "mesh.degree=2"}) {
+    const auto with = [&](const char *threads) {
+      return RunCase("cases/verification/perfect-stick-clamped.toml",
+                     {"solver.factorisation='own'",
+                      "mesh.box={min=[0,0],max=[6e-3,4.5e-3],cells=[3,3],cell='quadrilateral'}",
+                      degree, threads, "output.report=false"})
+          .nodes();
+    };
+    EXPECT_EQ(with("solver.threads=1").columns, with("solver.threads=3").columns);
+  }
+}
+
 TEST(Factorisations, TheOwnOneIsOfTheDirectBodyOnly) {
   for (const char *other : {"solver.method='monolithic'", "solver.body='iterative'"})
     EXPECT_THROW(
