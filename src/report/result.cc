@@ -65,6 +65,16 @@ void read_case(Result &result, const fs::path &folder) {
   }
 }
 
+void read_summary(Result &result, const fs::path &file) {
+  result.summary = read_text_file(file);
+  if (nlohmann::json::parse(result.summary, nullptr, false).is_object())
+    return;
+  result.summary.clear();
+  result.remarks.emplace_back(
+      "summary.json is damaged: what it held is not shown, and nothing says whether the tables are "
+      "whole.");
+}
+
 // As summary.json says how long the tables were.
 void remark_on_lost_tables(Result &result, const fs::path &folder) {
   const nlohmann::json summary = nlohmann::json::parse(result.summary, nullptr, false);
@@ -110,7 +120,7 @@ void read_tables(Result &result, const fs::path &folder) {
       if (const fs::path file = folder / output::probe_file(probe.name); fs::exists(file))
         result.probes.push_back({probe.name, probe.from.has_value(), read_table(file)});
   if (fs::exists(folder / "summary.json"))
-    result.summary = read_text_file(folder / "summary.json");
+    read_summary(result, folder / "summary.json");
   else
     remark_on_unfinished(result, folder);
   remark_on_lost_tables(result, folder);

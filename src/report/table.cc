@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <optional>
 #include <string_view>
 
 #include "output/records.h"
@@ -25,14 +26,17 @@ std::vector<std::string_view> split(std::string_view line) {
   }
 }
 
-/// Of a word or a number; NaN for "nan" and for what is neither.
-double value_of(std::string_view cell) {
+/// Of a word or a number, NaN for an empty cell; nothing for what is neither.
+std::optional<double> value_of(std::string_view cell) {
+  if (cell.empty())
+    return std::numeric_limits<double>::quiet_NaN();
   for (const auto status : {ContactStatus::open, ContactStatus::stick, ContactStatus::slip})
     if (cell == name_of(status))
       return static_cast<double>(status);
-  double value = std::numeric_limits<double>::quiet_NaN();
-  std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  return value;
+  double value = 0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  const bool is_number = error == std::errc() && end == cell.data() + cell.size();
+  return is_number ? std::optional(value) : std::nullopt;
 }
 
 }  // namespace
@@ -44,10 +48,10 @@ const std::vector<double> *Table::find(const std::string &name) const {
 
 namespace {
 
-double place_in(const std::vector<std::string> &words, std::string_view cell) {
+std::optional<double> place_in(const std::vector<std::string> &words, std::string_view cell) {
   const auto found = std::find(words.begin(), words.end(), cell);
-  return found == words.end() ? std::numeric_limits<double>::quiet_NaN()
-                              : static_cast<double>(found - words.begin());
+  return found == words.end() ? std::nullopt
+                              : std::optional(static_cast<double>(found - words.begin()));
 }
 
 }  // namespace
@@ -69,10 +73,15 @@ Table read_table(const std::filesystem::path &path, const std::string &column_of
     if (cells.size() != table.names.size())
       throw CaseError(fmt::format("{}:{}: {} columns where the header has {}", path.string(),
                                   number, cells.size(), table.names.size()));
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      table.columns[i].push_back(!words.empty() && table.names[i] == column_of_words
-                                     ? place_in(words, cells[i])
-                                     : value_of(cells[i]));
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const auto value = table.names[i] == column_of_words && !words.empty()
+                             ? place_in(words, cells[i])
+                             : value_of(cells[i]);
+      if (!value && table.names[i] != column_of_words)
+        throw CaseError(fmt::format("{}:{}: \"{}\" in column {} is no number", path.string(),
+                                    number, cells[i], table.names[i]));
+      table.columns[i].push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
+    }
   }
   return table;
 }

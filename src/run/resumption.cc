@@ -67,13 +67,18 @@ std::string digest_of_file(const fs::path &file) {
   return digest.text();
 }
 
-// Of a run that is over; an empty one where it is damaged.
+// Of a run that is over.
 nlohmann::json summary_in(const fs::path &directory) {
-  auto json = nlohmann::json::parse(text_in(directory / "summary.json"), nullptr, false);
-  return json.is_object() ? json : nlohmann::json::object();
+  const fs::path file = directory / "summary.json";
+  auto json = nlohmann::json::parse(text_in(file), nullptr, false);
+  if (!json.is_object())
+    throw MachineError(file.string() +
+                       " is damaged, and nothing else says whether the results are whole; start "
+                       "again without --resume");
+  return json;
 }
 
-// The digests that a run which is over has left; none in a damaged summary.
+// The digests that a run which is over has left.
 std::map<std::string, std::string> contents_in(const nlohmann::json &json) {
   std::map<std::string, std::string> digests;
   if (json.contains("inputs") && json["inputs"].is_object())

@@ -50,6 +50,18 @@ TEST_F(CompleteRun, AFieldFileThatHasGoneIsNamedByResume) {
   EXPECT_THAT(complained_, HasSubstr("result_0001.vtu of the complete run in results is missing"));
 }
 
+TEST_F(CompleteRun, ADamagedSummaryIsNoProofThatARunIsComplete) {
+  const std::string all = "run " + paper + " --set time.steps=2 -q -o results --resume";
+  ASSERT_EQ(run(all), 0);
+  for (const char *damaged : {"", "garbage"}) {
+    std::ofstream(here() / "results/summary.json") << damaged;
+    EXPECT_EQ(run(all), 4);
+    EXPECT_THAT(complained_,
+                AllOf(HasSubstr("results/summary.json is damaged"), HasSubstr("without --resume")));
+    EXPECT_EQ(std::count(complained_.begin(), complained_.end(), '\n'), 1) << complained_;
+  }
+}
+
 class InTheEnd : public Interrupted {
  protected:
   // Its page takes longer than the moment between the summary and a signal.

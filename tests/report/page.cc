@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "../output/temporary_folder.h"
@@ -216,6 +217,28 @@ TEST(Page, SaysWhichTablesOfACompleteRunHaveGone) {
   ASSERT_EQ(result["remarks"].size(), 1u) << result["remarks"];
   EXPECT_THAT(result["remarks"][0].get<std::string>(),
               HasSubstr("history.csv is missing, and had"));
+}
+
+TEST(Page, SaysThatADamagedSummarySaysNothing) {
+  ResultFolder run(quick);
+  for (const char *damaged : {"", "garbage", "{\"files\": {"}) {
+    std::ofstream(run.path() / "summary.json") << damaged;
+    write_page({run.path()}, run.path() / "report.html");
+    const auto result = results_in(run.content("report.html"))[0];
+    EXPECT_TRUE(result["summary"].is_null());
+    ASSERT_EQ(result["remarks"].size(), 1u) << result["remarks"];
+    EXPECT_THAT(result["remarks"][0].get<std::string>(), HasSubstr("summary.json is damaged"));
+  }
+}
+
+TEST(Page, ATextAmongTheNumbersOfATableIsRefusedWithItsLine) {
+  ResultFolder run(quick);
+  std::string history = run.content("history.csv");
+  const std::size_t second = history.find('\n') + 1;
+  history.replace(second, history.find(',', second) - second, "abc");
+  std::ofstream(run.path() / "history.csv") << history;
+  EXPECT_THAT([&] { write_page({run.path()}, run.path() / "other.html"); },
+              ThrowsMessage<CaseError>(HasSubstr("history.csv:2: \"abc\" in column")));
 }
 
 }  // namespace
