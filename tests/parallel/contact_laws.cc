@@ -108,6 +108,8 @@ const char *const iteratively = " --set solver.body=iterative --set solver.linea
 TEST_P(Ranks, WhatCrossesTheContactByItsStateIsTheSame) {
   for (const std::string route : {"", " --set solver.method=monolithic", iteratively})
     for (const auto &[text, dim] : {std::pair(rubbed, 2), std::pair(rubbed_block, 3)}) {
+      if (GetParam() > 2 && dim == 3 && !route.empty())
+        continue;  // of minutes where ranks share a core
       SCOPED_TRACE(route);
       ASSERT_NO_FATAL_FAILURE(run_twice(file_of(text) + crossing + route));
       expect_same_rubbing(one_, several_, dim);
@@ -135,7 +137,7 @@ TEST_P(Ranks, TheCircuitOfAFoundationIsTheSame) {
 TEST_P(Ranks, StepsThatTheProgramChoosesAreTheSame) {
   for (const std::string route : {"", " --set solver.method=monolithic", iteratively}) {
     SCOPED_TRACE(route);
-    ASSERT_NO_FATAL_FAILURE(run_twice(file_of(rubbed) + " --set time.tolerance=3e-3" + route));
+    ASSERT_NO_FATAL_FAILURE(run_twice(file_of(rubbed) + " --set time.tolerance=1e-2" + route));
     EXPECT_EQ(one_.history.numbers("time"), several_.history.numbers("time"));
     expect_same_rubbing(one_, several_, 2);
   }
