@@ -3,6 +3,9 @@
 #include <Eigen/Dense>
 #include <utility>
 
+extern "C" void dpotrf_(const char *triangle, const int *n, double *a, const int *leading,
+                        int *info);
+
 namespace tourmaline::dense {
 
 using Eigen::MatrixXd;
@@ -40,31 +43,31 @@ VectorXd eigenvalues(const MatrixXd &a, const MatrixXd &b) {
       .eigenvalues();
 }
 
-struct Cholesky::Factor {
-  Eigen::LLT<MatrixXd> of;
-};
-
-Cholesky::Cholesky() : Cholesky(MatrixXd()) {}
-Cholesky::Cholesky(const MatrixXd &matrix)
-    : factor_(std::make_unique<Factor>(Factor{Eigen::LLT<MatrixXd>(matrix)})) {}
-Cholesky::Cholesky(Cholesky &&) noexcept = default;
-Cholesky &Cholesky::operator=(Cholesky &&) noexcept = default;
-Cholesky::~Cholesky() = default;
-
-bool Cholesky::is_definite() const {
-  return factor_->of.info() == Eigen::Success;
+// LAPACK's, as Eigen's copies the matrix and sums up its rows for a norm, which at some hundred
+// rows takes as long again.
+Cholesky::Cholesky(MatrixXd matrix) : lower_(std::move(matrix)) {
+  const int n = static_cast<int>(lower_.rows());
+  int info = 0;
+  if (n > 0)
+    dpotrf_("L", &n, lower_.data(), &n, &info);
+  is_definite_ = info == 0;
 }
 
 VectorXd Cholesky::solve(const VectorXd &right_side) const {
-  return factor_->of.solve(right_side);
+  VectorXd x = lower_.triangularView<Eigen::Lower>().solve(right_side);
+  lower_.triangularView<Eigen::Lower>().transpose().solveInPlace(x);
+  return x;
 }
 
 MatrixXd Cholesky::solve(const MatrixXd &right_sides) const {
-  return factor_->of.solve(right_sides);
+  MatrixXd x = lower_.triangularView<Eigen::Lower>().solve(right_sides);
+  lower_.triangularView<Eigen::Lower>().transpose().solveInPlace(x);
+  return x;
 }
 
-double Cholesky::inverse_condition() const {
-  return factor_->of.rcond();
+double inverse_condition(const MatrixXd &symmetric) {
+  const Eigen::LLT<MatrixXd> factor(symmetric);
+  return factor.info() == Eigen::Success ? factor.rcond() : 0;
 }
 
 VectorXd solve(const MatrixXd &a, const VectorXd &b) {

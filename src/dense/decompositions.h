@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
 
 /// Decompositions of dense matrices, compiled once: Eigen's are templates of thousands of lines,
 /// which every source that calls one would compile anew.
@@ -28,23 +27,23 @@ Eigen::VectorXd eigenvalues(const Eigen::MatrixXd &a, const Eigen::MatrixXd &b);
 class Cholesky {
  public:
   /// Of no unknowns.
-  Cholesky();
-  explicit Cholesky(const Eigen::MatrixXd &matrix);
-  Cholesky(Cholesky &&) noexcept;
-  Cholesky &operator=(Cholesky &&) noexcept;
-  ~Cholesky();
+  Cholesky() = default;
+  /// In the place of `matrix`.
+  explicit Cholesky(Eigen::MatrixXd matrix);
 
   /// Whether all pivots were positive; otherwise nothing else can be asked.
-  bool is_definite() const;
+  bool is_definite() const { return is_definite_; }
   Eigen::VectorXd solve(const Eigen::VectorXd &right_side) const;
   Eigen::MatrixXd solve(const Eigen::MatrixXd &right_sides) const;
-  /// An estimate of the inverse of the condition number.
-  double inverse_condition() const;
 
  private:
-  struct Factor;
-  std::unique_ptr<Factor> factor_;
+  Eigen::MatrixXd lower_;
+  bool is_definite_ = true;
 };
+
+/// An estimate of the inverse of the condition number of a symmetric positive definite matrix; 0
+/// where it is not definite.
+double inverse_condition(const Eigen::MatrixXd &symmetric);
 
 /// x of a x = b, by elimination with partial pivoting; not finite where `a` is singular.
 Eigen::VectorXd solve(const Eigen::MatrixXd &a, const Eigen::VectorXd &b);

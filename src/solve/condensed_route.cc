@@ -152,12 +152,9 @@ template <int dim>
 double CondensedRoute<dim>::error_of_slips() const {
   double error = 0;
   const std::vector<Index> entries = contact_ ? contact_->movable() : std::vector<Index>{};
-  if (parallel::is_first() && !entries.empty() && left_to_contact_.empty()) {
-    const dense::Cholesky factor(slip_stiffness_(entries, entries));
-    error = factor.is_definite()
-                ? std::numeric_limits<double>::epsilon() / factor.inverse_condition()
-                : std::numeric_limits<double>::infinity();
-  }
+  if (parallel::is_first() && !entries.empty() && left_to_contact_.empty())
+    error = std::numeric_limits<double>::epsilon() /
+            dense::inverse_condition(slip_stiffness_(entries, entries));
   parallel::from_first(std::span(&error, 1));
   return error;
 }

@@ -42,13 +42,15 @@ void add_local(const InterfaceSystem &system, Block &&block) {
         block(row, k) += static_cast<Scalar>(it.value());
 }
 
+enum class Part { whole, lower };
+
 // M; a product of Eigen's would copy the columns of A first.
 template <class Matrix>
-Matrix matrix_of(const InterfaceSystem &system, const MatrixXd &a) {
+Matrix matrix_of(const InterfaceSystem &system, const MatrixXd &a, Part part = Part::whole) {
   Matrix m = Matrix::Zero(system.size(), system.size());
   for (Index k = 0; k < n_of_a(system, a); ++k) {
     const double *const column = a.col(system.unknowns[static_cast<std::size_t>(k)]).data();
-    for (Index row = 0; row < system.of_force.outerSize(); ++row) {
+    for (Index row = part == Part::lower ? k : 0; row < system.size(); ++row) {
       double sum = 0;
       for (Sparse::InnerIterator it(system.of_force, row); it; ++it)
         sum += it.value() * column[it.col()];
@@ -322,7 +324,7 @@ std::optional<KeptFactor::Solved> KeptFactor::solve_definite(const InterfaceSyst
                                                              const MatrixXd &a, const VectorXd &b) {
   if (auto found = solve_large(system, a, b))
     return found;
-  const dense::Cholesky factor(matrix_of<MatrixXd>(system, a));
+  const dense::Cholesky factor(matrix_of<MatrixXd>(system, a, Part::lower));
   if (!factor.is_definite())
     return std::nullopt;
   return spread(system, a, factor.solve(b));
