@@ -65,7 +65,6 @@ CellModes<dim>::CellModes(const Quadrature<dim> &cell, const Blocks &blocks)
 // amplitudes as well; what these add, and what condensing took away, is the shift.
 template <int dim>
 Energies CellModes<dim>::energy_shift(std::span<const double> x) const {
-  using Amplitudes = Eigen::Matrix<double, n_amplitudes, 1>;
   Amplitudes by_u = Amplitudes::Zero(), by_phi = Amplitudes::Zero(), by_theta = Amplitudes::Zero();
   for (int b = 0; b < n_nodes; ++b) {
     const Eigen::Map<const Eigen::Matrix<double, Fields<dim>::count, 1>> at(

@@ -5,6 +5,8 @@
 
 extern "C" void dpotrf_(const char *triangle, const int *n, double *a, const int *leading,
                         int *info);
+extern "C" void dpotrs_(const char *triangle, const int *n, const int *columns, const double *a,
+                        const int *leading, double *x, const int *leading_of_x, int *info);
 
 namespace tourmaline::dense {
 
@@ -54,14 +56,15 @@ Cholesky::Cholesky(MatrixXd matrix) : lower_(std::move(matrix)) {
 }
 
 VectorXd Cholesky::solve(const VectorXd &right_side) const {
-  VectorXd x = lower_.triangularView<Eigen::Lower>().solve(right_side);
-  lower_.triangularView<Eigen::Lower>().transpose().solveInPlace(x);
-  return x;
+  return solve(MatrixXd(right_side));
 }
 
 MatrixXd Cholesky::solve(const MatrixXd &right_sides) const {
-  MatrixXd x = lower_.triangularView<Eigen::Lower>().solve(right_sides);
-  lower_.triangularView<Eigen::Lower>().transpose().solveInPlace(x);
+  MatrixXd x = right_sides;
+  const int n = static_cast<int>(lower_.rows()), columns = static_cast<int>(x.cols());
+  int info = 0;
+  if (x.size() > 0)
+    dpotrs_("L", &n, &columns, lower_.data(), &n, x.data(), &n, &info);
   return x;
 }
 
