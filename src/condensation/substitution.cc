@@ -72,9 +72,9 @@ template <int columns>
   }
 }
 
-// What columns [c0, c1) of one panel have in rows [r0, r1).
-Strip part(const Trapezoid &l, int c, int c0, int r0, int r1) {
-  return {l.at(r0, c), static_cast<std::size_t>(l.leading(c0 / l.width)), r1 - r0};
+// Rows [r0, r1) of the columns from c on.
+Strip strip_at(const Trapezoid &l, int c, int r0, int r1) {
+  return {l.at(r0, c), static_cast<std::size_t>(l.leading(c / l.width)), r1 - r0};
 }
 
 // Rows [r0, r1) of x less what columns [c0, c1) of one panel eliminate there.
@@ -82,11 +82,11 @@ FOR_EACH_PROCESSOR
 void subtract(const Trapezoid &l, int c0, int c1, double *x, int r0, int r1) {
   int c = c0;
   for (; c + strip <= c1; c += strip)
-    subtract<strip>(part(l, c, c0, r0, r1), x + c, x + r0);
+    subtract<strip>(strip_at(l, c, r0, r1), x + c, x + r0);
   for (; c + half_a_strip <= c1; c += half_a_strip)
-    subtract<half_a_strip>(part(l, c, c0, r0, r1), x + c, x + r0);
+    subtract<half_a_strip>(strip_at(l, c, r0, r1), x + c, x + r0);
   for (; c < c1; ++c)
-    subtract<1>(part(l, c, c0, r0, r1), x + c, x + r0);
+    subtract<1>(strip_at(l, c, r0, r1), x + c, x + r0);
 }
 
 // sums[c - c0] += what rows [r0, r1) of x give to columns [c0, c1) of one panel.
@@ -95,11 +95,11 @@ void add_products(const Trapezoid &l, int c0, int c1, const double *x, int r0, i
                   double *sums) {
   int c = c0;
   for (; c + strip <= c1; c += strip)
-    add_products<strip>(part(l, c, c0, r0, r1), x + r0, sums + (c - c0));
+    add_products<strip>(strip_at(l, c, r0, r1), x + r0, sums + (c - c0));
   for (; c + half_a_strip <= c1; c += half_a_strip)
-    add_products<half_a_strip>(part(l, c, c0, r0, r1), x + r0, sums + (c - c0));
+    add_products<half_a_strip>(strip_at(l, c, r0, r1), x + r0, sums + (c - c0));
   for (; c < c1; ++c)
-    add_products<1>(part(l, c, c0, r0, r1), x + r0, sums + (c - c0));
+    add_products<1>(strip_at(l, c, r0, r1), x + r0, sums + (c - c0));
 }
 
 // A strip's own triangle.
