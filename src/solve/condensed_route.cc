@@ -100,7 +100,7 @@ class CondensedRoute : public Route {
                                   const InterfaceSettings &settings) const;
   CoupledSolution solve_leaning(const InterfaceProgramme &programme, const VectorXd &first,
                                 const InterfaceSettings &settings) const;
-  InterfaceSettings settings(KeptFactors *factors) const;
+  InterfaceSettings settings(KeptFactor *factor) const;
   void condense_exchanges();
   bool exchanges() const { return exchange_ && exchange_->size() > 0; }
   bool is_carried_off(const InterfaceProgramme &programme, const InterfaceSolution &solution) const;
@@ -110,7 +110,7 @@ class CondensedRoute : public Route {
   void refine_again() override { refine(); }
   void save_memory(output::SavedNumbers &numbers) const override;
   void restore_memory(const output::SavedNumbers &numbers) override;
-  void forget_matrices() override { factors_ = whole_factors_ = {}; }
+  void forget_matrices() override { factor_ = whole_factor_ = {}; }
 
   const Model<dim> &model_;
   std::string left_to_contact_;  // rigid motions
@@ -118,12 +118,12 @@ class CondensedRoute : public Route {
   ConnectedBody<dim> condensed_;
   std::optional<ContactNodes<dim>> contact_;
   MatrixXd slip_stiffness_;  // T^T S T, T the directions of the contact's unknowns
-  KeptFactors factors_;
+  KeptFactor factor_;
   VectorXd last_increment_;
   // Where temperatures or potentials are unknowns of the contact, too: the matrix with their rows.
   std::optional<ExchangeNodes<dim>> exchange_;
   MatrixXd whole_stiffness_;
-  KeptFactors whole_factors_;
+  KeptFactor whole_factor_;
   int negative_at_contact_ = 0;  // pivots in their rows
   double error_of_slips_ = 0;    // the contact's own share of the forward error
 };
@@ -170,6 +170,7 @@ void CondensedRoute<dim>::refine() {
 
 template <int dim>
 void CondensedRoute<dim>::condense_onto_slips() {
+  forget_matrices();
   if (!contact_)
     return;
   last_increment_ = VectorXd::Zero(contact_->n_unknowns());
@@ -203,9 +204,9 @@ void CondensedRoute<dim>::condense_exchanges() {
 }
 
 template <int dim>
-InterfaceSettings CondensedRoute<dim>::settings(KeptFactors *factors) const {
+InterfaceSettings CondensedRoute<dim>::settings(KeptFactor *factor) const {
   return {model_.asked.solver.tolerance, model_.asked.solver.max_iterations,
-          left_to_contact_.empty(), factors};
+          left_to_contact_.empty(), factor};
 }
 
 template <int dim>
@@ -235,6 +236,7 @@ CoupledSolution CondensedRoute<dim>::solve_leaning(const InterfaceProgramme &pro
                                     programme.force_scale};
     InterfaceSettings definite = settings;
     definite.is_definite = true;
+    definite.factor = nullptr;
     start = solve_coupled({sprung, contact_->couplings()}, start, definite).interface.increment;
     solution = solve_coupled({programme, contact_->couplings()}, start, settings);
     iterations += solution.interface.iterations;
@@ -266,12 +268,12 @@ CoupledSolution CondensedRoute<dim>::solve_with_exchange(double time, const Vect
     return solve_programme(held, from, settings(nullptr));
   };
   CoupledSolution solution =
-      solve_exchanging(programme, start, settings(&whole_factors_), solve_held);
+      solve_exchanging(programme, start, settings(&whole_factor_), solve_held);
   // Newton's method on the whole may lose a body that only its contact holds; with what crosses
   // held, springs lead back.
   if (!left_to_contact_.empty() &&
       (!solution.interface.converged || is_carried_off(programme.whole, solution.interface)))
-    solution = solve_exchanging(programme, start, settings(&whole_factors_), solve_held, false);
+    solution = solve_exchanging(programme, start, settings(&whole_factor_), solve_held, false);
   require_solved(time, programme.whole, solution.interface);
   return solution;
 }
@@ -297,7 +299,7 @@ CoupledSolution CondensedRoute<dim>::solve_contact(double time, const VectorXd &
   const double scale = larger(s.cwiseAbs().maxCoeff<Eigen::PropagateNaN>(),
                               resisted.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
   const InterfaceProgramme programme{slip_stiffness_, force, contact_->points(), scale};
-  CoupledSolution solution = solve_programme(programme, last_increment_, settings(&factors_));
+  CoupledSolution solution = solve_programme(programme, last_increment_, settings(&factor_));
   require_solved(time, programme, solution.interface);
   return solution;
 }
@@ -463,12 +465,9 @@ template <int dim>
 void CondensedRoute<dim>::save_memory(output::SavedNumbers &numbers) const {
   condensed_.save(numbers);
   numbers.put("last increment", last_increment_);
-  factors_.convex.save("convex programme's factor", numbers);
-  factors_.coupled.save("coupled programme's factor", numbers);
   if (contact_) {
     contact_->save(numbers);
     exchange_->save(numbers);
-    whole_factors_.coupled.save("exchange programme's factor", numbers);
   }
 }
 
@@ -477,13 +476,10 @@ void CondensedRoute<dim>::restore_memory(const output::SavedNumbers &numbers) {
   condensed_.restore(numbers);
   if (parallel::is_first()) {
     numbers.fill("last increment", last_increment_);
-    factors_.convex.restore("convex programme's factor", numbers, last_increment_.size());
-    factors_.coupled.restore("coupled programme's factor", numbers, last_increment_.size());
   }
   if (parallel::is_first() && contact_) {
     contact_->restore(numbers);
     exchange_->restore(numbers);
-    whole_factors_.coupled.restore("exchange programme's factor", numbers, whole_stiffness_.rows());
   }
 }
 

@@ -11,8 +11,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-DenseBody::DenseBody(const InterfaceProgramme &programme, KeptFactors *factors)
-    : programme_(programme), factors_(factors == nullptr ? own_ : *factors) {
+DenseBody::DenseBody(const InterfaceProgramme &programme, KeptFactor *factor)
+    : programme_(programme), size_(programme_), factor_(factor == nullptr ? own_ : *factor) {
+  factor_.begin();
   for (const ContactPoint &p : programme_.points)
     curvature_.push_back(largest_curvature(programme_.stiffness, p));
 }
@@ -21,14 +22,6 @@ VectorXd DenseBody::force(const VectorXd &d) {
   VectorXd force = programme_.force;
   subtract_product(programme_.stiffness, d, force);
   return force;
-}
-
-double DenseBody::size_of_forces(const VectorXd &d) const {
-  return solve::size_of_forces(programme_, d);
-}
-
-bool DenseBody::is_within(const VectorXd &d, double residual, double tolerance) const {
-  return solve::is_within(programme_, d, residual, tolerance);
 }
 
 double DenseBody::largest_force() const {
@@ -45,10 +38,10 @@ VectorXd DenseBody::without_contact() {
 
 InterfaceSolution DenseBody::minimise(const std::vector<ContactPoint> &points, VectorXd start,
                                       const InterfaceSettings &settings) {
-  InterfaceSettings with_factors = settings;
-  with_factors.factors = &factors_;
+  InterfaceSettings with_factor = settings;
+  with_factor.factor = &factor_;
   return solve::minimise({programme_.stiffness, programme_.force, points, programme_.force_scale},
-                         std::move(start), with_factors);
+                         std::move(start), with_factor);
 }
 
 void DenseBody::fill(const ContactTangent::Point &at, Index row, Rows &rows) const {
@@ -129,8 +122,8 @@ std::optional<ContactBody::Moved> DenseBody::solve(const ContactTangent &tangent
   if (!all.unknowns.empty()) {
     const InterfaceSystem asked = all.of_unknowns.system(all.unknowns, n, n + n_shares);
     const std::optional<KeptFactor::Solved> found =
-        factors_.coupled.solve(asked, programme_.stiffness,
-                               all.right_side - asked.of_force * resisted - asked.local * known);
+        factor_.solve(asked, programme_.stiffness,
+                      all.right_side - asked.of_force * resisted - asked.local * known);
     if (!found)
       return std::nullopt;
     known += found->x;

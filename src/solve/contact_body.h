@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "solve/force_size.h"
 #include "solve/interface_newton.h"
 
 namespace tourmaline::solve {
@@ -57,6 +58,9 @@ class ContactBody {
   virtual ~ContactBody() = default;
 
   virtual Eigen::VectorXd force(const Eigen::VectorXd &d) = 0;  ///< f - A d
+  /// Whether asking for that costs so much that after a step it is taken from what resists the
+  /// step, but for the last one.
+  virtual bool carries_forces() const { return false; }
   /// What a residual at the d that was asked for last is compared to: the largest of the terms of
   /// its forces [N]; not 0.
   virtual double size_of_forces(const Eigen::VectorXd &d) const = 0;
@@ -93,17 +97,20 @@ class ContactBody {
 /// With the matrix A at hand.
 class DenseBody : public ContactBody {
  public:
-  /// What these refer to outlives this. `factors`: of programmes before it; nothing: none.
-  explicit DenseBody(const InterfaceProgramme &programme, KeptFactors *factors = nullptr);
+  /// What these refer to outlives this. `factor`: of programmes before it; nothing: none.
+  explicit DenseBody(const InterfaceProgramme &programme, KeptFactor *factor = nullptr);
   DenseBody(const DenseBody &) = delete;
   DenseBody &operator=(const DenseBody &) = delete;
 
   Eigen::VectorXd force(const Eigen::VectorXd &d) override;
-  double size_of_forces(const Eigen::VectorXd &d) const override;
+  bool carries_forces() const override { return is_large(programme_.force.size()); }
+  double size_of_forces(const Eigen::VectorXd &d) const override { return size_.at(d); }
   double size_of_flows(const Eigen::VectorXd &d, std::size_t field) const override {
     return solve::size_of_flows(programme_, d, field);
   }
-  bool is_within(const Eigen::VectorXd &d, double residual, double tolerance) const override;
+  bool is_within(const Eigen::VectorXd &d, double residual, double tolerance) const override {
+    return size_.is_within(d, residual, tolerance);
+  }
   double largest_force() const override;
   double curvature(std::size_t point) const override { return curvature_[point]; }
   double curvature_of_exchange(Eigen::Index entry) const override {
@@ -132,8 +139,9 @@ class DenseBody : public ContactBody {
 
   const InterfaceProgramme programme_;  // refers to what is not its own
   std::vector<double> curvature_;       // by point [N/m]
-  KeptFactors own_;
-  KeptFactors &factors_;
+  mutable ForceSize size_;
+  KeptFactor own_;
+  KeptFactor &factor_;
 };
 
 }  // namespace tourmaline::solve

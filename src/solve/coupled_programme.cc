@@ -267,7 +267,7 @@ bool slip_sets_in_unstable(const CoupledContact &contact, const VectorXd &start,
 
 CoupledSolution solve_coupled(const CoupledProgramme &programme, const VectorXd &start,
                               const InterfaceSettings &settings) {
-  DenseBody body(programme.convex, settings.factors);
+  DenseBody body(programme.convex, settings.factor);
   return solve_coupled({body, programme.convex.points, programme.couplings}, start, settings);
 }
 

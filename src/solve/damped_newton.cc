@@ -45,8 +45,7 @@ bool damped_newton(const NaturalMap &map, Place &x, double tolerance, int most,
     const double length = damped(map, x, *direction);
     if (length == 0)
       return false;
-    x = map.along(x, *direction, length);
-    x = map.at(x.d, x.share);
+    x = map.arrived(map.along(x, *direction, length));
   }
   x = map.settled(x);
   return map.is_zero(x, tolerance);

@@ -215,7 +215,7 @@ CoupledSolution solve_exchanging(const ExchangeProgramme &programme, const Vecto
                                  const InterfaceSettings &settings, const SolveHeld &solve_held,
                                  bool newton) {
   constexpr int most = 50;
-  DenseBody body(programme.whole, settings.factors);
+  DenseBody body(programme.whole, settings.factor);
   const CoupledContact contact{body, programme.whole.points, programme.couplings,
                                programme.exchanges};
   IterationCount count;

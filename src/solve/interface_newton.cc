@@ -6,6 +6,7 @@
 
 #include "dense/decompositions.h"
 #include "larger.h"
+#include "solve/force_size.h"
 #include "solve/truncation.h"
 
 namespace tourmaline::solve {
@@ -19,17 +20,13 @@ using Eigen::VectorXd;
 
 constexpr int sweeps_per_iteration = 3;
 
-// NaN where an entry is.
-double largest_of(const VectorXd &v) {
-  return v.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-}
-
 class Iteration {
  public:
   Iteration(const InterfaceProgramme &programme, VectorXd start, bool is_definite,
             KeptFactor &factor)
       : programme_(programme),
         d_(std::move(start)),
+        size_(programme),
         may_be_singular_(!is_definite),
         factor_(factor) {
     for (const ContactPoint &p : programme.points)
@@ -52,11 +49,9 @@ class Iteration {
   /// Natural residual |lambda - P(lambda + r d)| of a point, as a nodal force.
   double residual(std::size_t i) const;
   double largest_residual() const;
-  double force_size() const;
-  bool is_solved(double tolerance) const {
-    return is_within(programme_, d_, largest_residual(), tolerance);
-  }
-  InterfaceSolution solution() const;
+  double force_size() { return size_.at(d_); }
+  bool is_solved(double tolerance);
+  InterfaceSolution solution();
   /// Whether the last linear system could be factorised.
   bool is_definite() const { return is_definite_; }
   bool may_yield() const { return may_yield_; }
@@ -91,10 +86,12 @@ class Iteration {
   double length_to_least(const VectorXd &direction) const;
   void search(const VectorXd &direction, VectorXd &next) const;
   bool shorten(const VectorXd &direction, VectorXd &next) const;
+  void go_to(const VectorXd &next);
 
   const InterfaceProgramme &programme_;
   VectorXd d_;      // slip increments
   VectorXd force_;  // f - A d
+  ForceSize size_;
   std::vector<double> curvature_;
   bool may_be_singular_;
   bool may_yield_;  // a normal law has no kink, but a bend where the body begins to touch
@@ -297,6 +294,14 @@ void Iteration::search(const VectorXd &direction, VectorXd &next) const {
     next = exact;
 }
 
+void Iteration::go_to(const VectorXd &next) {
+  if (is_large(d_.size()))
+    force_ -= resisted_to(next);
+  d_ = next;
+  if (!is_large(d_.size()))
+    update_residual_force();
+}
+
 bool Iteration::newton_step(bool ahead) {
   const std::vector<std::size_t> smooth = smooth_points();
   const std::optional<VectorXd> found = newton_direction(smooth, ahead);
@@ -310,8 +315,7 @@ bool Iteration::newton_step(bool ahead) {
   if (!descends(next) && !shorten(*found, next))
     return false;  // round-off is all that is left of the step
   const bool is_whole = next == d_ + *found;
-  d_ = next;
-  update_residual_force();
+  go_to(next);
   const std::size_t left = smooth_points().size();
   is_settling_ = is_whole && left == smooth.size();
   return left < smooth.size();
@@ -344,11 +348,16 @@ double Iteration::largest_residual() const {
   return largest;
 }
 
-double Iteration::force_size() const {
-  return size_of_forces(programme_, d_);
+// No drift of the updates enters the verdict.
+bool Iteration::is_solved(double tolerance) {
+  if (!size_.is_within(d_, largest_residual(), tolerance))
+    return false;
+  if (is_large(d_.size()))
+    update_residual_force();
+  return size_.is_within(d_, largest_residual(), tolerance);
 }
 
-InterfaceSolution Iteration::solution() const {
+InterfaceSolution Iteration::solution() {
   InterfaceSolution solution;
   solution.increment = d_;
   solution.force = VectorXd::Zero(d_.size());
@@ -386,56 +395,16 @@ double largest_curvature(const Eigen::MatrixXd &stiffness, const ContactPoint &p
   return p.size == 0 ? 0 : dense::spectrum(block).values[p.size - 1];
 }
 
-namespace {
-
-double size_of_rows(const InterfaceProgramme &programme, const VectorXd &d, const FieldRows &rows) {
-  const auto of = Eigen::seqN(rows.begin, rows.size);
-  const double size = larger(
-      larger(rows.scale, largest_of(programme.force(of))),
-      largest_of(programme.stiffness.middleRows(rows.begin, rows.size).cwiseAbs() * d.cwiseAbs()));
-  return size == 0 ? 1 : size;
-}
-
-}  // namespace
-
-double size_of_forces(const InterfaceProgramme &programme, const VectorXd &d) {
-  if (!programme.fields.empty() && programme.n_forces() > 0)
-    return size_of_rows(programme, d, {0, programme.n_forces(), programme.force_scale});
-  double size = programme.force_scale;
-  if (d.size() > 0)
-    size = larger(larger(size, largest_of(programme.force)),
-                  largest_of(programme.stiffness.cwiseAbs() * d.cwiseAbs()));
-  return size == 0 ? 1 : size;
-}
-
-double size_of_flows(const InterfaceProgramme &programme, const VectorXd &d, std::size_t field) {
-  return size_of_rows(programme, d, programme.fields[field]);
-}
-
-// No entry of A is larger than the largest of its diagonal: where the residual is far too large
-// even for that, A is not read.
-bool is_within(const InterfaceProgramme &programme, const VectorXd &d, double residual,
-               double tolerance) {
-  double at_most = programme.force_scale;
-  if (d.size() > 0 && programme.fields.empty())
-    at_most = larger(at_most, largest_of(programme.force)) +
-              largest_of(programme.stiffness.diagonal()) * d.lpNorm<1>();
-  if (at_most > 0 && programme.fields.empty() && residual > tolerance * at_most)
-    return false;
-  return relative_to(residual, size_of_forces(programme, d)) <= tolerance;
-}
-
 InterfaceSolution minimise(const InterfaceProgramme &programme, VectorXd start,
                            const InterfaceSettings &settings) {
   if (programme.force.size() == 0)
     return nothing_to_slip(programme);
   KeptFactor own;
   Iteration iteration(programme, std::move(start), settings.is_definite,
-                      settings.factors ? settings.factors->convex : own);
+                      settings.factor ? *settings.factor : own);
   int solved = 0;
   bool converged = false;
   while (true) {
-    // The residual force is fresh here: no drift from the sweeps' updates enters the verdict.
     converged = iteration.is_solved(settings.tolerance);
     if (converged || solved == settings.max_iterations || !iteration.is_definite())
       break;

@@ -41,18 +41,13 @@ struct InterfaceProgramme {
   Eigen::Index n_forces() const { return fields.empty() ? force.size() : fields.front().begin; }
 };
 
-/// Of convex programmes and of coupled ones.
-struct KeptFactors {
-  KeptFactor convex, coupled;
-};
-
 struct InterfaceSettings {
   double tolerance = 1e-12;  ///< of the natural residual over the size of the forces
   int max_iterations = 100;
   /// Whether A is definite. If not, the contact itself may hold what A leaves free, and directions
   /// are found for slightly more than A.
   bool is_definite = true;
-  KeptFactors *factors = nullptr;  ///< from other programmes with the same A; nothing: none
+  KeptFactor *factor = nullptr;  ///< from other programmes with the same A; nothing: none
 };
 
 struct InterfaceSolution {
@@ -72,16 +67,6 @@ bool may_yield(const std::vector<ContactPoint> &points);
 
 /// The largest eigenvalue of the point's own block of A [N/m]; 0 where it has no entries.
 double largest_curvature(const Eigen::MatrixXd &stiffness, const ContactPoint &point);
-
-/// What a residual of the programme at d is compared to: the largest of the terms of its forces
-/// [N].
-double size_of_forces(const InterfaceProgramme &programme, const Eigen::VectorXd &d);
-/// The same of the rows of another field.
-double size_of_flows(const InterfaceProgramme &programme, const Eigen::VectorXd &d,
-                     std::size_t field);
-/// Whether a residual [N] of the programme at d is within `tolerance` of that size.
-bool is_within(const InterfaceProgramme &programme, const Eigen::VectorXd &d, double residual,
-               double tolerance);
 
 /// Truncated nonsmooth Newton iteration: block Gauss-Seidel sweeps, which alone converge from any
 /// start because the programme is strictly convex and its nonsmooth part separates by points, then

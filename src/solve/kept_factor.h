@@ -3,10 +3,9 @@
 #include <Eigen/Dense>
 #include <Eigen/Sparse>
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "output/checkpoint.h"
+#include "solve/rounded_inverse.h"
 #include "tourmaline/contact/tangent.h"
 
 namespace tourmaline::solve {
@@ -52,13 +51,18 @@ class SystemRows {
 Eigen::VectorXd symmetric_product(const Eigen::MatrixXd &a, const Eigen::VectorXd &v);
 void subtract_product(const Eigen::MatrixXd &a, const Eigen::VectorXd &v, Eigen::VectorXd &from);
 
+/// |A| |v|, of which likewise, and `n` of its rows from `first` on.
+Eigen::VectorXd sizes_of_terms(const Eigen::MatrixXd &a, const Eigen::VectorXd &v);
+Eigen::VectorXd sizes_of_terms(const Eigen::MatrixXd &a, const Eigen::VectorXd &v,
+                               Eigen::Index first, Eigen::Index n);
+
 /// Whether a system of so many unknowns is large: then it costs far more to factorise it than to
 /// multiply with A, and its factor is worth keeping.
 bool is_large(Eigen::Index unknowns);
 
-/// Solves systems of one A that come one after the other and differ in few points. Small ones are
-/// factorised. Of the large ones a factor is kept, in single precision, that preconditions the
-/// next ones until it serves no more: what a system then costs is a few products with A.
+/// Solves systems of one A that come one after the other. Small ones are factorised. Large ones are
+/// solved by conjugate residuals with the inverse of A, of which a factor is kept in single
+/// precision: each costs one or two products with A.
 class KeptFactor {
  public:
   struct Solved {
@@ -73,24 +77,19 @@ class KeptFactor {
   std::optional<Solved> solve_definite(const InterfaceSystem &system, const Eigen::MatrixXd &a,
                                        const Eigen::VectorXd &right_side);
 
-  /// For a checkpoint: of which system the factor is; it is made again when it is needed.
-  void save(const std::string &name, output::SavedNumbers &numbers) const;
-  void restore(const std::string &name, const output::SavedNumbers &numbers,
-               Eigen::Index n_entries);
+  /// What comes is of another programme.
+  void begin() {
+    unknowns_.clear();
+    directions_.clear();
+  }
 
  private:
-  void keep(const InterfaceSystem &system, const Eigen::MatrixXd &a);
-  Eigen::VectorXd nearly_solved(const InterfaceSystem &system, const Eigen::VectorXd &diagonal,
-                                const Eigen::VectorXd &b) const;
   std::optional<Solved> solve_large(const InterfaceSystem &system, const Eigen::MatrixXd &a,
                                     const Eigen::VectorXd &b);
-  std::optional<Solved> iterate(const InterfaceSystem &system, const Eigen::MatrixXd &a,
-                                const Eigen::VectorXd &b);
 
-  std::optional<InterfaceSystem> of_;
-  double excess_ = 0;  // products that were needed beyond the usual ones since the factor was made
-  std::optional<Eigen::PartialPivLU<Eigen::MatrixXf>> factor_;
-  std::vector<float> copied_;  // the last system's part of A
+  std::optional<RoundedInverse> inverse_;
+  std::vector<Eigen::Index> unknowns_;  // of the system before
+  std::vector<Solved> directions_;      // that its solution was sought in
 };
 
 }  // namespace tourmaline::solve

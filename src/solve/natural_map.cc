@@ -397,7 +397,7 @@ NaturalMap::Place NaturalMap::settled(const Place &x) const {
   for (std::size_t i = 0; i < points_.size(); ++i)
     if (branch(i, x).is_held)
       exact.d.segment(point(i).offset, point(i).size).setZero();
-  return exact.d == x.d ? x : at(exact.d, exact.share);
+  return exact.d == x.d && !body_->carries_forces() ? x : at(exact.d, exact.share);
 }
 
 std::vector<PointLaw> NaturalMap::friction_at(const Place &x) const {

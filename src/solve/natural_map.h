@@ -66,6 +66,8 @@ class NaturalMap {
   /// The linear system of that direction.
   ContactTangent tangent(const Place &x) const;
   Place along(const Place &x, const Direction &direction, double length) const;
+  /// Where such a step has led, its forces free of the step's round-off if that costs little.
+  Place arrived(const Place &x) const { return body_->carries_forces() ? x : at(x.d, x.share); }
 
   /// Lengths between 0 and 1 at which points change their branch on the way from x; at most some
   /// twenty, in ascending order.
