@@ -198,9 +198,7 @@ Tangent Iteration::model_place(std::size_t i, bool ahead) const {
   return d_.segment(p.offset, p.size);
 }
 
-// Of the Newton step in the smooth points: the Hessian of their laws beside A. With small slips it
-// is large, and changes much from step to step. A kept factor serves only where that is taken from
-// the rows, (1 + H/c)^-1 (A + H) with c the curvature of the point's own block.
+// Of the Newton step in the smooth points: the Hessian of their laws beside A.
 void Iteration::add_point(std::size_t i, bool ahead, SystemRows &rows, VectorXd &right_side,
                           Index row) const {
   constexpr double slightly = 1e-10;
@@ -210,12 +208,9 @@ void Iteration::add_point(std::size_t i, bool ahead, SystemRows &rows, VectorXd 
   if (may_be_singular_)
     hessian.diagonal() += slightly * programme_.stiffness.diagonal().segment(p.offset, p.size);
   const Tangent descent = force_.segment(p.offset, p.size) - p.weight * p.law.gradient(d);
-  const TangentMatrix one = TangentMatrix::Identity(p.size, p.size);
-  const TangentMatrix scale =
-      is_large(d_.size()) ? TangentMatrix((one + hessian / curvature_[i]).inverse()) : one;
-  rows.add_of_force(row, p.offset, scale);
-  rows.add_local(row, p.offset, scale * hessian);
-  right_side.segment(row, p.size) = scale * descent;
+  rows.add_of_force(row, p.offset, TangentMatrix::Identity(p.size, p.size));
+  rows.add_local(row, p.offset, hessian);
+  right_side.segment(row, p.size) = descent;
 }
 
 // Nothing where the Hessian, positive definite by theory, is not so in its digits.

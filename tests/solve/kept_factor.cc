@@ -88,6 +88,18 @@ TEST(KeptFactor, SolvesALargeSystemThatHasNothingInCommonWithTheLast) {
   EXPECT_LT(left(second, *x, b), 0.31);
 }
 
+TEST(KeptFactor, SolvesALargeSystemExactlyWhereTheFactorIsOfNoUse) {
+  Systems systems(1200);
+  systems.a = MatrixXd::NullaryExpr(1200, 1200, [](Index i, Index j) {
+    return std::sin(static_cast<double>(i * j)) + std::cos(static_cast<double>(3 * (i + j)));
+  });
+  const InterfaceSystem system = systems.next(3, 0);
+  const VectorXd b = systems.right_side(system);
+  const auto x = KeptFactor().solve(system, systems.a, b);
+  ASSERT_TRUE(x);
+  EXPECT_LT(left(system, *x, b), 1e-6);  // its condition is what is left
+}
+
 TEST(KeptFactor, SaysThatASmallSystemIsNotDefinite) {
   Systems systems(20);
   const InterfaceSystem system = systems.next(3, 0);
