@@ -5,6 +5,8 @@
 extern "C" void spotrf_(const char *triangle, const int *n, float *a, const int *leading,
                         int *info);
 
+// strsv_ is among those that Eigen declares.
+
 namespace tourmaline::solve {
 
 using Eigen::Index;
@@ -42,11 +44,13 @@ VectorXd RoundedInverse::operator*(const VectorXd &v) const {
   const VectorXd scaled = v.cwiseProduct(scale_);
   const double size = scaled.cwiseAbs().maxCoeff();
   if (size == 0)
-    return scaled;
+    return VectorXd::Zero(v.size());
   Eigen::VectorXf x = (scaled / size).cast<float>();
   if (is_factorised_) {
-    upper_.triangularView<Eigen::Upper>().transpose().solveInPlace(x);
-    upper_.triangularView<Eigen::Upper>().solveInPlace(x);
+    const auto n = static_cast<int>(x.size());
+    constexpr int step = 1;
+    strsv_("U", "T", "N", &n, upper_.data(), &n, x.data(), &step);
+    strsv_("U", "N", "N", &n, upper_.data(), &n, x.data(), &step);
   }
   const VectorXd sign = diagonal_.unaryExpr([](double d) { return d < 0 ? -1. : 1.; });
   return size * x.cast<double>().cwiseProduct(scale_).cwiseProduct(sign);
