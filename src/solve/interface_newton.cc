@@ -347,8 +347,9 @@ double Iteration::largest_residual() const {
 bool Iteration::is_solved(double tolerance) {
   if (!size_.is_within(d_, largest_residual(), tolerance))
     return false;
-  if (is_large(d_.size()))
-    update_residual_force();
+  if (!is_large(d_.size()))
+    return true;
+  update_residual_force();
   return size_.is_within(d_, largest_residual(), tolerance);
 }
 
