@@ -49,6 +49,15 @@ Vector<dim> in_free_components(Vector<dim> v, const std::array<bool, dim> &is_pr
 }  // namespace
 
 template <int dim>
+void Admissible<dim>::set_base(const Prescribed &prescribed, double reach) {
+  for (int c = 0; c < dim; ++c)
+    base[c] = prescribed[c].value_or(0);
+  // (9): u_nu fixes the free components along the rest of the normal.
+  if (const double size = free_normal.norm(); size > 0)
+    base -= (normal.dot(base) - reach) / (size * size) * free_normal;
+}
+
+template <int dim>
 typename Admissible<dim>::Directions Admissible<dim>::tangent() const {
   Directions all(dim, directions.cols() + held.cols());
   all << directions, held;
@@ -81,17 +90,15 @@ Admissible<dim> bilateral(const Eigen::Matrix<double, dim, 1> &normal,
   std::vector<Vector<dim>> known;  // orthonormal: directions in which the displacement is known
   for (int c = 0; c < dim; ++c)
     if (prescribed[c]) {
-      admissible.base[c] = *prescribed[c];
       admissible.is_prescribed[c] = true;
       known.push_back(Vector<dim>::Unit(c));
     }
   const Vector<dim> free_normal = in_free_components<dim>(normal, admissible.is_prescribed);
   if (const double size = free_normal.norm(); size > no_normal) {
-    // (9): u_nu fixes the free components along the rest of the normal.
-    admissible.base -= (normal.dot(admissible.base) - reach) / (size * size) * free_normal;
     admissible.free_normal = free_normal;
     known.push_back(free_normal / size);
   }
+  admissible.set_base(prescribed, reach);
   admissible.directions = completion<dim>(known);
   std::vector<Vector<dim>> not_held{normal};
   for (Eigen::Index k = 0; k < admissible.directions.cols(); ++k)
@@ -101,13 +108,20 @@ Admissible<dim> bilateral(const Eigen::Matrix<double, dim, 1> &normal,
 }
 
 template <int dim>
-Admissible<dim> bilateral(const InterfaceNode<dim> &at, const std::vector<bool> &is_prescribed,
-                          std::span<const double> state, double reach) {
-  std::array<std::optional<double>, dim> prescribed;
+typename Admissible<dim>::Prescribed prescribed_at(const InterfaceNode<dim> &at,
+                                                   const std::vector<bool> &is_prescribed,
+                                                   std::span<const double> state) {
+  typename Admissible<dim>::Prescribed prescribed;
   for (int c = 0; c < dim; ++c)
     if (const std::size_t i = body::unknown<dim>(at.node, c); is_prescribed[i])
       prescribed[c] = state[i];
-  return bilateral<dim>(at.normal, prescribed, reach);
+  return prescribed;
+}
+
+template <int dim>
+Admissible<dim> bilateral(const InterfaceNode<dim> &at, const std::vector<bool> &is_prescribed,
+                          std::span<const double> state, double reach) {
+  return bilateral<dim>(at.normal, prescribed_at(at, is_prescribed, state), reach);
 }
 
 template <int dim>
@@ -124,6 +138,12 @@ void require_plain_normal(const InterfaceNode<dim> &at, const Admissible<dim> &a
 }
 
 template struct Admissible<2>;
+template Admissible<2>::Prescribed prescribed_at(const InterfaceNode<2> &,
+                                                 const std::vector<bool> &,
+                                                 std::span<const double>);
+template Admissible<3>::Prescribed prescribed_at(const InterfaceNode<3> &,
+                                                 const std::vector<bool> &,
+                                                 std::span<const double>);
 template void require_plain_normal<2>(const InterfaceNode<2> &, const Admissible<2> &);
 template void require_plain_normal<3>(const InterfaceNode<3> &, const Admissible<3> &);
 template struct Admissible<3>;

@@ -20,6 +20,7 @@ template <int dim>
 struct Admissible {
   using Vector = Eigen::Matrix<double, dim, 1>;
   using Directions = Eigen::Matrix<double, dim, Eigen::Dynamic, 0, dim, dim>;
+  using Prescribed = std::array<std::optional<double>, dim>;  // by component, its value [m]
 
   Vector base;  ///< [m]
   /// orthonormal columns, tangential and orthogonal to the prescribed components
@@ -31,6 +32,9 @@ struct Admissible {
   /// the part of the normal in free components; zero where that is no more than round-off
   Vector free_normal;
   std::array<bool, dim> is_prescribed;
+
+  /// With other values of the same prescribed components, and another reach [m].
+  void set_base(const Prescribed &prescribed, double reach);
 
   /// `directions`, then `held`: the columns that a law's components belong to (`PointLaw`).
   Directions tangent() const;
@@ -58,7 +62,13 @@ Admissible<dim> bilateral(const Eigen::Matrix<double, dim, 1> &normal,
 template <int dim>
 void require_plain_normal(const InterfaceNode<dim> &at, const Admissible<dim> &admissible);
 
-/// The same at a contact node of a body with the unknowns `state`.
+/// What is prescribed at a contact node of a body with the unknowns `state`.
+template <int dim>
+typename Admissible<dim>::Prescribed prescribed_at(const InterfaceNode<dim> &at,
+                                                   const std::vector<bool> &is_prescribed,
+                                                   std::span<const double> state);
+
+/// Bilateral contact at a contact node of a body with the unknowns `state`.
 template <int dim>
 Admissible<dim> bilateral(const InterfaceNode<dim> &at, const std::vector<bool> &is_prescribed,
                           std::span<const double> state, double reach = 0);

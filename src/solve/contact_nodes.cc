@@ -90,7 +90,8 @@ void ContactNodes<dim>::begin_step(double time, std::span<const double> before,
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const contact::InterfaceNode<dim> &at = model_.interface[i];
     Node &node = nodes_[i];
-    node.admissible = contact::bilateral(at, is_prescribed_, state, model_.reach(at, time));
+    node.admissible.set_base(contact::prescribed_at(at, is_prescribed_, state),
+                             model_.reach(at, time));
     held_.segment<dim>(dim * static_cast<Index>(i)) = node.admissible.base;
     c.segment<dim>(dim * static_cast<Index>(i)) = displacement(carried, i);
     if (node.normal != none)
