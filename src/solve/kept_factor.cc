@@ -140,7 +140,7 @@ class NearlySolved {
     }
     b.z = (b.z + b.share).inverse();
     if (!b.z.allFinite())
-      b.z.setIdentity();
+      b.z = contact::TangentMatrix::Identity(n, n) / (b.curvature == 0 ? 1 : b.curvature);
     b.share = (b.z * b.share).eval();
     return b;
   }
@@ -160,8 +160,9 @@ class Residuals {
     found_.resisted = VectorXd::Zero(a.rows());
   }
 
-  /// Takes what the direction can from the rest.
-  void take(KeptFactor::Solved direction) {
+  /// Takes what the direction can from the rest; false where it is a sum of those before it, or
+  /// not of numbers.
+  bool take(KeptFactor::Solved direction) {
     VectorXd product = system_.of_force * direction.resisted + system_.local * direction.x;
     const double size = product.norm();
     for (std::size_t k = 0; k < products_.size(); ++k) {
@@ -172,7 +173,7 @@ class Residuals {
     }
     const double new_part = product.norm();
     if (!(new_part > 1e-6 * size))
-      return;
+      return false;
     product /= new_part;
     direction.x /= new_part;
     direction.resisted /= new_part;
@@ -182,6 +183,7 @@ class Residuals {
     found_.resisted += share * direction.resisted;
     directions_.push_back(std::move(direction));
     products_.push_back(std::move(product));
+    return true;
   }
 
   const VectorXd &left() const { return left_; }
@@ -268,8 +270,9 @@ std::optional<KeptFactor::Solved> KeptFactor::solve_large(const InterfaceSystem 
     for (KeptFactor::Solved &direction : directions_)
       residuals.take(std::move(direction));
   const double enough = reduction * b.norm();
-  for (int k = 0; residuals.left().norm() > enough && k < most_products; ++k)
-    residuals.take(spread(system, a, nearly_solved(residuals.left())));
+  bool is_new = true;
+  for (int k = 0; is_new && residuals.left().norm() > enough && k < most_products; ++k)
+    is_new = residuals.take(spread(system, a, nearly_solved(residuals.left())));
   const bool is_solved = residuals.left().norm() <= 2 * enough;
   std::optional<Solved> found = is_solved ? std::optional(residuals.found()) : std::nullopt;
   unknowns_ = system.unknowns;

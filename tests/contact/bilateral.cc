@@ -45,6 +45,20 @@ TEST(Bilateral, WithOneComponentPrescribedTheNodeStaysOnATiltedFoundation) {
   EXPECT_EQ(a.base[0], 8e-9);
 }
 
+TEST(Bilateral, WithAnotherBaseANodeIsWhatItIsMadeAnew) {
+  const Vector3 normal = Vector3(1, 2, -2) / 3;
+  for (const bool is_second : {false, true}) {
+    auto moved = bilateral<3>(normal, {1., is_second ? std::optional(5.) : std::nullopt, {}}, 3);
+    const std::array<std::optional<double>, 3> other{
+        -2e-9, is_second ? std::optional(4e-9) : std::nullopt, {}};
+    moved.set_base(other, 1e-9);
+    const auto anew = bilateral<3>(normal, other, 1e-9);
+    EXPECT_EQ(moved.base, anew.base);
+    EXPECT_NEAR(moved.base.dot(normal), 1e-9, 1e-24);
+    EXPECT_EQ(moved.tangent(), anew.tangent());
+  }
+}
+
 TEST(Bilateral, FreeAndHeldDirectionsTogetherAreAnOrthonormalBasisOfTheTangentPlane) {
   for (const Vector3 &normal : {Vector3(1, 0, 0), Vector3(Vector3(1, 2, -2) / 3),
                                 Vector3(Vector3(3, 0, 4) / 5), Vector3(Vector3(0, 3, 4) / 5)})

@@ -66,6 +66,32 @@ TEST(RandomContact, ThatYieldsIsSolvedFromAnyStart) {
   expect_all_solved(NormalKind::damped, FrictionKind::none);
 }
 
+// Their Newton systems of more than 1,000 unknowns are not factorised, and the forces go on by what
+// resists each step.
+TEST(RandomContact, OfManyNodesIsSolvedFromAnyStart) {
+  const CondensedMatrix block = condensed_block<3>(
+      "{ min = [0, 0, 0], max = [8, 8, 1], cells = [24, 24, 1], cell = \"hexahedron\" }", "top");
+  ASSERT_GT(block.stiffness.rows(), 1800);
+  const std::vector<std::pair<NormalKind, FrictionKind>> laws{
+      {NormalKind::bilateral, FrictionKind::tresca},
+      {NormalKind::unilateral, FrictionKind::none},
+      {NormalKind::compliance, FrictionKind::none},
+      {NormalKind::damped, FrictionKind::none},
+      {NormalKind::unilateral, FrictionKind::coulomb},
+      {NormalKind::compliance, FrictionKind::coulomb}};
+  for (const auto &[normal, friction] : laws) {
+    RandomContacts problems(20261126, normal, friction, 0.5);
+    for (int k = 0; k < 3; ++k) {
+      const ContactProblem p = problems.next(block);
+      const VectorXd start = k * problems.vector(p.force.size());
+      const CoupledSolution found = p.solve(start, {1e-12, 100});
+      EXPECT_TRUE(found.interface.converged) << static_cast<int>(normal) << ' ' << k;
+      EXPECT_LT(violation(p, found.interface.increment), 1e-9)
+          << static_cast<int>(normal) << ' ' << k;
+    }
+  }
+}
+
 // Many of these have solutions only with nodes that just touch and carry a share of the bound. No
 // convex programme has them, and what is here no proof: of a hundred, about two are left.
 TEST(RandomContact,

@@ -146,14 +146,15 @@ class RandomContacts {
   RandomContacts(unsigned seed, NormalKind normal, FrictionKind friction, double most_friction = 1)
       : normal_(normal), friction_(friction), most_friction_(most_friction), random_(seed) {}
 
-  ContactProblem next(int dim) {
+  ContactProblem next(int dim) { return next(toss(0.6) ? some_block(dim) : random_matrix(dim)); }
+
+  ContactProblem next(const CondensedMatrix &matrix) {
     ContactProblem p;
     p.normal = normal_;
     p.friction = friction_;
-    p.dim = dim;
-    const CondensedMatrix matrix = toss(0.6) ? some_block(dim) : random_matrix(dim);
+    p.dim = matrix.dim;
     p.stiffness = matrix.stiffness;
-    p.force = load(p.stiffness, dim);
+    p.force = load(p.stiffness, p.dim);
     for (std::size_t i = 0; i < matrix.weights.size(); ++i)
       add_node(p, matrix.weights[i]);
     return p;
