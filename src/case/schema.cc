@@ -304,7 +304,8 @@ void declare(Visitor &v, SolverCase &solver, const std::vector<ContactCase> &con
   v.key({.name = "max_iterations",
          .description =
              "Newton iterations after which an attempt at a step fails: the only one where "
-             "the step is convex, one of several where friction depends on the pressure",
+             "the step is convex, one of several where friction depends on the pressure; from "
+             "2,000 points on (two a contact node) so many for each thousand",
          .range = at_least(1)},
         &solver.max_iterations);
   v.key({.name = "threads", .description = "of OpenBLAS and OpenMP", .range = from_to(1, 1024)},

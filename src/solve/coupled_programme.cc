@@ -30,7 +30,7 @@ class Cascade {
   CoupledSolution solve(const VectorXd &start);
 
  private:
-  bool newton(const NaturalMap &map, Place &x, int most);
+  bool newton(const NaturalMap &map, Place &x, int most = std::numeric_limits<int>::max());
   bool find_by_newton(const VectorXd &start, Place &x);
   bool fixed_point(const NaturalMap &map, Place &x);
   bool filled(Place &x);
@@ -38,8 +38,12 @@ class Cascade {
   bool continuation(Index n_entries, Place &x);
   CoupledSolution solve_convex(const VectorXd &start);
   InterfaceSolution convex(const std::vector<PointLaw> &friction, const VectorXd &start);
-  // Every attempt may take as many iterations as are asked for.
-  void begin_attempt() { count_.begin_attempt(settings_.max_iterations); }
+  // Every attempt may take as many iterations as are asked for; of many points, whose states change
+  // one after the other along the edges of contact and slip, in proportion more.
+  void begin_attempt(int programmes = 1) {
+    const auto thousands = static_cast<int>(programme_.points.size() / 1000);
+    count_.begin_attempt(settings_.max_iterations * programmes * std::max(1, thousands));
+  }
 
   const CoupledContact programme_;
   const InterfaceSettings settings_;
@@ -51,22 +55,25 @@ bool Cascade::newton(const NaturalMap &map, Place &x, int most) {
 }
 
 bool Cascade::find_by_newton(const VectorXd &start, Place &x) {
-  constexpr int most = 50;
   const NaturalMap map(programme_, 1);
   begin_attempt();
   x = map.at(start);
-  if (newton(map, x, most))
+  if (newton(map, x))
     return true;
   if (!settings_.is_definite)
     return false;
+  begin_attempt();
   x = map.at(programme_.body.without_contact());
-  return newton(map, x, most);
+  return newton(map, x);
 }
 
 InterfaceSolution Cascade::convex(const std::vector<PointLaw> &friction, const VectorXd &start) {
-  std::vector<ContactPoint> points = programme_.points;
+  std::vector<ContactPoint> with_friction;
+  if (!friction.empty())
+    with_friction = programme_.points;
   for (std::size_t j = 0; j < friction.size(); ++j)
-    points[programme_.couplings[j].slip].law = friction[j];
+    with_friction[programme_.couplings[j].slip].law = friction[j];
+  const std::vector<ContactPoint> &points = friction.empty() ? programme_.points : with_friction;
   InterfaceSettings left = settings_;
   left.max_iterations = std::max(1, count_.last - count_.made);
   InterfaceSolution found = programme_.body.minimise(points, start, left);
@@ -77,8 +84,8 @@ InterfaceSolution Cascade::convex(const std::vector<PointLaw> &friction, const V
 // The bounds of the convex programme's solution are those of the next one. Where it has come near,
 // Newton's method ends it.
 bool Cascade::fixed_point(const NaturalMap &map, Place &x) {
-  constexpr int most = 100, polishing = 12;
-  begin_attempt();
+  constexpr int most = 100, polishing = 12, at_length = 5;
+  begin_attempt(at_length);
   Anderson anderson;
   VectorXd bounds = map.bounds(x);
   double least = std::numeric_limits<double>::infinity();
@@ -177,8 +184,9 @@ bool Cascade::continuation(Index n_entries, Place &x) {
   return strength == 1;
 }
 
-// Where the body begins to touch a foundation that yields, the programme's value may tell too
-// little of the way to its minimum; the natural map's zero is the same place.
+// Where the body begins to touch a foundation that yields, or where round-off is larger than what a
+// step gains, the programme's value may tell too little of the way to its minimum; the natural
+// map's zero is the same place.
 CoupledSolution Cascade::solve_convex(const VectorXd &start) {
   const int most = may_yield(programme_.points) ? 3 : 1;
   CoupledSolution found;
@@ -187,7 +195,7 @@ CoupledSolution Cascade::solve_convex(const VectorXd &start) {
     begin_attempt();
     found.stage = ContactStage::convex;
     found.interface = convex({}, found.interface.increment);
-    if (found.interface.converged || !found.interface.is_definite || most == 1)
+    if (found.interface.converged || !found.interface.is_definite)
       break;
     if (Place x; find_by_newton(found.interface.increment, x)) {
       found = NaturalMap(programme_, 1).solution(x);

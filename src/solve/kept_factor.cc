@@ -13,7 +13,8 @@ using Sparse = InterfaceSystem::Sparse;
 
 namespace {
 
-constexpr double reduction = 0.3;  // the next Newton iteration takes what is left
+constexpr double reduction = 0.3;          // the next Newton iteration takes what is left
+constexpr double settled_reduction = 0.1;  // where it has the same unknowns as the one before
 constexpr int most_products = 30;
 constexpr std::ptrdiff_t most_kept = 12;
 
@@ -269,7 +270,7 @@ std::optional<KeptFactor::Solved> KeptFactor::solve_large(const InterfaceSystem 
                     unknowns_.end()))
     for (KeptFactor::Solved &direction : directions_)
       residuals.take(std::move(direction));
-  const double enough = reduction * b.norm();
+  const double enough = (system.unknowns == unknowns_ ? settled_reduction : reduction) * b.norm();
   bool is_new = true;
   for (int k = 0; is_new && residuals.left().norm() > enough && k < most_products; ++k)
     is_new = residuals.take(spread(system, a, nearly_solved(residuals.left())));

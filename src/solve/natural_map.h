@@ -66,6 +66,8 @@ class NaturalMap {
   /// The linear system of that direction.
   ContactTangent tangent(const Place &x) const;
   Place along(const Place &x, const Direction &direction, double length) const;
+  /// Whether directions are those of systems that are solved in part only.
+  bool is_solved_in_part() const { return body_->carries_forces(); }
   /// Where such a step has led, its forces free of the step's round-off if that costs little.
   Place arrived(const Place &x) const { return body_->carries_forces() ? x : at(x.d, x.share); }
 

@@ -86,6 +86,7 @@ TEST(RandomContact, OfManyNodesIsSolvedFromAnyStart) {
       const VectorXd start = k * problems.vector(p.force.size());
       const CoupledSolution found = p.solve(start, {1e-12, 100});
       EXPECT_TRUE(found.interface.converged) << static_cast<int>(normal) << ' ' << k;
+      EXPECT_LT(found.interface.residual, 2e-13) << static_cast<int>(normal) << ' ' << k;
       EXPECT_LT(violation(p, found.interface.increment), 1e-9)
           << static_cast<int>(normal) << ' ' << k;
     }
