@@ -28,6 +28,7 @@
 #include "report/figures.h"
 #include "report/page.h"
 #include "run/dense_kernels.h"
+#include "run/expected_cost.h"
 #include "run/process.h"
 #include "run/survey.h"
 #include "sweep_command.h"
@@ -71,8 +72,9 @@ void run(const Asked &asked) {
 
 void check(const Asked &asked) {
   const auto read = case_of(asked);
-  tourmaline::run::check_thoroughly(read);
-  std::cout << tourmaline::casefile::resolved(read) << tourmaline::run::survey(read);
+  tourmaline::run::check(read);
+  const std::string cost = tourmaline::run::expected_cost(read);
+  std::cout << tourmaline::casefile::resolved(read) << tourmaline::run::survey(read) << cost;
   for (const std::string &warning : tourmaline::casefile::snapping_warnings(read))
     std::cout << "\n# warning: " << warning << "\n";
 }
@@ -297,7 +299,7 @@ int report(int status, const std::string &text) {
 
 /// Whether what is asked for factorises, or says with what it would.
 bool uses_dense_kernels(int argc, char **argv) {
-  constexpr std::array<std::string_view, 3> asked{"run", "sweep", "--version"};
+  constexpr std::array<std::string_view, 4> asked{"run", "check", "sweep", "--version"};
   return argc > 1 && std::ranges::find(asked, argv[1]) != asked.end();
 }
 

@@ -14,6 +14,7 @@
 #include "gmres.h"
 #include "larger.h"
 #include "parallel/ranks.h"
+#include "stopwatch.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::condensation {
@@ -30,20 +31,42 @@ CondensedBody<dim>::CondensedBody(const body::Discretisation<dim> &body,
                                   const std::vector<body::Prescribed> &prescribed,
                                   const std::vector<std::size_t> &contact,
                                   const FactorisationChoice &choice)
-    : operator_(op), step_(step), scale_(op.scales(step)) {
+    : CondensedBody(op, step) {
   number(prescribed, contact);
   // MUMPS on two ranks waits for ever where nothing is eliminated.
   if (parallel::n_ranks() > 1 && contact_variables_.size() == unknown_of_.size())
     throw CaseError(
         "[mesh] no unknown of the body is free beside those of its contact: such a mesh is not "
         "available on several MPI ranks; start the program without mpirun, or take finer cells");
+  Stopwatch watch;
   factorise(body, choice);
+  statistics_ = factorisation_->statistics();
+  // With the ordering, the matrix in its order, and an own factorisation that met a weak pivot.
+  statistics_.analyse_seconds = watch.lap() - statistics_.factorise_seconds;
   const auto n =
       static_cast<Eigen::Index>(parallel::is_first() ? contact_variables_.size() : std::size_t{0});
   stiffness_ = Eigen::Map<const Eigen::MatrixXd>(factorisation_->schur_complement().data(), n, n);
   for (Eigen::Index j = 0; j < n; ++j)
     for (Eigen::Index i = 0; i < n; ++i)
       stiffness_(i, j) /= contact_scale(i) * contact_scale(j);
+}
+
+template <int dim>
+auto CondensedBody<dim>::plan(const body::Operator<dim> &op, double step,
+                              const std::vector<body::Prescribed> &prescribed,
+                              const std::vector<std::size_t> &contact) -> Plan {
+  CondensedBody body(op, step);
+  body.number(prescribed, contact);
+  const std::vector<double> scales = body.scales();
+  const Elimination elimination(step_matrix(op, step, body.nodes_in_order(), body.unknown_of_,
+                                            scales, body.is_contact_variable_));
+  Plan plan{body.n_unknowns(), contact.size(), elimination.fronts.size()};
+  for (const Front &front : elimination.fronts) {
+    plan.entries += front.entries();
+    plan.operations += front.operations();
+    plan.handed_on += static_cast<double>(front.below) * front.below / 2;
+  }
+  return plan;
 }
 
 template <int dim>
@@ -75,11 +98,17 @@ void CondensedBody<dim>::number(const std::vector<body::Prescribed> &prescribed,
 }
 
 template <int dim>
-void CondensedBody<dim>::factorise(const body::Discretisation<dim> &body,
-                                   const FactorisationChoice &choice) {
+std::vector<double> CondensedBody<dim>::scales() const {
   std::vector<double> scales;
   for (const std::size_t i : unknown_of_)
     scales.push_back(scale(i));
+  return scales;
+}
+
+template <int dim>
+void CondensedBody<dim>::factorise(const body::Discretisation<dim> &body,
+                                   const FactorisationChoice &choice) {
+  const std::vector<double> scales = this->scales();
   const std::vector<Node> node_at = nodes_in_order();
   std::string reason;
   if (choice.by != Factoriser::mumps && parallel::n_ranks() == 1)

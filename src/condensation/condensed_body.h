@@ -33,6 +33,18 @@ class CondensedBody {
                 const std::vector<body::Prescribed> &prescribed,
                 const std::vector<std::size_t> &contact, const FactorisationChoice &choice);
 
+  /// What the factorisation without pivoting takes, told before any number is computed.
+  struct Plan {
+    std::size_t unknowns = 0, kept = 0;  ///< kept: of them those of c
+    std::size_t fronts = 0;
+    long long entries = 0;  ///< of the factor
+    double operations = 0;
+    double handed_on = 0;  ///< numbers that fronts hand to their parents
+  };
+  static Plan plan(const body::Operator<dim> &op, double step,
+                   const std::vector<body::Prescribed> &prescribed,
+                   const std::vector<std::size_t> &contact);
+
   /// In the order of `contact`. Only on the first rank; empty on the others.
   const Eigen::MatrixXd &stiffness() const { return stiffness_; }
 
@@ -67,7 +79,7 @@ class CondensedBody {
   /// Of the refined solutions since the last call: size of the last correction, as `forward_error`.
   double left_by_refinement() { return std::exchange(left_by_refinement_, 0.); }
 
-  const FactorisationStatistics &statistics() const { return factorisation_->statistics(); }
+  const FactorisationStatistics &statistics() const { return statistics_; }
   std::size_t n_unknowns() const { return unknown_of_.size(); }
   /// Free electric and thermal unknowns, and those of them that are not in c: as many negative
   /// pivots are right.
@@ -75,8 +87,11 @@ class CondensedBody {
   std::size_t n_electric_and_thermal_inside() const { return n_electric_and_thermal_inside_; }
 
  private:
+  CondensedBody(const body::Operator<dim> &op, double step)
+      : operator_(op), step_(step), scale_(op.scales(step)) {}
   void number(const std::vector<body::Prescribed> &prescribed,
               const std::vector<std::size_t> &contact);
+  std::vector<double> scales() const;
   std::vector<body::Node> nodes_in_order() const;
   std::vector<int> elimination_order(const std::vector<body::Node> &node_at) const;
   void factorise(const body::Discretisation<dim> &body, const FactorisationChoice &choice);
@@ -106,6 +121,7 @@ class CondensedBody {
   std::array<double, body::Fields<dim>::count> scale_;
   std::size_t n_electric_and_thermal_ = 0, n_electric_and_thermal_inside_ = 0;
   std::unique_ptr<Factorisation> factorisation_;
+  FactorisationStatistics statistics_;
   Eigen::MatrixXd stiffness_;
   const body::CellProducts<dim> *cells_ = nullptr;  // once refined
   std::vector<double> given_, inside_;              // of the refined step: b; x at c = 0

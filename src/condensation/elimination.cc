@@ -333,6 +333,10 @@ std::vector<double> diagonal_of(const GroupedMatrix &matrix) {
 
 }  // namespace
 
+double Front::operations() const {
+  return operations_of(pivots, below);
+}
+
 Elimination::Elimination(const GroupedMatrix &matrix) : diagonal(diagonal_of(matrix)) {
   const Columns columns(matrix);
   Tree tree(matrix, columns);

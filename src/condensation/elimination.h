@@ -18,6 +18,12 @@ struct Front {
   std::size_t rows = 0;  ///< where they begin in `Elimination::below`
 
   int height() const { return pivots + below; }
+  /// Numbers in its columns of L.
+  long long entries() const {
+    return static_cast<long long>(pivots) * below + pivots * (pivots + 1LL) / 2;
+  }
+  /// Multiplications and additions that eliminate its pivots.
+  double operations() const;
 };
 
 /// The multifrontal elimination of a quasi-definite matrix before any number is known (Liu, SIAM

@@ -41,11 +41,6 @@ class OneBlasThread {
   int before_;
 };
 
-double operations_of(const Front &front) {
-  const double height = front.height(), below = front.below;
-  return (height * height * height - below * below * below) / 3;
-}
-
 std::size_t handed_on(const Front &front) {
   return Trapezoid::at(nullptr, front.below, front.below).size();
 }
@@ -188,9 +183,8 @@ void Multifrontal::plan() {
     const Front &front = fronts[f];
     panels_.push_back(entries);
     entries += Trapezoid::at(nullptr, front.height(), front.pivots).size();
-    statistics_.factor_entries += static_cast<long long>(front.pivots) * front.below +
-                                  front.pivots * (front.pivots + 1LL) / 2;
-    statistics_.flops += operations_of(front);
+    statistics_.factor_entries += front.entries();
+    statistics_.flops += front.operations();
     statistics_.negative_pivots += front.pivots - front.positive;
     for (int k = elimination_.group_first[f]; k < elimination_.group_first[f + 1]; ++k) {
       front_of_.resize(std::max<std::size_t>(front_of_.size(), elimination_.groups[k] + 1UL));
@@ -216,7 +210,7 @@ void Multifrontal::share_out() {
   std::vector<int> first(n);
   std::iota(first.begin(), first.end(), 0);
   for (int f = 0; f < n; ++f) {
-    work[f] += operations_of(fronts[f]);
+    work[f] += fronts[f].operations();
     if (const int parent = fronts[f].parent; parent >= 0) {
       work[parent] += work[f];
       first[parent] = std::min(first[parent], first[f]);

@@ -34,25 +34,32 @@ void rehearse(const solve::Model<dim> &model, int n_steps) {
   }
 }
 
+template <int dim>
+void rehearse_from_start(solve::Model<dim> &model) {
+  start_state(model);
+  rehearse(model, std::min(model.asked.time.steps, 100));
+}
+
 namespace {
 
 template <int dim>
-void rehearse_from_start(const casefile::Case &asked) {
+void rehearse_in(const casefile::Case &asked) {
   solve::Model<dim> model(asked);
-  start_state(model);
-  rehearse(model, std::min(asked.time.steps, 100));
+  rehearse_from_start(model);
 }
 
 }  // namespace
 
 void rehearse(const casefile::Case &asked) {
   if (asked.dimension == 2)
-    rehearse_from_start<2>(asked);
+    rehearse_in<2>(asked);
   else
-    rehearse_from_start<3>(asked);
+    rehearse_in<3>(asked);
 }
 
 template void rehearse<2>(const solve::Model<2> &, int);
 template void rehearse<3>(const solve::Model<3> &, int);
+template void rehearse_from_start<2>(solve::Model<2> &);
+template void rehearse_from_start<3>(solve::Model<3> &);
 
 }  // namespace tourmaline::run

@@ -10,7 +10,11 @@ namespace tourmaline::run {
 template <int dim>
 void rehearse(const solve::Model<dim> &model, int n_steps);
 
-/// The same of a case, whose mesh and operator are built for it; in up to a hundred steps.
+/// The same from the start state on, which is made as well; in up to a hundred steps.
+template <int dim>
+void rehearse_from_start(solve::Model<dim> &model);
+
+/// The same of a case, whose mesh and operator are built for it.
 void rehearse(const casefile::Case &asked);
 
 }  // namespace tourmaline::run

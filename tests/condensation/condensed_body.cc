@@ -108,6 +108,24 @@ TEST(CondensedBody,
   }
 }
 
+template <int dim>
+void expect_planned(const Block<dim> &block) {
+  const auto plan = CondensedBody<dim>::plan(block.op, step, block.prescribed, block.kept);
+  const CondensedBody<dim> condensed = block.condense();
+  EXPECT_EQ(plan.unknowns, condensed.n_unknowns());
+  EXPECT_EQ(plan.kept, block.kept.size());
+  EXPECT_GT(plan.entries, static_cast<long long>(plan.unknowns));
+  EXPECT_EQ(plan.entries, condensed.statistics().factor_entries);
+  EXPECT_EQ(plan.operations, condensed.statistics().flops);
+}
+
+TEST(CondensedBody, TellsBeforeAnyNumberWhatItsFactorWillTake) {
+  expect_planned(Block<2>(CellShape::triangle, 20));
+  expect_planned(Block<2>(CellShape::quadrilateral, 9));
+  expect_planned(Block<3>(CellShape::tetrahedron, 4));
+  expect_planned(Block<3>(CellShape::hexahedron, 4));
+}
+
 // By dense algebra in the unscaled unknowns; entries of different fields are compared in units in
 // which the diagonal is one.
 void expect_schur_complement(const Block<2> &block) {

@@ -1,0 +1,56 @@
+#include "run/machine_speed.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "condensation/pages.h"
+#include "stopwatch.h"
+
+namespace tourmaline::run {
+
+namespace {
+
+// Several partial sums, so that additions do not bound it.
+double seconds_to_read(const double *data, std::size_t n) {
+  constexpr std::size_t width = 16;
+  Stopwatch watch;
+  double sum[width] = {};
+  for (std::size_t i = 0; i < n; i += width)
+    for (std::size_t k = 0; k < width; ++k)
+      sum[k] += data[i + k];
+  const double seconds = watch.lap();
+  volatile double sink = 0;
+  for (const double s : sum)
+    sink = sink + s;
+  return seconds;
+}
+
+double seconds_to_multiply(const Eigen::MatrixXd &a, Eigen::MatrixXd &product) {
+  Stopwatch watch;
+  product.noalias() = a * a;
+  return watch.lap();
+}
+
+}  // namespace
+
+MachineSpeed measured_speed(int trials) {
+  constexpr std::size_t n_numbers = std::size_t{1} << 25;  // far more than caches hold
+  constexpr Eigen::Index n = 1200;
+  constexpr double bytes = sizeof(double) * double(n_numbers);
+  const Eigen::MatrixXd a = Eigen::MatrixXd::Ones(n, n);
+  Eigen::MatrixXd product(n, n);
+  MachineSpeed best;
+  for (int trial = 0; trial < trials; ++trial) {
+    Stopwatch watch;
+    condensation::Pages pages(n_numbers);
+    std::fill_n(pages.data(), n_numbers, 1.);
+    best.taking = std::max(best.taking, bytes / watch.lap());
+    best.reading = std::max(best.reading, bytes / seconds_to_read(pages.data(), n_numbers));
+    best.operations = std::max(best.operations, 2. * n * n * n / seconds_to_multiply(a, product));
+  }
+  return best;
+}
+
+}  // namespace tourmaline::run
