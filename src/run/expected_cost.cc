@@ -16,6 +16,7 @@
 #include "solve/exchange_nodes.h"
 #include "stopwatch.h"
 #include "tourmaline/case/case.h"
+#include "tourmaline/error.h"
 
 namespace tourmaline::run {
 
@@ -169,7 +170,10 @@ Job job_of(const casefile::Case &asked) {
   if (job.way != Way::iterative)
     plan(model, job);
   job.planned = watch.lap();
-  job.speed = measured_speed(3);
+  try {
+    job.speed = measured_speed(2);
+  } catch (const MachineError &) {  // the run may still have what it needs
+  }
   return job;
 }
 
@@ -197,6 +201,9 @@ std::string expected_cost(const casefile::Case &asked) {
     return "";
   }
   const Job job = asked.dimension == 2 ? job_of<2>(asked) : job_of<3>(asked);
+  if (job.speed.reading == 0)
+    return "\n# What a run will take is not told: there is no memory left to measure the "
+           "machine.\n";
   std::string text = fmt::format(
       "\n# Expected on this machine ({} cores to run on), without field files and page: {:.0f} "
       "unknowns, "
