@@ -123,7 +123,8 @@ std::optional<ContactBody::Moved> DenseBody::solve(const ContactTangent &tangent
     const InterfaceSystem asked = all.of_unknowns.system(all.unknowns, n, n + n_shares);
     const std::optional<KeptFactor::Solved> found =
         factor_.solve(asked, programme_.stiffness,
-                      all.right_side - asked.of_force * resisted - asked.local * known);
+                      all.right_side - asked.of_force * resisted - asked.local * known,
+                      tangent.is_last ? KeptFactor::for_none : KeptFactor::for_the_next);
     if (!found)
       return std::nullopt;
     known += found->x;

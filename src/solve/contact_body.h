@@ -49,6 +49,7 @@ struct ContactTangent {
   std::vector<Point> points;
   std::vector<Share> shares;
   std::vector<Exchange> exchanges;
+  bool is_last = false;  ///< no step follows that would take what is left of the system
 };
 
 /// The body as the contact sees it, in unknowns d of its points: slip increments and penetrations

@@ -37,7 +37,7 @@ void polish(const NaturalMap &map, Place &x, double tolerance) {
   constexpr double next_to_nothing = 1e-2;
   if (map.is_zero(x, next_to_nothing * tolerance))
     return;
-  const std::optional<Direction> direction = map.newton_direction(x);
+  const std::optional<Direction> direction = map.newton_direction(x, true);
   if (!direction)
     return;
   const Place last = map.settled(map.along(x, *direction, 1));

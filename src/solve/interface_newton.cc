@@ -38,7 +38,7 @@ class Iteration {
   void sweep(bool backwards);
   /// Solves one linear system; true when points came to stick on the way, so that the step after it
   /// is another one.
-  bool newton_step(bool ahead = false);
+  bool newton_step(bool ahead = false, double left = KeptFactor::for_the_next);
   void update_residual_force() {
     force_ = programme_.force;
     subtract_product(programme_.stiffness, d_, force_);
@@ -72,7 +72,8 @@ class Iteration {
   Tangent model_place(std::size_t i, bool ahead) const;
   void add_point(std::size_t i, bool ahead, SystemRows &rows, VectorXd &right_side,
                  Index row) const;
-  std::optional<VectorXd> newton_direction(const std::vector<std::size_t> &smooth, bool ahead);
+  std::optional<VectorXd> newton_direction(const std::vector<std::size_t> &smooth, bool ahead,
+                                           double left);
   VectorXd resisted_to(const VectorXd &next) const;
   VectorXd truncated(const VectorXd &direction, double length, Turns turns) const {
     return truncated_step(programme_.points, d_, direction, length, turns);
@@ -218,7 +219,7 @@ void Iteration::add_point(std::size_t i, bool ahead, SystemRows &rows, VectorXd 
 
 // Nothing where the Hessian, positive definite by theory, is not so in its digits.
 std::optional<VectorXd> Iteration::newton_direction(const std::vector<std::size_t> &smooth,
-                                                    bool ahead) {
+                                                    bool ahead, double left) {
   std::vector<Index> unknowns;
   for (const std::size_t i : smooth)
     for (Index c = 0; c < programme_.points[i].size; ++c)
@@ -231,7 +232,7 @@ std::optional<VectorXd> Iteration::newton_direction(const std::vector<std::size_
     row += programme_.points[i].size;
   }
   last_solved_ = factor_.solve_definite(rows.system(std::move(unknowns), d_.size(), d_.size()),
-                                        programme_.stiffness, right_side);
+                                        programme_.stiffness, right_side, left);
   return last_solved_ ? std::optional(last_solved_->x) : std::nullopt;
 }
 
@@ -300,9 +301,9 @@ void Iteration::go_to(const VectorXd &next) {
     update_residual_force();
 }
 
-bool Iteration::newton_step(bool ahead) {
+bool Iteration::newton_step(bool ahead, double left) {
   const std::vector<std::size_t> smooth = smooth_points();
-  const std::optional<VectorXd> found = newton_direction(smooth, ahead);
+  const std::optional<VectorXd> found = newton_direction(smooth, ahead, left);
   is_settling_ = false;
   is_definite_ = found.has_value();
   if (!is_definite_)
@@ -314,9 +315,9 @@ bool Iteration::newton_step(bool ahead) {
     return false;  // round-off is all that is left of the step
   const bool is_whole = next == d_ + *found;
   go_to(next);
-  const std::size_t left = smooth_points().size();
-  is_settling_ = is_whole && left == smooth.size();
-  return left < smooth.size();
+  const std::size_t still_smooth = smooth_points().size();
+  is_settling_ = is_whole && still_smooth == smooth.size();
+  return still_smooth < smooth.size();
 }
 
 // Halves the step until the value does not grow, but not below the length at which the first point
@@ -360,7 +361,7 @@ bool Iteration::polish(double tolerance) {
   constexpr double next_to_nothing = 1e-2;
   if (is_solved(next_to_nothing * tolerance))
     return true;
-  newton_step();
+  newton_step(false, KeptFactor::for_none);
   return is_solved(tolerance);
 }
 

@@ -13,8 +13,6 @@ using Sparse = InterfaceSystem::Sparse;
 
 namespace {
 
-constexpr double reduction = 0.3;          // the next Newton iteration takes what is left
-constexpr double settled_reduction = 0.1;  // where it has the same unknowns as the one before
 constexpr int most_products = 30;
 constexpr std::ptrdiff_t most_kept = 12;
 
@@ -259,7 +257,8 @@ void subtract_product(const MatrixXd &a, const VectorXd &v, VectorXd &from) {
 // Nothing where it must be solved exactly. The products of M with directions of systems before it
 // cost nothing, as those of A are known.
 std::optional<KeptFactor::Solved> KeptFactor::solve_large(const InterfaceSystem &system,
-                                                          const MatrixXd &a, const VectorXd &b) {
+                                                          const MatrixXd &a, const VectorXd &b,
+                                                          double left) {
   if (!is_large(system.size()))
     return std::nullopt;
   if (!inverse_)
@@ -270,7 +269,7 @@ std::optional<KeptFactor::Solved> KeptFactor::solve_large(const InterfaceSystem 
                     unknowns_.end()))
     for (KeptFactor::Solved &direction : directions_)
       residuals.take(std::move(direction));
-  const double enough = (system.unknowns == unknowns_ ? settled_reduction : reduction) * b.norm();
+  const double enough = left * b.norm();
   bool is_new = true;
   for (int k = 0; is_new && residuals.left().norm() > enough && k < most_products; ++k)
     is_new = residuals.take(spread(system, a, nearly_solved(residuals.left())));
@@ -284,16 +283,18 @@ std::optional<KeptFactor::Solved> KeptFactor::solve_large(const InterfaceSystem 
 }
 
 std::optional<KeptFactor::Solved> KeptFactor::solve(const InterfaceSystem &system,
-                                                    const MatrixXd &a, const VectorXd &b) {
-  if (auto found = solve_large(system, a, b))
+                                                    const MatrixXd &a, const VectorXd &b,
+                                                    double left) {
+  if (auto found = solve_large(system, a, b, left))
     return found;
   const VectorXd x = dense::solve(matrix_of(system, a), b);
   return x.allFinite() ? std::optional(spread(system, a, x)) : std::nullopt;
 }
 
 std::optional<KeptFactor::Solved> KeptFactor::solve_definite(const InterfaceSystem &system,
-                                                             const MatrixXd &a, const VectorXd &b) {
-  if (auto found = solve_large(system, a, b))
+                                                             const MatrixXd &a, const VectorXd &b,
+                                                             double left) {
+  if (auto found = solve_large(system, a, b, left))
     return found;
   const dense::Cholesky factor(matrix_of(system, a, Part::lower));
   if (!factor.is_definite())

@@ -69,13 +69,17 @@ class KeptFactor {
     Eigen::VectorXd x;         ///< spread among zeros to the entries of B's columns
     Eigen::VectorXd resisted;  ///< A x
   };
-  /// Exactly, or of large ones until a small part of the right side is left, which the next Newton
-  /// iteration takes. Nothing where the system cannot be solved.
+  /// How much of the right side a large system may leave: the next Newton iteration takes it, or
+  /// there is none.
+  static constexpr double for_the_next = 0.3, for_none = 0.01;
+  /// Exactly, or of large ones until such a part of the right side is left. Nothing where the
+  /// system cannot be solved.
   std::optional<Solved> solve(const InterfaceSystem &system, const Eigen::MatrixXd &a,
-                              const Eigen::VectorXd &right_side);
+                              const Eigen::VectorXd &right_side, double left = for_the_next);
   /// Likewise where a small M is symmetric; nothing where it is not positive definite then.
   std::optional<Solved> solve_definite(const InterfaceSystem &system, const Eigen::MatrixXd &a,
-                                       const Eigen::VectorXd &right_side);
+                                       const Eigen::VectorXd &right_side,
+                                       double left = for_the_next);
 
   /// What comes is of another programme.
   void begin() {
@@ -85,7 +89,7 @@ class KeptFactor {
 
  private:
   std::optional<Solved> solve_large(const InterfaceSystem &system, const Eigen::MatrixXd &a,
-                                    const Eigen::VectorXd &b);
+                                    const Eigen::VectorXd &b, double left);
 
   std::optional<RoundedInverse> inverse_;
   std::vector<Eigen::Index> unknowns_;  // of the system before

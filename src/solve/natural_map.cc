@@ -323,8 +323,11 @@ ContactTangent NaturalMap::tangent(const Place &x) const {
   return tangent(x, unknowns(x));
 }
 
-std::optional<NaturalMap::Direction> NaturalMap::newton_direction(const Place &x) const {
-  const std::optional<ContactBody::Moved> moved = body_->solve(tangent(x));
+std::optional<NaturalMap::Direction> NaturalMap::newton_direction(const Place &x,
+                                                                  bool is_last) const {
+  ContactTangent asked = tangent(x);
+  asked.is_last = is_last;
+  const std::optional<ContactBody::Moved> moved = body_->solve(asked);
   if (!moved)
     return std::nullopt;
   return Direction{moved->x, moved->resisted, moved->share};

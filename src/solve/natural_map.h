@@ -62,7 +62,8 @@ class NaturalMap {
   };
   /// Newton's, or of large systems nearly Newton's; nothing where the linear system cannot be
   /// solved. Points that are held go there at once and take no part in it.
-  std::optional<Direction> newton_direction(const Place &x) const;
+  /// `is_last`: as of `ContactTangent`.
+  std::optional<Direction> newton_direction(const Place &x, bool is_last = false) const;
   /// The linear system of that direction.
   ContactTangent tangent(const Place &x) const;
   Place along(const Place &x, const Direction &direction, double length) const;
