@@ -184,9 +184,8 @@ bool Cascade::continuation(Index n_entries, Place &x) {
   return strength == 1;
 }
 
-// Where the body begins to touch a foundation that yields, or where round-off is larger than what a
-// step gains, the programme's value may tell too little of the way to its minimum; the natural
-// map's zero is the same place.
+// Where the body begins to touch a foundation that yields, the programme's value may tell too
+// little of the way to its minimum; the natural map's zero is the same place.
 CoupledSolution Cascade::solve_convex(const VectorXd &start) {
   const int most = may_yield(programme_.points) ? 3 : 1;
   CoupledSolution found;
@@ -195,7 +194,7 @@ CoupledSolution Cascade::solve_convex(const VectorXd &start) {
     begin_attempt();
     found.stage = ContactStage::convex;
     found.interface = convex({}, found.interface.increment);
-    if (found.interface.converged || !found.interface.is_definite)
+    if (found.interface.converged || !found.interface.is_definite || most == 1)
       break;
     if (Place x; find_by_newton(found.interface.increment, x)) {
       found = NaturalMap(programme_, 1).solution(x);

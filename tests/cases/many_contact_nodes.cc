@@ -49,28 +49,5 @@ TEST(ManyContactNodes, ThatChangeTheirStatesOneAfterTheOtherAreSolvedByNewtonsMe
   expect_closed_balances(run.history(), 1e-11);
 }
 
-// A strip of 1 : 1000 whose round-off hides what a step towards the minimum gains.
-TEST(ManyContactNodes, OfAnIllConditionedStripSettleWithoutFriction) {
-  const RunCase run = run_text(R"toml(
-mesh.box = { min = [0, 0], max = [1, 0.001], cells = [100, 2], cell = "quadrilateral" }
-mesh.modes = "incompatible"
-material.library = "BaTiO3-Liu2014"
-time = { end = 1, steps = 3 }
-[[boundary]]
-on = "left"
-displacement = [0, 0]
-potential = 0
-temperature = 0
-[[boundary]]
-on = "top"
-traction = [0, "-0.05*t*(1-1.8*x)"]
-[contact]
-on = "bottom"
-normal = "unilateral"
-gap = 1e-7
-)toml");
-  EXPECT_FALSE(run.summary().at("warnings").empty());
-}
-
 }  // namespace
 }  // namespace tourmaline::verified
