@@ -227,6 +227,13 @@ const BadInput while_running[] = {
 INSTANTIATE_TEST_SUITE_P(WhileRunning, CommandLine, testing::ValuesIn(while_running),
                          in_camel_case);
 
+// But for what a run will take, which is measured.
+std::string before_cost(const std::string &checked) {
+  const std::size_t cost = checked.find("# Expected on this machine");
+  EXPECT_NE(cost, std::string::npos);
+  return checked.substr(0, cost);
+}
+
 TEST_F(Program, CheckPrintsACaseThatCanBeChecked) {
   std::ofstream(here() / "case.toml") << good_case;
   ASSERT_EQ(run("check case.toml --set time.steps=3"), 0) << complained_;
@@ -235,7 +242,7 @@ TEST_F(Program, CheckPrintsACaseThatCanBeChecked) {
   EXPECT_THAT(first, HasSubstr("steps = 3\n"));
   std::ofstream(here() / "resolved.toml") << first;
   ASSERT_EQ(run("check resolved.toml"), 0) << complained_;
-  EXPECT_EQ(said_, first);
+  EXPECT_EQ(before_cost(said_), before_cost(first));
 }
 
 TEST_F(Program, NothingThatAUserNamesCommandsTheTerminal) {
