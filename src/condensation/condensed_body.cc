@@ -64,7 +64,6 @@ auto CondensedBody<dim>::plan(const body::Operator<dim> &op, double step,
   for (const Front &front : elimination.fronts) {
     plan.entries += front.entries();
     plan.operations += front.operations();
-    plan.handed_on += static_cast<double>(front.below) * front.below / 2;
   }
   return plan;
 }

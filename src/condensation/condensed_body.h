@@ -39,7 +39,6 @@ class CondensedBody {
     std::size_t fronts = 0;
     long long entries = 0;  ///< of the factor
     double operations = 0;
-    double handed_on = 0;  ///< numbers that fronts hand to their parents
   };
   static Plan plan(const body::Operator<dim> &op, double step,
                    const std::vector<body::Prescribed> &prescribed,

@@ -1,10 +1,10 @@
 #include "run/expected_cost.h"
 
 #include <fmt/format.h>
-#include <sched.h>
 
 #include <algorithm>
 #include <cmath>
+#include <thread>
 
 #include "condensation/condensed_body.h"
 #include "condensation/factorisation_choice.h"
@@ -119,11 +119,6 @@ Cost cost_of(const Job &job, int ranks) {
   return cost;
 }
 
-int available_cores() {
-  cpu_set_t set;
-  return sched_getaffinity(0, sizeof(set), &set) == 0 ? CPU_COUNT(&set) : 1;
-}
-
 Way way_of(const casefile::Case &asked) {
   if (asked.solver.method == "monolithic")
     return Way::monolithic;
@@ -156,7 +151,7 @@ Job job_of(const casefile::Case &asked) {
   job.way = way_of(asked);
   job.dimension = dim;
   job.threads = asked.solver.threads;
-  job.cores = available_cores();
+  job.cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   job.iterative_memory = iterative_memory(asked);
   job.started = process_age();
   solve::Model<dim> model(asked);

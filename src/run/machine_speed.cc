@@ -37,7 +37,7 @@ double seconds_to_multiply(const Eigen::MatrixXd &a, Eigen::MatrixXd &product) {
 
 MachineSpeed measured_speed(int trials) {
   constexpr std::size_t n_numbers = std::size_t{1} << 24;  // more than caches hold
-  constexpr Eigen::Index n = 800;
+  constexpr Eigen::Index n = 1200;
   constexpr double bytes = sizeof(double) * double(n_numbers);
   const Eigen::MatrixXd a = Eigen::MatrixXd::Ones(n, n);
   Eigen::MatrixXd product(n, n);

@@ -9,7 +9,7 @@ struct MachineSpeed {
   double operations = 0;  ///< multiplications and additions a second, in OpenBLAS's matrix product
 };
 
-/// The best of so many trials, each of about a tenth of a second. Throws MachineError where there
+/// The best of so many trials, each of about a seventh of a second. Throws MachineError where there
 /// are no 128 MiB for it.
 MachineSpeed measured_speed(int trials);
 

@@ -31,13 +31,11 @@ double damped(const NaturalMap &map, const Place &x, const Direction &direction)
   return least <= (1 - 2 * armijo * best) * merit ? best : 0;
 }
 
-// What is left where linear systems are solved in part: an exact last step would have left
-// round-off, and balances tell the difference.
-void polish(const NaturalMap &map, Place &x, double tolerance) {
-  constexpr double next_to_nothing = 1e-2;
-  if (map.is_zero(x, next_to_nothing * tolerance))
-    return;
+// What is left where linear systems are solved in part: balances tell the difference to an exact
+// last step.
+void polish(const NaturalMap &map, Place &x, IterationCount &count) {
   const std::optional<Direction> direction = map.newton_direction(x, true);
+  ++count.made;
   if (!direction)
     return;
   const Place last = map.settled(map.along(x, *direction, 1));
@@ -62,8 +60,8 @@ bool damped_newton(const NaturalMap &map, Place &x, double tolerance, int most,
     x = map.arrived(map.along(x, *direction, length));
   }
   x = map.settled(x);
-  if (map.is_solved_in_part())
-    polish(map, x, tolerance);
+  if (map.is_solved_in_part() && !map.is_zero(x, next_to_nothing * tolerance))
+    polish(map, x, count);
   return map.is_zero(x, tolerance);
 }
 

@@ -51,9 +51,11 @@ class Iteration {
   double largest_residual() const;
   double force_size() { return size_.at(d_); }
   bool is_solved(double tolerance);
-  /// Of a solved problem what systems that were solved in part have left; whether it is solved
-  /// still.
-  bool polish(double tolerance);
+  /// Whether what systems that were solved in part have left of a solved problem is next to
+  /// nothing.
+  bool is_polished(double tolerance) {
+    return !is_large(d_.size()) || is_solved(next_to_nothing * tolerance);
+  }
   InterfaceSolution solution();
   /// Whether the last linear system could be factorised.
   bool is_definite() const { return is_definite_; }
@@ -357,14 +359,6 @@ bool Iteration::is_solved(double tolerance) {
   return size_.is_within(d_, largest_residual(), tolerance);
 }
 
-bool Iteration::polish(double tolerance) {
-  constexpr double next_to_nothing = 1e-2;
-  if (is_solved(next_to_nothing * tolerance))
-    return true;
-  newton_step(false, KeptFactor::for_none);
-  return is_solved(tolerance);
-}
-
 InterfaceSolution Iteration::solution() {
   InterfaceSolution solution;
   solution.increment = d_;
@@ -417,8 +411,12 @@ InterfaceSolution minimise(const InterfaceProgramme &programme, VectorXd start,
   bool converged = false;
   while (true) {
     converged = iteration.is_solved(settings.tolerance);
-    if (converged && is_large(programme.force.size()))
-      converged = iteration.polish(settings.tolerance);
+    if (converged && solved < settings.max_iterations &&
+        !iteration.is_polished(settings.tolerance)) {
+      iteration.newton_step(false, KeptFactor::for_none);
+      ++solved;
+      converged = iteration.is_solved(settings.tolerance);
+    }
     if (converged || solved == settings.max_iterations || !iteration.is_definite())
       break;
     iteration.sweeps();

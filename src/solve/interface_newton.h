@@ -41,6 +41,10 @@ struct InterfaceProgramme {
   Eigen::Index n_forces() const { return fields.empty() ? force.size() : fields.front().begin; }
 };
 
+/// What the last step of a large problem, whose systems are solved in part, may leave: of the
+/// tolerance. An exact last step would leave round-off.
+constexpr double next_to_nothing = 0.01;
+
 struct InterfaceSettings {
   double tolerance = 1e-12;  ///< of the natural residual over the size of the forces
   int max_iterations = 100;

@@ -1,32 +1,21 @@
 #include "run/expected_cost.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <map>
 #include <regex>
 
 #include "run/machine_speed.h"
-#include "tourmaline/case/case.h"
-#include "tourmaline/case/reader.h"
+#include "small_case.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::run {
 namespace {
 
-std::string cost_with(const std::vector<std::string> &changes) {
-  return expected_cost(casefile::read_text(R"toml(
-mesh.box = { min = [0, 0], max = [0.02, 0.01], cells = [40, 20], cell = "quadrilateral" }
-material.library = "BaTiO3-Liu2014"
-time = { end = 1, steps = 10 }
-[[boundary]]
-on = "top"
-displacement = [0, "-1e-9*t"]
-potential = 0
-[contact]
-on = "bottom"
-friction = { law = "tresca", bound = 15 }
-)toml",
-                                           "case.toml", changes));
+std::string cost_with(std::vector<std::string> changes, int cells = 20) {
+  changes.push_back(fmt::format("mesh.box.cells=[{},{}]", 2 * cells, cells));
+  return expected_cost(small_case(changes));
 }
 
 /// By number of ranks: memory, set-up, step, and all; the last one 0 where it is not told.
@@ -53,7 +42,7 @@ TEST(ExpectedCost, IsToldForOneTwoAndFourRanksAndAddsUp) {
 }
 
 TEST(ExpectedCost, OfMoreCellsIsMoreMemory) {
-  const auto few = rows(cost_with({})), many = rows(cost_with({"mesh.box.cells=[300,150]"}));
+  const auto few = rows(cost_with({})), many = rows(cost_with({}, 150));
   EXPECT_GT(many.at(1)[0], 1.5 * few.at(1)[0]);
 }
 

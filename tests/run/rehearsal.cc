@@ -2,28 +2,14 @@
 
 #include <gmock/gmock.h>
 
-#include "tourmaline/case/case.h"
-#include "tourmaline/case/reader.h"
+#include "small_case.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::run {
 namespace {
 
 void rehearse_with(const std::string &change) {
-  rehearse(casefile::read_text(R"toml(
-mesh.box = { min = [0, 0], max = [0.02, 0.01], cells = [4, 2], cell = "quadrilateral" }
-material.library = "BaTiO3-Liu2014"
-time = { end = 1, steps = 10 }
-[[boundary]]
-on = "top"
-displacement = [0, "-1e-9*t"]
-potential = 0
-[contact]
-on = "bottom"
-normal = "unilateral"
-friction = { law = "coulomb", coefficient = 0.3 }
-)toml",
-                               "case.toml", {change}));
+  rehearse(small_case({change}));
 }
 
 TEST(Rehearsal, OfASoundCaseIsQuiet) {
