@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace tourmaline::solve {
@@ -31,19 +32,20 @@ double damped(const NaturalMap &map, const Place &x, const Direction &direction)
   return least <= (1 - 2 * armijo * best) * merit ? best : 0;
 }
 
-// What is left where linear systems are solved in part: balances tell the difference to an exact
-// last step.
-void polish(const NaturalMap &map, Place &x, IterationCount &count) {
-  const std::optional<Direction> direction = map.newton_direction(x, true);
-  ++count.made;
-  if (!direction)
-    return;
-  const Place last = map.settled(map.along(x, *direction, 1));
-  if (map.residual(last) < map.residual(x))
-    x = last;
-}
-
 }  // namespace
+
+void polish(const NaturalMap &map, Place &x, int steps, IterationCount &count) {
+  for (int k = 0; k < steps; ++k) {
+    const std::optional<Direction> direction = map.newton_direction(x, true);
+    ++count.made;
+    if (!direction)
+      return;
+    Place next = map.settled(map.arrived(map.along(x, *direction, 1)));
+    if (!(map.residual(next) < map.residual(x)))
+      return;
+    x = std::move(next);
+  }
+}
 
 bool damped_newton(const NaturalMap &map, Place &x, double tolerance, int most,
                    IterationCount &count) {
@@ -61,7 +63,7 @@ bool damped_newton(const NaturalMap &map, Place &x, double tolerance, int most,
   }
   x = map.settled(x);
   if (map.is_solved_in_part() && !map.is_zero(x, next_to_nothing * tolerance))
-    polish(map, x, count);
+    polish(map, x, 1, count);
   return map.is_zero(x, tolerance);
 }
 

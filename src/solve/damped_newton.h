@@ -18,4 +18,7 @@ struct IterationCount {
 bool damped_newton(const NaturalMap &map, NaturalMap::Place &x, double tolerance, int most,
                    IterationCount &count);
 
+/// Up to `steps` more whole ones from a zero x within the tolerance, as long as the residual falls.
+void polish(const NaturalMap &map, NaturalMap::Place &x, int steps, IterationCount &count);
+
 }  // namespace tourmaline::solve

@@ -22,20 +22,7 @@ namespace {
 
 // The verdict is on the largest forces and flows: smaller ones get their digits by another step or
 // two.
-void polish(const NaturalMap &map, Place &x, IterationCount &count) {
-  constexpr int steps = 2;
-  for (int k = 0; k < steps; ++k) {
-    const auto direction = map.newton_direction(x);
-    ++count.made;
-    if (!direction)
-      return;
-    const Place moved = map.along(x, *direction, 1);
-    Place next = map.settled(map.at(moved.d, moved.share));
-    if (!(map.residual(next) < map.residual(x)))
-      return;
-    x = std::move(next);
-  }
-}
+constexpr int steps_for_smaller_ones = 2;
 
 const contact::PointLaw &friction_at(std::size_t slip, const std::vector<ContactPoint> &points,
                                      const CoupledSolution &solution,
@@ -223,7 +210,7 @@ CoupledSolution solve_exchanging(const ExchangeProgramme &programme, const Vecto
   const NaturalMap map(contact, 1);
   count.begin_attempt(settings.max_iterations);
   if (Place x = map.at(start); newton && damped_newton(map, x, settings.tolerance, most, count)) {
-    polish(map, x, count);
+    polish(map, x, steps_for_smaller_ones, count);
     found = map.solution(x);
     found.interface.converged = true;
     found.interface.iterations = count.made;
