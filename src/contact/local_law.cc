@@ -1,5 +1,7 @@
 #include "contact/local_law.h"
 
+#include "contact/yosida_normal.h"
+
 namespace tourmaline::contact {
 
 Tangent NormalPoint::traction(const Tangent &trial, double r) const {
@@ -20,6 +22,15 @@ Tangent NormalPoint::gradient(const Tangent &delta) const {
 
 TangentMatrix NormalPoint::hessian(const Tangent &delta) const {
   return TangentMatrix::Constant(1, 1, law_->stiffness_at(delta[0]));
+}
+
+NormalPoint NormalPoint::behind_spring(double stiffness) const {
+  return NormalPoint(std::make_shared<YosidaNormal>(law_, stiffness));
+}
+
+LocalLaw LocalLaw::behind_spring(double stiffness) const {
+  const auto *point = std::get_if<NormalPoint>(&law_);
+  return point == nullptr ? *this : LocalLaw(point->behind_spring(stiffness));
 }
 
 const NormalLaw *LocalLaw::normal() const {

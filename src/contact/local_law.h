@@ -26,6 +26,7 @@ class NormalPoint {
   Tangent held() const { return Tangent(0); }
 
   const NormalLaw &law() const { return *law_; }
+  NormalPoint behind_spring(double stiffness) const;
 
  private:
   std::shared_ptr<const NormalLaw> law_;
@@ -53,6 +54,9 @@ class LocalLaw {
   PointLaw &friction() { return std::get<PointLaw>(law_); }
   /// Nothing for a friction law.
   const NormalLaw *normal() const;
+
+  /// A normal law with a spring of that stiffness [N/m^3] before it; a friction law as it is.
+  LocalLaw behind_spring(double stiffness) const;
 
   /// The potential: of friction the dissipation, along the normal that of the pressure [J/m^2].
   double potential(const Tangent &d) const {

@@ -10,6 +10,7 @@
 #include "solve/anderson.h"
 #include "solve/damped_newton.h"
 #include "solve/natural_map.h"
+#include "solve/spring_path.h"
 
 namespace tourmaline::solve {
 
@@ -22,6 +23,13 @@ using Place = NaturalMap::Place;
 
 namespace {
 
+// At points that are free until they touch.
+bool may_open(const std::vector<ContactPoint> &points) {
+  return std::any_of(points.begin(), points.end(), [](const ContactPoint &p) {
+    return p.law.normal() != nullptr && p.law.has_kink(p.size);
+  });
+}
+
 class Cascade {
  public:
   Cascade(const CoupledContact &contact, const InterfaceSettings &settings)
@@ -32,12 +40,14 @@ class Cascade {
  private:
   bool newton(const NaturalMap &map, Place &x, int most = std::numeric_limits<int>::max());
   bool find_by_newton(const VectorXd &start, Place &x);
+  bool find_by_springs(Place &x);
   bool fixed_point(const NaturalMap &map, Place &x);
   bool filled(Place &x);
   bool filled_from_any(const VectorXd &start, Place &x);
   bool continuation(Index n_entries, Place &x);
   CoupledSolution solve_convex(const VectorXd &start);
-  InterfaceSolution convex(const std::vector<PointLaw> &friction, const VectorXd &start);
+  InterfaceSolution convex(const std::vector<PointLaw> &friction, const VectorXd &start,
+                           int patience = 0);
   // Every attempt may take as many iterations as are asked for; of many points, whose states change
   // one after the other along the edges of contact and slip, in proportion more.
   void begin_attempt(int programmes = 1) {
@@ -62,12 +72,38 @@ bool Cascade::find_by_newton(const VectorXd &start, Place &x) {
     return true;
   if (!settings_.is_definite)
     return false;
+  if (may_open(programme_.points))
+    return find_by_springs(x);
   begin_attempt();
   x = map.at(programme_.body.without_contact());
   return newton(map, x);
 }
 
-InterfaceSolution Cascade::convex(const std::vector<PointLaw> &friction, const VectorXd &start) {
+bool Cascade::find_by_springs(Place &x) {
+  constexpr int most = 30;
+  std::vector<ContactPoint> sprung = programme_.points;
+  const CoupledContact contact{programme_.body, sprung, programme_.couplings};
+  x.d = programme_.body.without_contact();
+  const bool is_near = follow_springs([&](double stiffness) {
+    for (std::size_t i = 0; i < sprung.size(); ++i)
+      sprung[i].law = programme_.points[i].law.behind_spring(
+          stiffness * programme_.body.curvature(i) / sprung[i].weight);
+    begin_attempt();
+    const NaturalMap map(contact, 1);
+    Place trial = map.at(x.d);
+    const bool is_solved = newton(map, trial, most);
+    if (is_solved)
+      x = trial;
+    return is_solved;
+  });
+  begin_attempt();
+  const NaturalMap map(programme_, 1);
+  x = map.at(x.d);
+  return is_near && newton(map, x);
+}
+
+InterfaceSolution Cascade::convex(const std::vector<PointLaw> &friction, const VectorXd &start,
+                                  int patience) {
   std::vector<ContactPoint> with_friction;
   if (!friction.empty())
     with_friction = programme_.points;
@@ -76,6 +112,7 @@ InterfaceSolution Cascade::convex(const std::vector<PointLaw> &friction, const V
   const std::vector<ContactPoint> &points = friction.empty() ? programme_.points : with_friction;
   InterfaceSettings left = settings_;
   left.max_iterations = std::max(1, count_.last - count_.made);
+  left.patience = patience;
   InterfaceSolution found = programme_.body.minimise(points, start, left);
   count_.made += found.iterations;
   return found;
@@ -185,22 +222,28 @@ bool Cascade::continuation(Index n_entries, Place &x) {
 }
 
 // Where the body begins to touch a foundation that yields, the programme's value may tell too
-// little of the way to its minimum; the natural map's zero is the same place.
+// little of the way to its minimum, and a slender body comes near it by ever smaller steps; the
+// natural map's zero is the same place.
 CoupledSolution Cascade::solve_convex(const VectorXd &start) {
-  const int most = may_yield(programme_.points) ? 3 : 1;
+  constexpr int patience = 10;
   CoupledSolution found;
-  found.interface.increment = start;
-  for (int k = 0; k < most; ++k) {
+  begin_attempt();
+  found.interface = convex({}, start, patience);
+  found.stage = ContactStage::convex;
+  const auto is_stuck = [&] {
+    return !found.interface.converged && found.interface.is_definite &&
+           (count_.is_left() || may_yield(programme_.points));
+  };
+  const auto find = [&](Place &x) {
+    return may_open(programme_.points) ? find_by_springs(x)
+                                       : find_by_newton(found.interface.increment, x);
+  };
+  if (Place x; is_stuck() && find(x)) {
+    found = NaturalMap(programme_, 1).solution(x);
+    found.interface.converged = true;
+  } else if (is_stuck()) {
     begin_attempt();
-    found.stage = ContactStage::convex;
     found.interface = convex({}, found.interface.increment);
-    if (found.interface.converged || !found.interface.is_definite || most == 1)
-      break;
-    if (Place x; find_by_newton(found.interface.increment, x)) {
-      found = NaturalMap(programme_, 1).solution(x);
-      found.interface.converged = true;
-      break;
-    }
   }
   found.interface.iterations = count_.made;
   return found;

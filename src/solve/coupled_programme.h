@@ -56,11 +56,11 @@ struct CoupledSolution {
 };
 
 /// Semismooth Newton's method with the bounds' derivatives, damped so that the scaled natural
-/// residual falls, from `start` and from the body without contact; where it stalls, convex
-/// programmes with held bounds in a fixed point with Anderson's acceleration; then continuation in
-/// the size of the bounds. A solution need not exist, nor be the only one, where friction is
-/// strong. (V. Acary, M. Bremond, O. Huber, in: Advanced Topics in Nonsmooth Dynamics, Springer
-/// 2018.)
+/// residual falls, from `start` and along springs or, where the contact cannot open, from the body
+/// without contact; where it stalls, convex programmes with held bounds in a fixed point with
+/// Anderson's acceleration; then continuation in the size of the bounds. A solution need not exist,
+/// nor be the only one, where friction is strong. (V. Acary, M. Bremond, O. Huber, in: Advanced
+/// Topics in Nonsmooth Dynamics, Springer 2018.)
 CoupledSolution solve_coupled(const CoupledProgramme &programme, const Eigen::VectorXd &start,
                               const InterfaceSettings &settings);
 CoupledSolution solve_coupled(const CoupledContact &contact, const Eigen::VectorXd &start,

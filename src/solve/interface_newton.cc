@@ -376,6 +376,22 @@ InterfaceSolution Iteration::solution() {
   return solution;
 }
 
+class Creep {
+ public:
+  explicit Creep(int patience) : patience_(patience) {}
+
+  bool see(double residual) {
+    const bool fell = residual < 0.1 * least_;
+    rounds_ = fell ? 0 : rounds_ + 1;
+    least_ = fell ? residual : least_;
+    return patience_ > 0 && rounds_ >= patience_;
+  }
+
+ private:
+  int patience_, rounds_ = 0;
+  double least_ = std::numeric_limits<double>::infinity();
+};
+
 // Every point is held in all directions: no unknowns, nothing to solve.
 InterfaceSolution nothing_to_slip(const InterfaceProgramme &programme) {
   InterfaceSolution solution;
@@ -409,7 +425,7 @@ InterfaceSolution minimise(const InterfaceProgramme &programme, VectorXd start,
                       settings.factor ? *settings.factor : own);
   int solved = 0;
   bool converged = false;
-  while (true) {
+  for (Creep creep(settings.patience); true;) {
     converged = iteration.is_solved(settings.tolerance);
     if (converged && solved < settings.max_iterations &&
         !iteration.is_polished(settings.tolerance)) {
@@ -417,7 +433,8 @@ InterfaceSolution minimise(const InterfaceProgramme &programme, VectorXd start,
       ++solved;
       converged = iteration.is_solved(settings.tolerance);
     }
-    if (converged || solved == settings.max_iterations || !iteration.is_definite())
+    if (converged || solved == settings.max_iterations || !iteration.is_definite() ||
+        creep.see(iteration.largest_residual()))
       break;
     iteration.sweeps();
     bool more = true;

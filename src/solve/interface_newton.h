@@ -52,6 +52,9 @@ struct InterfaceSettings {
   /// are found for slightly more than A.
   bool is_definite = true;
   KeptFactor *factor = nullptr;  ///< from other programmes with the same A; nothing: none
+  /// Rounds of sweeps and Newton steps without a residual a tenth of what it was, after which there
+  /// will be no more of them; 0: any number.
+  int patience = 0;
 };
 
 struct InterfaceSolution {

@@ -11,6 +11,7 @@
 
 #include "body/backward_error.h"
 #include "case/holding.h"
+#include "contact/yosida_normal.h"
 #include "larger.h"
 #include "parallel/ranks.h"
 #include "solve/first_places.h"
@@ -19,6 +20,7 @@
 #include "solve/leaning.h"
 #include "solve/saddle_contact.h"
 #include "solve/saddle_newton.h"
+#include "solve/spring_path.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::solve {
@@ -67,6 +69,7 @@ class MonolithicRoute : public Route {
  private:
   void find(double time, const StepData &data, const SaddlePoint &start, StepOutcome &outcome);
   void find_leaning(double time, const StepData &data, SaddlePoint start, StepOutcome &outcome);
+  SaddlePoint along_springs(const StepData &data, SaddlePoint start, StepOutcome &outcome);
   std::string unheld(const StepData &data, const SaddleNewton<dim> &newton) const;
   void find_stuck(double time, const StepData &data, std::vector<AugmentedLagrangian> &laws,
                   const SaddlePoint &start, StepOutcome &outcome);
@@ -145,15 +148,47 @@ StepOutcome MonolithicRoute<dim>::advance(double time, std::span<const double> r
   return outcome;
 }
 
+// At points that are free until they touch.
+bool may_open(const std::vector<AugmentedLagrangian> &laws) {
+  return std::any_of(laws.begin(), laws.end(), [](const AugmentedLagrangian &law) {
+    return law.normal != nullptr && law.normal->has_kink();
+  });
+}
+
 template <int dim>
 void MonolithicRoute<dim>::find(double time, const StepData &data, const SaddlePoint &start,
                                 StepOutcome &outcome) {
   if (!left_to_contact_.empty() && !data.laws.empty())
     return find_leaning(time, data, start, outcome);
   SaddleNewton<dim> newton(system_, data, start);
-  if (!newton.solve(settings()))
+  if (newton.solve(settings()))
+    return take(newton, outcome);
+  if (!may_open(data.laws))
     give_up(time, newton);
-  take(newton, outcome);
+  outcome.newton_iterations += newton.iterations();
+  SaddleNewton<dim> from_springs(system_, data, along_springs(data, start, outcome));
+  if (!from_springs.solve(settings()))
+    give_up(time, newton);
+  take(from_springs, outcome);
+}
+
+template <int dim>
+SaddlePoint MonolithicRoute<dim>::along_springs(const StepData &data, SaddlePoint start,
+                                                StepOutcome &outcome) {
+  std::vector<AugmentedLagrangian> sprung = data.laws;
+  follow_springs([&](double stiffness) {
+    for (std::size_t p = 0; p < sprung.size(); ++p)
+      if (data.laws[p].normal)
+        sprung[p].normal = std::make_shared<contact::YosidaNormal>(
+            data.laws[p].normal, stiffness * system_.stiffness_at(p));
+    SaddleNewton<dim> newton(system_, {data.right_side, data.before, data.rest, sprung}, start);
+    const bool is_solved = newton.solve(settings());
+    outcome.newton_iterations += newton.iterations();
+    if (is_solved)
+      start = newton.x();
+    return is_solved;
+  });
+  return start;
 }
 
 // Where only the contact holds the body, Newton's method may lose it on its way. Weak springs

@@ -9,6 +9,7 @@
 #include "contact/held_normal.h"
 #include "contact/local_law.h"
 #include "contact/unilateral.h"
+#include "contact/yosida_normal.h"
 #include "tangents.h"
 
 namespace tourmaline::contact {
@@ -74,6 +75,15 @@ Case damped(double c, double k, double before) {
       start};
 }
 
+// The spring's own way in is added to the law's.
+Case behind_spring(const Case &own, double c) {
+  return {own.name + " behind a spring of " + std::to_string(std::log10(c)) + " decades",
+          std::make_shared<YosidaNormal>(own.law, c), [=](std::mt19937 &random) {
+            const Answer at = own.answer(random);
+            return Answer{at.delta + at.pressure / c, at.pressure};
+          }};
+}
+
 std::vector<Case> all_laws() {
   std::vector<Case> laws{held(), unilateral()};
   for (const double m : {1., 1.5, 2., 3.33, 5.})
@@ -82,6 +92,10 @@ std::vector<Case> all_laws() {
   for (const double before : {-1e-3, 0., 1e-9, 1.})
     for (const double c : {1e-6, 1e9})
       laws.push_back(damped(c, 1e-3, before));
+  for (const double c : {1e-3, 1e6, 1e15}) {
+    laws.push_back(behind_spring(unilateral(), c));
+    laws.push_back(behind_spring(compliance(1e13, 1.5), c));
+  }
   return laws;
 }
 
@@ -251,6 +265,29 @@ TEST_F(NormalLaws, TouchingIsPressing) {
   EXPECT_EQ(Unilateral().pressure_derivative(0, r), 1);
   EXPECT_EQ(Compliance(1e11, 1).pressure_derivative(0, r), 0.25);
   EXPECT_EQ(Damped(1e11, 1, 0).pressure_derivative(0, r), 0.25);
+}
+
+TEST(YosidaNormal, IsAFoundationThatYieldsWhereTheLawBehindDoesNot) {
+  const YosidaNormal unilateral(std::make_shared<Unilateral>(), 12);
+  EXPECT_EQ(unilateral.pressure_at(0.5), 6);
+  EXPECT_EQ(unilateral.potential(0.5), 1.5);
+  EXPECT_EQ(unilateral.pressure_at(-0.5), 0);
+  EXPECT_FALSE(unilateral.has_kink());
+  const YosidaNormal held(std::make_shared<HeldNormal>(), 12);
+  EXPECT_EQ(held.pressure_at(-0.5), -6);
+  EXPECT_TRUE(held.is_closed(-1));
+  // Two springs in a row, of 12 and 4.
+  const YosidaNormal compliance(std::make_shared<Compliance>(4, 1), 12);
+  EXPECT_DOUBLE_EQ(compliance.pressure_at(0.5), 1.5);
+  EXPECT_DOUBLE_EQ(compliance.potential(0.5), 0.375);
+}
+
+TEST(LocalLaw, OnlyANormalLawStandsBehindASpring) {
+  const LocalLaw normal = NormalPoint(std::make_shared<Unilateral>());
+  EXPECT_TRUE(normal.has_kink(1));
+  EXPECT_FALSE(normal.behind_spring(1).has_kink(1));
+  const LocalLaw friction = tourmaline::contact::Tresca{3};
+  EXPECT_DOUBLE_EQ(friction.behind_spring(1).potential(along(2)), 6);
 }
 
 TEST(LocalLaw, ANormalLawIsALawOfOneComponentThatHoldsNoSlip) {

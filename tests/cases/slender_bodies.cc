@@ -1,0 +1,119 @@
+// Strips and plates that bend far more easily than a node of theirs is moved alone: where points
+// are let go and closed one by one, each of them bends the whole body.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "closed_balances.h"
+#include "elastic_body.h"
+#include "run_case.h"
+
+namespace tourmaline::verified {
+namespace {
+
+constexpr const char *monolithic = "solver.method='monolithic'";
+
+// An elastic strip of length 1 m that lies clamped on a flat foundation, with weight q on its
+// upper side, is lifted by the force P at its end.
+std::string lifted_strip(double height, double lift) {
+  return fmt::format(R"toml(
+mesh.box = {{ min = [0, 0], max = [1, {0}], cells = [200, 1], cell = "quadrilateral" }}
+mesh.modes = "incompatible"
+material = {{ {1}, young = 1e11, density = 1 }}
+time = {{ end = 1, steps = 2 }}
+[[boundary]]
+on = "left"
+displacement = [0, 0]
+potential = 0
+temperature = 0
+[[boundary]]
+on = "top"
+traction = [0, -100]
+[[boundary]]
+on = "right"
+traction = [0, "{2}*t"]
+[contact]
+on = "bottom"
+normal = "unilateral"
+)toml",
+                     height, elastic, lift / height);
+}
+
+double opening_at(const Table &contact, double x) {
+  const std::vector<double> places = contact.numbers("x"), gaps = contact.numbers("gap");
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (places.size() - i <= 201 && std::abs(places[i] - x) < 1e-9)
+      return gaps[i];
+  ADD_FAILURE() << "no node at " << x;
+  return 0;
+}
+
+// Of a beam l = 2 P/q is off the foundation, without moment or slope where it leaves it; its end
+// stands at q l^4 / (24 E I). The strip holds to that up to a cell and the share of its height.
+TEST(SlenderBodies, ALiftedStripLeavesTheFoundationWhereTheBeamDoes) {
+  constexpr double weight = 100, lift = 25, cell = 0.005, off = 2 * lift / weight;
+  for (const double height : {0.02, 0.003})
+    for (const auto &route : {std::vector<std::string>{}, {monolithic}}) {
+      const RunCase run = run_text(lifted_strip(height, lift), route);
+      const Table contact = run.contact();
+      const double bending = 1e11 * std::pow(height, 3) / 12;
+      const double open = cell * run.history().numbers("open").back();
+      EXPECT_NEAR(open, off, 2 * cell + 2 * height) << height;
+      EXPECT_NEAR(opening_at(contact, 1) / (weight * std::pow(off, 4) / (24 * bending)), 1,
+                  2 * height + 0.02)
+          << height;
+      expect_closed_balances(run.history(), 1e-9);
+    }
+}
+
+std::string bender(double height, const std::string &load, const std::string &gap,
+                   const std::string &friction) {
+  return fmt::format(R"toml(
+mesh.box = {{ min = [0, 0], max = [1, {0}], cells = [90, 1], cell = "quadrilateral" }}
+mesh.modes = "incompatible"
+material.library = "BaTiO3-Liu2014"
+time = {{ end = 1, steps = 2 }}
+[[boundary]]
+on = "left"
+displacement = [0, 0]
+potential = 0
+temperature = 0
+[[boundary]]
+on = "top"
+traction = [0, "-0.1*t*({1})"]
+[contact]
+on = "bottom"
+normal = "unilateral"
+gap = "{2}"
+{3}
+)toml",
+                     height, load, gap, friction);
+}
+
+void expect_laws(const Table &contact, double largest_gap) {
+  const std::vector<double> gaps = contact.numbers("gap"),
+                            pressures = contact.numbers("normal_traction");
+  const double most = largest(pressures);
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    EXPECT_GE(gaps[i], -1e-12 * largest_gap);
+    EXPECT_GE(-pressures[i], -1e-9 * most);
+    EXPECT_TRUE(gaps[i] <= 1e-9 * largest_gap || pressures[i] == 0) << gaps[i];
+  }
+}
+
+TEST(SlenderBodies, BendersAreSolvedOnBothRoutesToTheSameStatus) {
+  for (const char *friction : {"", "friction = { law = 'coulomb', coefficient = 0.3 }"})
+    for (const double height : {0.02, 0.003})
+      for (const auto &[load, gap] : {std::pair{"1-1.2*x", "1e-8*x"}, {"sin(9*x)", "0"}}) {
+        const std::string text = bender(height, load, gap, friction);
+        const RunCase condensed = run_text(text), whole = run_text(text, {monolithic});
+        SCOPED_TRACE(text);
+        const double size = largest(condensed.contact(), "gap");
+        expect_laws(condensed.contact(), size);
+        EXPECT_EQ(condensed.contact().columns.at("status"), whole.contact().columns.at("status"));
+        EXPECT_LT(difference(condensed.contact(), whole.contact(), "gap"), 1e-6);
+      }
+}
+
+}  // namespace
+}  // namespace tourmaline::verified
