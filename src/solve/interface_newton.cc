@@ -7,6 +7,7 @@
 #include "dense/decompositions.h"
 #include "larger.h"
 #include "solve/force_size.h"
+#include "solve/stall.h"
 #include "solve/truncation.h"
 
 namespace tourmaline::solve {
@@ -375,22 +376,6 @@ InterfaceSolution Iteration::solution() {
   solution.is_definite = is_definite_;
   return solution;
 }
-
-class Creep {
- public:
-  explicit Creep(int patience) : patience_(patience) {}
-
-  bool see(double residual) {
-    const bool fell = residual < 0.1 * least_;
-    rounds_ = fell ? 0 : rounds_ + 1;
-    least_ = fell ? residual : least_;
-    return patience_ > 0 && rounds_ >= patience_;
-  }
-
- private:
-  int patience_, rounds_ = 0;
-  double least_ = std::numeric_limits<double>::infinity();
-};
 
 // Every point is held in all directions: no unknowns, nothing to solve.
 InterfaceSolution nothing_to_slip(const InterfaceProgramme &programme) {

@@ -148,10 +148,10 @@ StepOutcome MonolithicRoute<dim>::advance(double time, std::span<const double> r
   return outcome;
 }
 
-// At points that are free until they touch.
+// At points that are not always closed.
 bool may_open(const std::vector<AugmentedLagrangian> &laws) {
   return std::any_of(laws.begin(), laws.end(), [](const AugmentedLagrangian &law) {
-    return law.normal != nullptr && law.normal->has_kink();
+    return law.has_normal && law.normal != nullptr;
   });
 }
 
@@ -175,12 +175,15 @@ void MonolithicRoute<dim>::find(double time, const StepData &data, const SaddleP
 template <int dim>
 SaddlePoint MonolithicRoute<dim>::along_springs(const StepData &data, SaddlePoint start,
                                                 StepOutcome &outcome) {
+  constexpr double little = 1e-3;  // of a spring, what may lean beside it
   std::vector<AugmentedLagrangian> sprung = data.laws;
   follow_springs([&](double stiffness) {
-    for (std::size_t p = 0; p < sprung.size(); ++p)
+    for (std::size_t p = 0; p < sprung.size(); ++p) {
+      const double spring = stiffness * system_.stiffness_at(p);
       if (data.laws[p].normal)
-        sprung[p].normal = std::make_shared<contact::YosidaNormal>(
-            data.laws[p].normal, stiffness * system_.stiffness_at(p));
+        sprung[p].normal = std::make_shared<contact::YosidaNormal>(data.laws[p].normal, spring);
+      sprung[p].lean = std::min(data.laws[p].lean, little * spring);
+    }
     SaddleNewton<dim> newton(system_, {data.right_side, data.before, data.rest, sprung}, start);
     const bool is_solved = newton.solve(settings());
     outcome.newton_iterations += newton.iterations();
@@ -202,13 +205,19 @@ void MonolithicRoute<dim>::find_leaning(double time, const StepData &data, Saddl
   std::vector<AugmentedLagrangian> leaning = data.laws;
   for (std::size_t p = 0; p < leaning.size(); ++p)
     leaning[p].lean = slightly * system_.stiffness_at(p);
+  const StepData with_lean{data.right_side, data.before, data.rest, leaning};
+  const SaddlePoint first = start;
   for (std::size_t k = 0; true; ++k) {
-    SaddleNewton<dim> newton(system_, {data.right_side, data.before, data.rest, leaning}, start);
+    SaddleNewton<dim> newton(system_, with_lean, start);
     const bool is_solved = newton.solve(settings());
     if (is_solved && !is_carried_off(newton, first_force_size))
       return take(newton, outcome);
     outcome.newton_iterations += newton.iterations();
     if (k == weak.size()) {
+      SaddleNewton<dim> from_springs(system_, with_lean, along_springs(with_lean, first, outcome));
+      if (may_open(leaning) && from_springs.solve(settings()) &&
+          !is_carried_off(from_springs, first_force_size))
+        return take(from_springs, outcome);
       if (is_solved)
         let_go(time, unheld(data, newton));
       give_up(time, newton);
@@ -231,14 +240,13 @@ std::string MonolithicRoute<dim>::unheld(const StepData &data,
 }
 
 // Where nothing holds the body, what the tangent has beside its stiffness does: loads then move it
-// by so much that the round-off of the forces that hold it is a part of them that counts.
+// until their rest is small beside the terms of its forces, though not beside themselves.
 template <int dim>
 bool MonolithicRoute<dim>::is_carried_off(const SaddleNewton<dim> &newton,
                                           double first_force_size) const {
-  constexpr double counts = 1e-7;
-  return first_force_size > 0 &&
-         std::numeric_limits<double>::epsilon() * newton.verdict().force_size >
-             counts * first_force_size;
+  constexpr double counts = 1e-4;
+  const Verdict verdict = newton.verdict();
+  return verdict.blocks[0] * verdict.force_size > counts * first_force_size;
 }
 
 template <int dim>

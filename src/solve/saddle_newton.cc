@@ -80,18 +80,33 @@ bool SaddleNewton<dim>::solve(const SaddleSettings &settings) {
 
 template <int dim>
 bool SaddleNewton<dim>::newton(const SaddleSettings &settings) {
+  constexpr int most_polishing = 3;
   double smallest = std::numeric_limits<double>::infinity();
-  int without_progress = 0;
+  int without_progress = 0, polishing = 0;
   while (true) {
-    const double residual = verdict().worst();
-    if (residual <= settings.tolerance && iterations_ >= settings.least_iterations)
-      return true;
+    const Verdict now = verdict();
+    const double residual = now.worst();
+    if (residual <= settings.tolerance && iterations_ >= settings.least_iterations) {
+      const bool gains = residual < smallest / 2 && polishing++ < most_polishing;
+      if (!gains || iterations_ >= settings.max_iterations || is_polished(now))
+        return true;
+    }
     without_progress = residual < smallest ? 0 : without_progress + 1;
     smallest = std::min(smallest, residual);
     if (without_progress == patience || iterations_ == settings.max_iterations)
       return false;
     correct(direction(data_, system_.residual(data_, x_)), 1);
   }
+}
+
+// Beside what acts on the body, loads and contact.
+template <int dim>
+bool SaddleNewton<dim>::is_polished(const Verdict &now) const {
+  constexpr double far_larger = 100;
+  double acting = system_.largest_rows({{data_.right_side.begin(), data_.right_side.end()}, {}})[0];
+  for (std::size_t p = 0; p < data_.laws.size(); ++p)
+    acting = larger(acting, system_.points()[p].weight * system_.multiplier(p, x_).norm());
+  return now.force_size <= far_larger * acting;
 }
 
 template <int dim>

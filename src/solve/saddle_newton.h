@@ -34,6 +34,10 @@ struct SaddleSettings {
 /// begin to stick or slip, so it may cycle; then steps of the method of multipliers on the same
 /// augmented Lagrangian, which alone converge from any start, move lambda_tau towards the solution,
 /// until Newton's method settles.
+///
+/// In a body that bends easily the forces inside are larger by many powers of ten than those that
+/// act on it, and a residual within the tolerance of the former may be all of the latter: Newton's
+/// method then goes on as long as it gains.
 template <int dim>
 class SaddleNewton {
  public:
@@ -51,6 +55,7 @@ class SaddleNewton {
 
  private:
   bool newton(const SaddleSettings &settings);
+  bool is_polished(const Verdict &now) const;
   void multiplier_step(const SaddleSettings &settings);
   std::vector<contact::AugmentedLagrangian> laws_with_held_multipliers() const;
   SaddlePoint direction(const StepData &data, const SaddlePoint &residual);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "larger.h"
+#include "solve/stall.h"
 #include "solve/truncation.h"
 
 namespace tourmaline::solve {
@@ -273,7 +274,8 @@ InterfaceSolution minimise(const SlipProgramme &programme, SlipResponse &respons
     return descent.largest_residual();
   };
   double least = residual();
-  while (least > allowed && solved < settings.max_iterations &&
+  Creep creep(settings.patience);
+  while (least > allowed && solved < settings.max_iterations && !creep.see(least) &&
          (least > response.force_accuracy() || solved - last_gain < patience)) {
     descent.proximal_step(settings.tolerance);
     bool more = true;

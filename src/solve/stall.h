@@ -22,4 +22,22 @@ class Stall {
   int since_ = 0;
 };
 
+/// Whether an iteration gets on so slowly that another one had better go on: in `patience` rounds
+/// the residual has not come down to a tenth. 0: never.
+class Creep {
+ public:
+  explicit Creep(int patience) : patience_(patience) {}
+
+  bool see(double residual) {
+    const bool fell = residual < 0.1 * least_;
+    rounds_ = fell ? 0 : rounds_ + 1;
+    least_ = fell ? residual : least_;
+    return patience_ > 0 && rounds_ >= patience_;
+  }
+
+ private:
+  int patience_, rounds_ = 0;
+  double least_ = std::numeric_limits<double>::infinity();
+};
+
 }  // namespace tourmaline::solve

@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <regex>
+
 #include "closed_balances.h"
 #include "elastic_body.h"
 #include "run_case.h"
+#include "tourmaline/error.h"
 
 namespace tourmaline::verified {
 namespace {
@@ -64,6 +67,65 @@ TEST(SlenderBodies, ALiftedStripLeavesTheFoundationWhereTheBeamDoes) {
           << height;
       expect_closed_balances(run.history(), 1e-9);
     }
+}
+
+/// A static load that grows in two equal steps, on a plate or strip of steel.
+std::string growing_load(const std::string &box, const std::string &boundary,
+                         const std::string &normal) {
+  return fmt::format(R"toml(
+model = {{ thermal = false, electric = false }}
+material = {{ symmetry = "cubic", c11 = 2.2435897435897433e11, c12 = 9.615384615384616e10, c44 = 6.410256410256410e10, density = 7800 }}
+mesh = {{ {} }}
+time = {{ regime = "static", end = 1, steps = 2 }}
+boundary = [ {} ]
+contact = {{ on = "bottom", normal = {} }}
+)toml",
+                     box, boundary, normal);
+}
+
+// The load of the second step is less than 1e-12 of the forces inside the body.
+TEST(SlenderBodies, ALoadThatIsSmallBesideTheForcesInsideIsFollowedOnBothRoutes) {
+  const std::string text = growing_load(
+      "modes = 'incompatible', box = { cell = 'hexahedron', min = [0, 0, 0], max = [1, 0.5, "
+      "0.001], "
+      "cells = [8, 4, 1] }",
+      "{ on = 'top', traction = [0, 0, 't*cos(7*x+3*y)'] }, { on = 'left', displacement = [0, 0, "
+      "0] }",
+      "'unilateral'");
+  for (const auto &route : {std::vector<std::string>{}, {monolithic}}) {
+    const std::vector<double> largest = run_text(text, route).history().numbers("max_displacement");
+    EXPECT_NEAR(largest.at(1) / largest.at(0), 2, 2e-3);
+  }
+}
+
+// Only the contact holds the strip along the normal, through a gap that moves it by far more than
+// the load bends it.
+TEST(SlenderBodies, ThatOnlyTheContactHoldsAreHeldOnBothRoutes) {
+  for (const char *normal : {"{ law = 'compliance', coefficient = 1.9e8 }", "'unilateral'"}) {
+    const std::string text = growing_load(
+        "degree = 2, box = { cell = 'quadrilateral', min = [0, 0], max = [1, 0.005], cells = [5, "
+        "1] }",
+        "{ on = 'top', traction = [0, '-75*t'] }, { on = 'left', displacement = [0, 'free'] }",
+        normal + std::string(", gap = '1e-4*(1+x)'"));
+    const RunCase condensed = run_text(text), whole = run_text(text, {monolithic});
+    EXPECT_LT(difference(condensed.contact(), whole.contact(), "normal_traction"), 1e-6);
+    EXPECT_GT(largest(condensed.history(), "max_pressure"), 75);
+    const std::string lifted = std::regex_replace(text, std::regex("-75"), "75");
+    EXPECT_THROW(run_text(lifted), SolveError);
+    EXPECT_THROW(run_text(lifted, {monolithic}), SolveError);
+  }
+}
+
+// Forces inside are a million times those that act: within a tolerance of the former, balances of
+// the latter would be open.
+TEST(SlenderBodies, CloseTheBalancesOnTheMonolithicRoute) {
+  const std::string text = growing_load(
+      "modes = 'incompatible', box = { cell = 'quadrilateral', min = [0, 0], max = [1, 0.02], "
+      "cells = [20, "
+      "1] }",
+      "{ on = 'top', traction = [0, '-8000*t'] }, { on = 'left', displacement = [0, 'free'] }",
+      "{ law = 'compliance', coefficient = 1e9 }, gap = '1e-4*(1+x)'");
+  expect_closed_balances(run_text(text, {monolithic}).history(), 1e-9);
 }
 
 std::string bender(double height, const std::string &load, const std::string &gap,
