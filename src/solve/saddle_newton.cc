@@ -99,14 +99,14 @@ bool SaddleNewton<dim>::newton(const SaddleSettings &settings) {
   }
 }
 
-// Beside what acts on the body, loads and contact.
+// Whether what is left is next to nothing also beside what acts on the body, loads and contact.
 template <int dim>
 bool SaddleNewton<dim>::is_polished(const Verdict &now) const {
-  constexpr double far_larger = 100;
+  constexpr double next_to_nothing = 1e-11;
   double acting = system_.largest_rows({{data_.right_side.begin(), data_.right_side.end()}, {}})[0];
   for (std::size_t p = 0; p < data_.laws.size(); ++p)
     acting = larger(acting, system_.points()[p].weight * system_.multiplier(p, x_).norm());
-  return now.force_size <= far_larger * acting;
+  return now.worst() * now.force_size <= next_to_nothing * acting;
 }
 
 template <int dim>
