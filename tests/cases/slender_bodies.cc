@@ -20,7 +20,7 @@ constexpr const char *monolithic = "solver.method='monolithic'";
 // upper side, is lifted by the force P at its end.
 std::string lifted_strip(double height, double lift) {
   return fmt::format(R"toml(
-mesh.box = {{ min = [0, 0], max = [1, {0}], cells = [200, 1], cell = "quadrilateral" }}
+mesh.box = {{ min = [0, 0], max = [1, {0}], cells = [100, 1], cell = "quadrilateral" }}
 mesh.modes = "incompatible"
 material = {{ {1}, young = 1e11, density = 1 }}
 time = {{ end = 1, steps = 2 }}
@@ -45,7 +45,7 @@ normal = "unilateral"
 double opening_at(const Table &contact, double x) {
   const std::vector<double> places = contact.numbers("x"), gaps = contact.numbers("gap");
   for (std::size_t i = 0; i < places.size(); ++i)
-    if (places.size() - i <= 201 && std::abs(places[i] - x) < 1e-9)
+    if (places.size() - i <= 101 && std::abs(places[i] - x) < 1e-9)
       return gaps[i];
   ADD_FAILURE() << "no node at " << x;
   return 0;
@@ -54,7 +54,7 @@ double opening_at(const Table &contact, double x) {
 // Of a beam l = 2 P/q is off the foundation, without moment or slope where it leaves it; its end
 // stands at q l^4 / (24 E I). The strip holds to that up to a cell and the share of its height.
 TEST(SlenderBodies, ALiftedStripLeavesTheFoundationWhereTheBeamDoes) {
-  constexpr double weight = 100, lift = 25, cell = 0.005, off = 2 * lift / weight;
+  constexpr double weight = 100, lift = 25, cell = 0.01, off = 2 * lift / weight;
   for (const double height : {0.02, 0.003})
     for (const auto &route : {std::vector<std::string>{}, {monolithic}}) {
       const RunCase run = run_text(lifted_strip(height, lift), route);
