@@ -69,7 +69,7 @@ class MonolithicRoute : public Route {
  private:
   void find(double time, const StepData &data, const SaddlePoint &start, StepOutcome &outcome);
   void find_leaning(double time, const StepData &data, SaddlePoint start, StepOutcome &outcome);
-  SaddlePoint along_springs(const StepData &data, SaddlePoint start, StepOutcome &outcome);
+  bool follow_springs_to(SaddlePoint &x, const StepData &data, StepOutcome &outcome);
   std::string unheld(const StepData &data, const SaddleNewton<dim> &newton) const;
   void find_stuck(double time, const StepData &data, std::vector<AugmentedLagrangian> &laws,
                   const SaddlePoint &start, StepOutcome &outcome);
@@ -163,35 +163,37 @@ void MonolithicRoute<dim>::find(double time, const StepData &data, const SaddleP
   SaddleNewton<dim> newton(system_, data, start);
   if (newton.solve(settings()))
     return take(newton, outcome);
-  if (!may_open(data.laws))
-    give_up(time, newton);
   outcome.newton_iterations += newton.iterations();
-  SaddleNewton<dim> from_springs(system_, data, along_springs(data, start, outcome));
-  if (!from_springs.solve(settings()))
-    give_up(time, newton);
-  take(from_springs, outcome);
+  if (SaddlePoint x = start; follow_springs_to(x, data, outcome)) {
+    SaddleNewton<dim> from_springs(system_, data, std::move(x));
+    if (from_springs.solve(settings()))
+      return take(from_springs, outcome);
+  }
+  give_up(time, newton);
 }
 
+// From x to the solution with the stiffest springs; false where there is no such way.
 template <int dim>
-SaddlePoint MonolithicRoute<dim>::along_springs(const StepData &data, SaddlePoint start,
-                                                StepOutcome &outcome) {
+bool MonolithicRoute<dim>::follow_springs_to(SaddlePoint &x, const StepData &data,
+                                             StepOutcome &outcome) {
+  if (!may_open(data.laws))
+    return false;
   constexpr double little = 1e-3;  // of a spring, what may lean beside it
   std::vector<AugmentedLagrangian> sprung = data.laws;
-  follow_springs([&](double stiffness) {
+  return follow_springs([&](double stiffness) {
     for (std::size_t p = 0; p < sprung.size(); ++p) {
       const double spring = stiffness * system_.stiffness_at(p);
       if (data.laws[p].normal)
         sprung[p].normal = std::make_shared<contact::YosidaNormal>(data.laws[p].normal, spring);
       sprung[p].lean = std::min(data.laws[p].lean, little * spring);
     }
-    SaddleNewton<dim> newton(system_, {data.right_side, data.before, data.rest, sprung}, start);
+    SaddleNewton<dim> newton(system_, {data.right_side, data.before, data.rest, sprung}, x);
     const bool is_solved = newton.solve(settings());
     outcome.newton_iterations += newton.iterations();
     if (is_solved)
-      start = newton.x();
+      x = newton.x();
     return is_solved;
   });
-  return start;
 }
 
 // Where only the contact holds the body, Newton's method may lose it on its way. Weak springs
@@ -214,10 +216,11 @@ void MonolithicRoute<dim>::find_leaning(double time, const StepData &data, Saddl
       return take(newton, outcome);
     outcome.newton_iterations += newton.iterations();
     if (k == weak.size()) {
-      SaddleNewton<dim> from_springs(system_, with_lean, along_springs(with_lean, first, outcome));
-      if (may_open(leaning) && from_springs.solve(settings()) &&
-          !is_carried_off(from_springs, first_force_size))
-        return take(from_springs, outcome);
+      if (SaddlePoint x = first; follow_springs_to(x, with_lean, outcome)) {
+        SaddleNewton<dim> from_springs(system_, with_lean, std::move(x));
+        if (from_springs.solve(settings()) && !is_carried_off(from_springs, first_force_size))
+          return take(from_springs, outcome);
+      }
       if (is_solved)
         let_go(time, unheld(data, newton));
       give_up(time, newton);

@@ -16,30 +16,30 @@ namespace {
 
 constexpr const char *monolithic = "solver.method='monolithic'";
 
-// An elastic strip of length 1 m that lies clamped on a flat foundation, with weight q on its
-// upper side, is lifted by the force P at its end.
-std::string lifted_strip(double height, double lift) {
+/// A strip of length 1 m, clamped on the left, over a foundation below it.
+std::string clamped_strip(double height, int cells, const std::string &material,
+                          const std::string &loads, const std::string &more_of_contact = "") {
   return fmt::format(R"toml(
-mesh.box = {{ min = [0, 0], max = [1, {0}], cells = [100, 1], cell = "quadrilateral" }}
+mesh.box = {{ min = [0, 0], max = [1, {}], cells = [{}, 1], cell = "quadrilateral" }}
 mesh.modes = "incompatible"
-material = {{ {1}, young = 1e11, density = 1 }}
+material = {{ {} }}
 time = {{ end = 1, steps = 2 }}
-[[boundary]]
-on = "left"
-displacement = [0, 0]
-potential = 0
-temperature = 0
-[[boundary]]
-on = "top"
-traction = [0, -100]
-[[boundary]]
-on = "right"
-traction = [0, "{2}*t"]
+boundary = [ {{ on = "left", displacement = [0, 0], potential = 0, temperature = 0 }}, {} ]
 [contact]
 on = "bottom"
 normal = "unilateral"
+{}
 )toml",
-                     height, elastic, lift / height);
+                     height, cells, material, loads, more_of_contact);
+}
+
+// An elastic strip that lies on a flat foundation, with weight q on its upper side, is lifted by
+// the force P at its end.
+std::string lifted_strip(double height, double lift) {
+  return clamped_strip(height, 100, elastic + std::string(", young = 1e11, density = 1"),
+                       fmt::format("{{ on = 'top', traction = [0, -100] }}, "
+                                   "{{ on = 'right', traction = [0, '{}*t'] }}",
+                                   lift / height));
 }
 
 double opening_at(const Table &contact, double x) {
@@ -130,26 +130,9 @@ TEST(SlenderBodies, CloseTheBalancesOnTheMonolithicRoute) {
 
 std::string bender(double height, const std::string &load, const std::string &gap,
                    const std::string &friction) {
-  return fmt::format(R"toml(
-mesh.box = {{ min = [0, 0], max = [1, {0}], cells = [90, 1], cell = "quadrilateral" }}
-mesh.modes = "incompatible"
-material.library = "BaTiO3-Liu2014"
-time = {{ end = 1, steps = 2 }}
-[[boundary]]
-on = "left"
-displacement = [0, 0]
-potential = 0
-temperature = 0
-[[boundary]]
-on = "top"
-traction = [0, "-0.1*t*({1})"]
-[contact]
-on = "bottom"
-normal = "unilateral"
-gap = "{2}"
-{3}
-)toml",
-                     height, load, gap, friction);
+  return clamped_strip(height, 90, "library = 'BaTiO3-Liu2014'",
+                       fmt::format("{{ on = 'top', traction = [0, '-0.1*t*({})'] }}", load),
+                       fmt::format("gap = '{}'\n{}", gap, friction));
 }
 
 void expect_laws(const Table &contact, double largest_gap) {
