@@ -4,6 +4,7 @@ import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
+import { closeBrowsers } from './browser.mjs';
 
 export const program = resolve(process.argv[2]);
 export const cases = resolve(import.meta.dirname ?? new URL('.', import.meta.url).pathname, '../../cases');
@@ -21,7 +22,8 @@ export async function test(claim, work) {
 }
 
 /** Says what came out, and ends the process. */
-export function end() {
+export async function end() {
+  await closeBrowsers();
   rmSync(folder, { recursive: true, force: true });
   console.log(failures === 0 ? 'all is as it should be' : `${failures} claims are wrong`);
   process.exit(failures === 0 ? 0 : 1);
@@ -40,12 +42,16 @@ export function nodesOf(out) {
   return lines.map((line) => Object.fromEntries(line.split(',').map((v, i) => [names[i], Number(v)])));
 }
 
+/** A graphics card in software is slow to read, which is nothing of the page. */
+export const isOfThePage = (message) => ['error', 'warning'].includes(message.type())
+  && !message.text().includes('GPU stall due to ReadPixels');
+
 /** Opens a page; whatever it complains of or asks the network for is kept. */
 export async function open(context, file) {
   const tab = await context.newPage();
   tab.setDefaultTimeout(240000);  // on a busy machine the clock says nothing of the page
   const complaints = [];
-  tab.on('console', (m) => ['error', 'warning'].includes(m.type()) && complaints.push(m.text()));
+  tab.on('console', (m) => isOfThePage(m) && complaints.push(m.text()));
   tab.on('pageerror', (e) => complaints.push(e.message));
   tab.on('request', (r) => /^(file|data|blob):/.test(r.url()) || complaints.push(`request of ${r.url()}`));
   // The processor's time: on a busy machine the clock says nothing of the page.

@@ -1,39 +1,10 @@
 // node tests/reader.mjs TOURMALINE: what a reader may ask of a picture, compared with the tables of the run.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join, resolve } from 'node:path';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { inBrowser } from './browser.mjs';
-
-const program = resolve(process.argv[2]);
-const cases = resolve(import.meta.dirname ?? new URL('.', import.meta.url).pathname, '../../cases');
-const folder = mkdtempSync(join(tmpdir(), 'tourmaline-reader-'));
-let failures = 0;
-
-async function test(claim, work) {
-  try {
-    await work();
-    console.log(`ok    ${claim}`);
-  } catch (error) {
-    failures += 1;
-    console.log(`WRONG ${claim}\n      ${String(error.message).replace(/\n/g, '\n      ')}`);
-  }
-}
-
-function run(name, file, ...settings) {
-  const out = join(folder, name);
-  execFileSync(program, ['run', join(cases, file), '-q', '-o', out, ...settings.flatMap((s) => ['--set', s])]);
-  return out;
-}
-
-function runText(name, text) {
-  const file = join(folder, `${name}.toml`);
-  writeFileSync(file, text);
-  const out = join(folder, name);
-  execFileSync(program, ['run', file, '-q', '-o', out]);
-  return out;
-}
+import { cases, end, folder, isOfThePage, program, run, runText, settled, test } from './harness.mjs';
 
 /** Rows of a CSV as objects; empty is null, what is no number stays text. */
 function rowsOf(text) {
@@ -45,14 +16,12 @@ function rowsOf(text) {
 const tableOf = (out, name) => rowsOf(readFileSync(join(out, name), 'utf8'));
 
 const desktop = { viewport: { width: 1366, height: 768 }, acceptDownloads: true };
-const settled = (tab) => tab.evaluate(() => new Promise((done) =>
-  requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done)))));
 
 /** A page with what the address says, its large view on the screen. */
 async function open(context, page, address = '') {
   const tab = await context.newPage();
   const complaints = [];
-  tab.on('console', (m) => ['error', 'warning'].includes(m.type()) && complaints.push(m.text()));
+  tab.on('console', (m) => isOfThePage(m) && complaints.push(m.text()));
   tab.on('pageerror', (e) => complaints.push(e.message));
   tab.on('request', (r) => /^(file|data|blob):/.test(r.url()) || complaints.push(`request of ${r.url()}`));
   await tab.goto('file://' + page + (address ? `#${address}` : ''));
@@ -653,6 +622,4 @@ await inBrowser(desktop, async (context) => {
   });
 });
 
-rmSync(folder, { recursive: true, force: true });
-console.log(failures === 0 ? 'all is as it should be' : `${failures} claims are wrong`);
-process.exit(failures === 0 ? 0 : 1);
+end();

@@ -1,7 +1,7 @@
 // node tests/screenshots.mjs PAGE.html FOLDER: the page at two widths, light and dark, for people to look at.
 import { mkdirSync } from 'node:fs';
 import { basename, resolve } from 'node:path';
-import { inBrowser } from './browser.mjs';
+import { closeBrowsers, inBrowser } from './browser.mjs';
 
 const [page, folder] = process.argv.slice(2);
 mkdirSync(folder, { recursive: true });
@@ -15,3 +15,4 @@ for (const colorScheme of ['light', 'dark'])
       await tab.waitForTimeout(1500);
       await tab.screenshot({ path: `${folder}/${basename(page, '.html')}-${width}-${colorScheme}.png`, fullPage: true });
     });
+await closeBrowsers();
