@@ -26,8 +26,7 @@ double backward_error(const Operator<dim> &op, double step, const std::vector<do
 }
 
 template <int dim>
-FieldSizes field_sizes(std::span<const double> state,
-                       const std::array<double, Fields<dim>::count> &scale) {
+FieldSizes field_sizes(std::span<const double> state, std::span<const double> scale) {
   FieldSizes sizes{};
   for (std::size_t i = 0; i < state.size(); ++i) {
     double &size = sizes[field_of<dim>(i)];
@@ -45,8 +44,8 @@ double relative_size(const FieldSizes &change, const FieldSizes &whole) {
   return std::isnan(worst) ? std::numeric_limits<double>::infinity() : worst;
 }
 
-template FieldSizes field_sizes<2>(std::span<const double>, const std::array<double, 4> &);
-template FieldSizes field_sizes<3>(std::span<const double>, const std::array<double, 5> &);
+template FieldSizes field_sizes<2>(std::span<const double>, std::span<const double>);
+template FieldSizes field_sizes<3>(std::span<const double>, std::span<const double>);
 template double backward_error(const Operator<2> &, double, const std::vector<double> &,
                                std::span<const double>, std::span<const double>,
                                std::span<const double>);

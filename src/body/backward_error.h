@@ -21,8 +21,7 @@ using FieldSizes = std::array<double, 3>;
 
 /// `scale` holds a factor for each component of a node.
 template <int dim>
-FieldSizes field_sizes(std::span<const double> state,
-                       const std::array<double, Fields<dim>::count> &scale);
+FieldSizes field_sizes(std::span<const double> state, std::span<const double> scale);
 
 /// Size of a change over that of what changed, the worst field's. A field of which there is next
 /// to nothing (a millionth of the largest, so 1e-12 of its energy) is measured by that millionth.
@@ -30,7 +29,7 @@ FieldSizes field_sizes(std::span<const double> state,
 double relative_size(const FieldSizes &change, const FieldSizes &whole);
 template <int dim>
 double relative_size(std::span<const double> change, std::span<const double> state,
-                     const std::array<double, Fields<dim>::count> &scale) {
+                     std::span<const double> scale) {
   return relative_size(field_sizes<dim>(change, scale), field_sizes<dim>(state, scale));
 }
 

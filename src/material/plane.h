@@ -37,6 +37,10 @@ struct BodyConstants {
 /// the plane: it is then no solution of (1)-(6).
 template <int dim>
 BodyConstants<dim> restricted(const Constants &body_axes, Plane plane = Plane::strain);
+template <>
+BodyConstants<2> restricted<2>(const Constants &body_axes, Plane plane);
+template <>
+BodyConstants<3> restricted<3>(const Constants &body_axes, Plane plane);
 
 /// eps_zz, 2 eps_yz and 2 eps_xz of plane stress, from the strains of the plane (the others of
 /// `strain` are not looked at), E [V/m] and theta [K].

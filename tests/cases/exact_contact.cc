@@ -269,7 +269,7 @@ TEST(HertzLine, OfAPiezoelectricHalfPlaneConvergesToTheStiffenedModulus) {
 // cylinder to that of a conducting one, 2/[(L^-1)_nn - (L^-1)_nphi^2/(L^-1)_phiphi].
 TEST(HertzLine, OfAPiezoelectricHalfPlaneSoftensTheMoreChargeCrosses) {
   constexpr double insulated = 1.468047e11, conducting = 1.291435e11;
-  const auto modulus = [](double coefficient) {
+  const auto modulus = [&](double coefficient) {
     const double half_width =
         1 + hertz("piezoelectric", insulated, 64,
                   {fmt::format("contact.electric={{law='exchange', coefficient={}, "

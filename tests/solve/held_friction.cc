@@ -306,8 +306,8 @@ class HeldFriction : public ::testing::TestWithParam<std::tuple<Variant, const c
  protected:
   template <int dim>
   void expect_the_reference() const {
-    const auto &[variant, method] = GetParam();
-    const casefile::Case c = asked(variant.text, variant.overrides, {method});
+    const Variant &variant = std::get<0>(GetParam());
+    const casefile::Case c = asked(variant.text, variant.overrides, {std::get<1>(GetParam())});
     Reference<dim> reference(c);
     const output::TemporaryFolder folder;
     run::RunOptions options{.quiet = true};
