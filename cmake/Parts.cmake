@@ -3,15 +3,7 @@
 
 find_package(PkgConfig REQUIRED)
 find_package(MPI REQUIRED COMPONENTS C)
-if(TOURMALINE_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
-  # With the runtime that Gmsh's library is built on, before which Clang's own would stand; Clang makes no threads with
-  # it, and how many there are to be is then nobody's business.
-  add_library(OpenMP::OpenMP_CXX INTERFACE IMPORTED)
-  target_compile_options(OpenMP::OpenMP_CXX INTERFACE -fopenmp=libgomp -Wno-unused-parameter)
-  target_link_options(OpenMP::OpenMP_CXX INTERFACE -fopenmp=libgomp)
-elseif(NOT TOURMALINE_FUZZ)  # of Clang's it would be another package
-  find_package(OpenMP REQUIRED COMPONENTS CXX)
-endif()
+find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)

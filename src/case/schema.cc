@@ -308,7 +308,9 @@ void declare(Visitor &v, SolverCase &solver, const std::vector<ContactCase> &con
              "2,000 points on (two a contact node) so many for each thousand",
          .range = at_least(1)},
         &solver.max_iterations);
-  v.key({.name = "threads", .description = "of OpenBLAS and OpenMP", .range = from_to(1, 1024)},
+  v.key({.name = "threads",
+         .description = "of the factorisation and of OpenBLAS",
+         .range = from_to(1, 1024)},
         &solver.threads);
   declare_augmented_lagrangian(v, solver);
   v.check("multiplier", [&] { return multiplier_complaint(contacts, solver.multiplier); });

@@ -13,6 +13,7 @@ struct FactorisationStatistics {
   long long factor_entries = 0;  ///< doubles in L, the Schur complement apart
   int negative_pivots = 0;
   double flops = 0;
+  int subtrees = 0;    ///< of the tree of fronts, each of one thread; 0 where there is one thread
   std::string solver;  ///< "own" or "mumps"
   std::string reason;  ///< why that one, where another was asked first
 };

@@ -14,7 +14,6 @@
 
 extern "C" void openblas_set_num_threads(int threads);
 extern "C" int openblas_get_num_threads();
-extern "C" int omp_get_thread_num();
 
 namespace tourmaline::condensation {
 
@@ -22,6 +21,9 @@ namespace {
 
 // A pivot that is so small beside its entry on the diagonal has no digit.
 constexpr double no_digit = std::numeric_limits<double>::epsilon();
+
+// That one thread takes at a time of what a child hands on.
+constexpr int columns_of_a_task = 128;
 
 // Threads are ours: each calls OpenBLAS for itself.
 class OneBlasThread {
@@ -53,14 +55,14 @@ class Multifrontal::Work {
  public:
   Work(const Multifrontal &whole, const std::array<std::size_t, 2> &stacks);
   int factorise(const GroupedMatrix &matrix, int front, std::vector<Trapezoid> &handed,
-                double *beyond, int threads);
+                double *beyond, parallel::Team &team);
 
  private:
   void assemble(const GroupedMatrix &matrix, int front, const Trapezoid &l, const Trapezoid &rest);
   void add(const GroupedMatrix &matrix, int front, int group, std::size_t entry, const Trapezoid &l,
            const Trapezoid &rest);
   void extend(int child, const Trapezoid &from, const Trapezoid &l, const Trapezoid &rest,
-              int threads);
+              parallel::Team &team);
 
   const Multifrontal &whole_;
   std::array<Stack, 2> stacks_;
@@ -76,7 +78,8 @@ Multifrontal::Work::Work(const Multifrontal &whole, const std::array<std::size_t
 // Returns the place of a pivot that is none, -1 if there is none; `beyond`: where to put what is
 // handed on if not on the stack.
 int Multifrontal::Work::factorise(const GroupedMatrix &matrix, int f,
-                                  std::vector<Trapezoid> &handed, double *beyond, int threads) {
+                                  std::vector<Trapezoid> &handed, double *beyond,
+                                  parallel::Team &team) {
   const Elimination &e = whole_.elimination_;
   const Front &front = e.fronts[f];
   const Trapezoid l = whole_.panels(f);
@@ -84,11 +87,11 @@ int Multifrontal::Work::factorise(const GroupedMatrix &matrix, int f,
   const Trapezoid rest = handed[f] = Trapezoid::at(to, front.below, front.below);
   assemble(matrix, f, l, rest);
   for (int c = e.child_first[f]; c < e.child_first[f + 1]; ++c)
-    extend(e.children[c], handed[e.children[c]], l, rest, threads);
+    extend(e.children[c], handed[e.children[c]], l, rest, team);
   for (int c = e.child_first[f]; c < e.child_first[f + 1]; ++c)
     if (const int child = e.children[c]; !whole_.is_subtree_[child])
       stacks_[whole_.stack_[child]].pop(handed_on(e.fronts[child]));
-  const int wrong = condensation::factorise(l, rest, front.positive, threads);
+  const int wrong = condensation::factorise(l, rest, front.positive, team);
   if (wrong >= 0)
     return front.first + wrong;
   for (int j = 0; j < front.pivots; ++j) {
@@ -140,12 +143,11 @@ void Multifrontal::Work::add(const GroupedMatrix &matrix, int f, int group, std:
 
 // What a child hands on, each column by itself.
 void Multifrontal::Work::extend(int child, const Trapezoid &from, const Trapezoid &l,
-                                const Trapezoid &rest, int threads) {
+                                const Trapezoid &rest, parallel::Team &team) {
   const Elimination &e = whole_.elimination_;
   const int *const row = e.in_parent.data() + e.fronts[child].rows;
   const int n = from.columns;
-#pragma omp parallel for schedule(dynamic, 64) num_threads(threads) if (threads > 1 && n > 256)
-  for (int j = 0; j < n; ++j) {
+  const auto add_column = [&](int j) {
     const double *const source = from.column_from_row_0(j);
     double *const target = row[j] < l.columns
                                ? l.column_from_row_0(row[j])
@@ -156,11 +158,16 @@ void Multifrontal::Work::extend(int child, const Trapezoid &from, const Trapezoi
     else
       for (int i = j; i < n; ++i)
         target[row[i]] += source[i];
-  }
+  };
+  team.share_out((n + columns_of_a_task - 1) / columns_of_a_task, [&](int task, int) {
+    const int first = task * columns_of_a_task;
+    for (int j = first; j < std::min(n, first + columns_of_a_task); ++j)
+      add_column(j);
+  });
 }
 
 Multifrontal::Multifrontal(const GroupedMatrix &matrix, const std::vector<int> &schur, int threads)
-    : threads_(threads), schur_(schur) {
+    : team_(threads), schur_(schur) {
   Stopwatch watch;
   elimination_ = Elimination(matrix);
   plan();
@@ -195,7 +202,7 @@ void Multifrontal::plan() {
   int height = 0;
   for (const Front &front : fronts)
     height = std::max(height, front.height());
-  work_.assign(threads_, std::vector<double>(height));
+  work_.assign(team_.members(), std::vector<double>(height));
   handed_.resize(elimination_.below.size());
   x_.resize(elimination_.place.size());
   share_out();
@@ -216,7 +223,8 @@ void Multifrontal::share_out() {
       first[parent] = std::min(first[parent], first[f]);
     }
   }
-  const double most = threads_ == 1 ? 0 : statistics_.flops / (4 * threads_);
+  const int threads = team_.members();
+  const double most = threads == 1 ? 0 : statistics_.flops / (4 * threads);
   for (int f = n - 1; f >= 0;) {
     const bool is_subtree = fronts[f].pivots > 0 && work[f] <= most;
     is_subtree_[f] = is_subtree;
@@ -226,6 +234,7 @@ void Multifrontal::share_out() {
       top_.push_back(f);
     f = is_subtree ? first[f] - 1 : f - 1;
   }
+  statistics_.subtrees = static_cast<int>(subtrees_.size());
   std::reverse(top_.begin(), top_.end());
   std::stable_sort(subtrees_.begin(), subtrees_.end(),
                    [&](const Subtree &a, const Subtree &b) { return work[a.root] > work[b.root]; });
@@ -264,37 +273,34 @@ void Multifrontal::factorise(const GroupedMatrix &matrix) {
     entries += handed_on(elimination_.fronts[s.root]);
   }
   const auto of_top = stacks(top_);
-  require_memory(entries + threads_ * (most[0] + most[1]) * !subtrees_.empty() + of_top[0] +
-                 of_top[1]);
+  const std::size_t of_members = subtrees_.empty() ? 0 : team_.members() * (most[0] + most[1]);
+  require_memory(entries + of_members + of_top[0] + of_top[1]);
   const Pages roots(entries);
   double *next = roots.data();
   for (const Subtree &s : subtrees_) {
     beyond[s.root] = next;
     next += handed_on(elimination_.fronts[s.root]);
   }
-  int weak = std::numeric_limits<int>::max();
-  const auto run = [&](Work &work, int f, int threads) {
-    const int place = work.factorise(matrix, f, handed, beyond[f], threads);
-#pragma omp critical
-    if (place >= 0)
-      weak = std::min(weak, place);
-    return place < 0;
-  };
+  constexpr int none = std::numeric_limits<int>::max();
+  std::vector<int> weak(subtrees_.size(), none);  // by subtree, the place of its first weak pivot
   if (!subtrees_.empty()) {
     std::vector<Work> works;
-    for (int t = 0; t < threads_; ++t)
+    for (int t = 0; t < team_.members(); ++t)
       works.emplace_back(*this, most);
-    const int n = static_cast<int>(subtrees_.size());
-#pragma omp parallel for schedule(dynamic) num_threads(threads_)
-    for (int s = 0; s < n; ++s)
-      for (int f = subtrees_[s].first; f <= subtrees_[s].root; ++f)
-        if (!run(works[omp_get_thread_num()], f, 1))
-          break;
+    team_.share_out(static_cast<int>(subtrees_.size()), [&](int s, int member) {
+      for (int f = subtrees_[s].first; f <= subtrees_[s].root && weak[s] == none; ++f)
+        if (const int place = works[member].factorise(matrix, f, handed, beyond[f], alone_);
+            place >= 0)
+          weak[s] = place;
+    });
   }
+  if (const auto first = std::min_element(weak.begin(), weak.end());
+      first != weak.end() && *first != none)
+    throw WeakPivot{elimination_.variable[*first]};
   Work work(*this, of_top);
   for (const int f : top_)
-    if (weak < std::numeric_limits<int>::max() || !run(work, f, threads_))
-      throw WeakPivot{elimination_.variable[weak]};
+    if (const int place = work.factorise(matrix, f, handed, beyond[f], team_); place >= 0)
+      throw WeakPivot{elimination_.variable[place]};
   if (!schur_.empty())
     take_schur_complement(handed.back());
 }
@@ -323,7 +329,7 @@ void Multifrontal::take_schur_complement(const Trapezoid &rest) {
       schur_complement_[j * n + i] = *rest.at(std::max(row[i], row[j]), std::min(row[i], row[j]));
 }
 
-void Multifrontal::forward(int f, double *work, int threads) {
+void Multifrontal::forward(int f, double *work, parallel::Team &team) {
   const Elimination &e = elimination_;
   const Front &front = e.fronts[f];
   std::copy_n(x_.data() + front.first, front.pivots, work);
@@ -333,28 +339,26 @@ void Multifrontal::forward(int f, double *work, int threads) {
     for (std::size_t i = child.rows; i < child.rows + child.below; ++i)
       work[e.in_parent[i]] += handed_[i];
   }
-  substitute_forward(panels(f), work, threads);
+  substitute_forward(panels(f), work, team);
   std::copy_n(work, front.pivots, x_.data() + front.first);
   std::copy_n(work + front.pivots, front.below, handed_.data() + front.rows);
 }
 
-void Multifrontal::backward(int f, double *work, int threads) {
+void Multifrontal::backward(int f, double *work, parallel::Team &team) {
   const Elimination &e = elimination_;
   const Front &front = e.fronts[f];
   for (int i = 0; i < front.pivots; ++i)
     work[i] = i < front.positive ? x_[front.first + i] : -x_[front.first + i];
   for (int i = 0; i < front.below; ++i)
     work[front.pivots + i] = x_[e.below[front.rows + i]];
-  substitute_backward(panels(f), work, threads);
+  substitute_backward(panels(f), work, team);
   std::copy_n(work, front.pivots, x_.data() + front.first);
 }
 
 template <typename Task>
 void Multifrontal::for_each_subtree(const Task &task) {
-  const int n = static_cast<int>(subtrees_.size());
-#pragma omp parallel for schedule(dynamic) num_threads(threads_) if (threads_ > 1 && n > 1)
-  for (int s = 0; s < n; ++s)
-    task(subtrees_[s], work_[omp_get_thread_num()].data());
+  team_.share_out(static_cast<int>(subtrees_.size()),
+                  [&](int s, int member) { task(subtrees_[s], work_[member].data()); });
 }
 
 std::vector<double> Multifrontal::reduce(std::vector<double> &right_side) {
@@ -364,10 +368,10 @@ std::vector<double> Multifrontal::reduce(std::vector<double> &right_side) {
     x_[i] = right_side[elimination_.variable[i]];
   for_each_subtree([&](const Subtree &s, double *work) {
     for (int f = s.first; f <= s.root; ++f)
-      forward(f, work, 1);
+      forward(f, work, alone_);
   });
   for (const int f : top_)
-    forward(f, work_[0].data(), threads_);
+    forward(f, work_[0].data(), team_);
   std::vector<double> reduced;
   for (const int v : schur_) {
     const int place = elimination_.place[v];
@@ -382,10 +386,10 @@ void Multifrontal::expand(std::span<const double> interface) {
   for (std::size_t i = 0; i < schur_.size(); ++i)
     x_[elimination_.place[schur_[i]]] = interface[i];
   for (std::size_t k = top_.size(); k-- > 0;)
-    backward(top_[k], work_[0].data(), threads_);
+    backward(top_[k], work_[0].data(), team_);
   for_each_subtree([&](const Subtree &s, double *work) {
     for (int f = s.root; f >= s.first; --f)
-      backward(f, work, 1);
+      backward(f, work, alone_);
   });
   for (std::size_t i = 0; i < x_.size(); ++i)
     (*right_side_)[elimination_.variable[i]] = x_[i];

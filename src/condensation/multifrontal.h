@@ -8,6 +8,7 @@
 #include "condensation/factorisation.h"
 #include "condensation/pages.h"
 #include "condensation/trapezoid.h"
+#include "parallel/team.h"
 
 namespace tourmaline::condensation {
 
@@ -48,11 +49,11 @@ class Multifrontal : public Factorisation {
   void take_schur_complement(const Trapezoid &rest);
   template <typename Task>
   void for_each_subtree(const Task &task);
-  void forward(int front, double *work, int threads);
-  void backward(int front, double *work, int threads);
+  void forward(int front, double *work, parallel::Team &team);
+  void backward(int front, double *work, parallel::Team &team);
 
   Elimination elimination_;
-  int threads_;
+  parallel::Team team_, alone_{1};
   std::vector<int> schur_;
   std::vector<Subtree> subtrees_;         // of one thread each
   std::vector<int> top_;                  // the fronts above them
@@ -64,7 +65,7 @@ class Multifrontal : public Factorisation {
   FactorisationStatistics statistics_;
   std::vector<double> x_;                  // by place
   std::vector<double> handed_;             // by row below a front
-  std::vector<std::vector<double>> work_;  // by thread, of a front's height
+  std::vector<std::vector<double>> work_;  // by member of the team, of a front's height
   std::vector<double> *right_side_ = nullptr;
 };
 

@@ -10,9 +10,9 @@
 // take longer than memory does. So columns are taken by strips, which read or write the vector
 // once.
 
-// GCC compiles what has this for each kind of processor; the sanitizers' start comes too late for
+// What has this is compiled for each kind of processor; the sanitizers' start comes too late for
 // it.
-#if defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#if defined(__x86_64__) && !defined(TOURMALINE_SANITIZED)
 #define FOR_EACH_PROCESSOR [[gnu::target_clones("default", "avx2", "avx512f")]]
 #else
 #define FOR_EACH_PROCESSOR
@@ -127,11 +127,10 @@ int tasks(int begin, int end) {
 }
 
 template <typename Task>
-void for_each_task(int begin, int end, int threads, const Task &task) {
-  const int n = tasks(begin, end);
-#pragma omp parallel for schedule(dynamic) num_threads(threads) if (threads > 1 && n > 1)
-  for (int k = 0; k < n; ++k)
+void for_each_task(int begin, int end, parallel::Team &team, const Task &task) {
+  team.share_out(tasks(begin, end), [&](int k, int) {
     task(k, begin + k * rows_of_a_task, std::min(end, begin + (k + 1) * rows_of_a_task));
+  });
 }
 
 // Strips reach down to this row at once; what is below waits for its panel, and is shared out.
@@ -141,7 +140,7 @@ int reach(const Trapezoid &l, int panel) {
 
 }  // namespace
 
-void substitute_forward(const Trapezoid &l, double *x, int threads) {
+void substitute_forward(const Trapezoid &l, double *x, parallel::Team &team) {
   for (int p = 0; p < l.panels(); ++p) {
     const int first = l.first(p), last = l.last(p), end = reach(l, p);
     for (int c = first; c < last; c += strip) {
@@ -149,17 +148,17 @@ void substitute_forward(const Trapezoid &l, double *x, int threads) {
       divide_forward(l, c, next, x);
       subtract(l, c, next, x, next, end);
     }
-    for_each_task(end, l.height, threads,
+    for_each_task(end, l.height, team,
                   [&](int, int r0, int r1) { subtract(l, first, last, x, r0, r1); });
   }
 }
 
-void substitute_backward(const Trapezoid &l, double *x, int threads) {
+void substitute_backward(const Trapezoid &l, double *x, parallel::Team &team) {
   std::vector<double> parts;
   for (int p = l.panels() - 1; p >= 0; --p) {
     const int first = l.first(p), last = l.last(p), end = reach(l, p), n = last - first;
     parts.assign(std::size_t(n) * tasks(end, l.height), 0.);
-    for_each_task(end, l.height, threads, [&](int k, int r0, int r1) {
+    for_each_task(end, l.height, team, [&](int k, int r0, int r1) {
       add_products(l, first, last, x, r0, r1, parts.data() + std::size_t(k) * n);
     });
     for (std::size_t i = 0; i < parts.size(); ++i)

@@ -22,11 +22,10 @@ struct Block {
 constexpr int rows_of_a_product = 512;
 
 template <typename Task>
-void in_chunks(int begin, int end, int rows, int threads, const Task &task) {
+void in_chunks(int begin, int end, int rows, parallel::Team &team, const Task &task) {
   const int chunks = (end - begin + rows - 1) / rows;
-#pragma omp parallel for schedule(dynamic) num_threads(threads) if (threads > 1 && chunks > 1)
-  for (int k = 0; k < chunks; ++k)
-    task(begin + k * rows, std::min(end, begin + (k + 1) * rows));
+  team.share_out(
+      chunks, [&](int k, int) { task(begin + k * rows, std::min(end, begin + (k + 1) * rows)); });
 }
 
 // target -= L_rows S L_columns^T for rows [r0, r1) and columns [c0, c1) of the front; where both
@@ -77,7 +76,7 @@ std::vector<Block> blocks_of(const Trapezoid &l, int panel, int positive) {
 
 // Every panel of `rest` in chunks of rows.
 void subtract_from_rest(const Trapezoid &l, const std::vector<Block> &blocks, const Trapezoid &rest,
-                        int threads) {
+                        parallel::Team &team) {
   struct Tile {
     int panel, begin;
   };
@@ -86,14 +85,13 @@ void subtract_from_rest(const Trapezoid &l, const std::vector<Block> &blocks, co
     for (int row = rest.first(p); row < rest.height; row += rows_of_a_product)
       tiles.push_back({p, row});
   const int n = static_cast<int>(tiles.size()), k = l.columns;
-#pragma omp parallel for schedule(dynamic) num_threads(threads) if (threads > 1 && n > 1)
-  for (int t = 0; t < n; ++t) {
+  team.share_out(n, [&](int t, int) {
     const auto [p, begin] = tiles[t];
     const int end = std::min(rest.height, begin + rows_of_a_product);
     for (const Block &by : blocks)
       subtract(l, by, rest.at(begin, rest.first(p)), rest.leading(p), k + begin, k + end,
                k + rest.first(p), k + rest.last(p));
-  }
+  });
 }
 
 }  // namespace
@@ -117,27 +115,27 @@ double *Trapezoid::column_from_row_0(int column) const {
   return data + begin(p) + std::size_t(column - first(p)) * leading(p) - first(p);
 }
 
-int factorise(const Trapezoid &l, const Trapezoid &rest, int positive, int threads) {
+int factorise(const Trapezoid &l, const Trapezoid &rest, int positive, parallel::Team &team) {
   std::vector<Block> done;
   for (int p = 0; p < l.panels(); ++p) {
     const int first = l.first(p), last = l.last(p), leading = l.leading(p);
-    in_chunks(first, l.height, rows_of_a_product, threads, [&](int r0, int r1) {
+    in_chunks(first, l.height, rows_of_a_product, team, [&](int r0, int r1) {
       for (const Block &by : done)
         subtract(l, by, l.at(r0, first), leading, r0, r1, first, last);
     });
     for (const Block &block : blocks_of(l, p, positive)) {
       if (const int wrong = factorise_diagonal(l, block); wrong > 0)
         return block.first + wrong - 1;
-      in_chunks(block.last, l.height, rows_of_a_product, threads,
+      in_chunks(block.last, l.height, rows_of_a_product, team,
                 [&](int r0, int r1) { divide_below(l, block, r0, r1); });
       if (block.last < last)
-        in_chunks(block.last, l.height, rows_of_a_product, threads, [&](int r0, int r1) {
+        in_chunks(block.last, l.height, rows_of_a_product, team, [&](int r0, int r1) {
           subtract(l, block, l.at(r0, block.last), leading, r0, r1, block.last, last);
         });
       done.push_back(block);
     }
   }
-  subtract_from_rest(l, done, rest, threads);
+  subtract_from_rest(l, done, rest, team);
   return -1;
 }
 

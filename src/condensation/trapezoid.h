@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "parallel/team.h"
+
 namespace tourmaline::condensation {
 
 /// The lower trapezoid of a front's columns, doubles that somebody else owns: panels of `width`
@@ -31,13 +33,13 @@ struct Trapezoid {
 /// Factorises the columns `l` of a front, L S L^T with signs S, 1 for the first `positive` columns,
 /// then -1, and subtracts from `rest`, the columns that are left, what they eliminate. Diagonal
 /// blocks are those of Cholesky's factorisation. Returns the first column whose pivot has another
-/// sign, -1 if there is none. The numbers are the same for any number of threads.
-int factorise(const Trapezoid &l, const Trapezoid &rest, int positive, int threads);
+/// sign, -1 if there is none. The numbers are the same for any team.
+int factorise(const Trapezoid &l, const Trapezoid &rest, int positive, parallel::Team &team);
 
 /// x: `height` numbers. Its first `columns` ones become those of L^-1 x, what they eliminate is
 /// subtracted from the others.
-void substitute_forward(const Trapezoid &l, double *x, int threads);
+void substitute_forward(const Trapezoid &l, double *x, parallel::Team &team);
 /// From the others the first `columns` ones, those of L^-T x.
-void substitute_backward(const Trapezoid &l, double *x, int threads);
+void substitute_backward(const Trapezoid &l, double *x, parallel::Team &team);
 
 }  // namespace tourmaline::condensation

@@ -196,6 +196,7 @@ TEST(Multifrontal, GivesTheSameBitsForAnyNumberOfThreads) {
   std::vector<std::vector<double>> solutions, complements;
   for (const int threads : {1, 2, 3, 8}) {
     Multifrontal factor(example.matrix(), kept, threads);
+    EXPECT_TRUE(threads == 1 || factor.statistics().subtrees >= threads);
     std::vector<double> x(example.entries.rows());
     std::iota(x.begin(), x.end(), 1.);
     factor.expand(factor.reduce(x));
@@ -257,6 +258,7 @@ TEST(Trapezoid, HasItsPanelsOneAfterAnotherAndEachEntryOnce) {
 // L, whose columns have strips of all widths, and rows that one task or several take.
 TEST(Trapezoid, SubstitutionsAreThoseOfItsColumns) {
   using Sizes = std::initializer_list<std::pair<int, int>>;
+  parallel::Team team(2);
   for (const auto &[height, columns] :
        Sizes{{1, 1}, {7, 3}, {8, 8}, {13, 12}, {70, 66}, {40, 23}, {4103, 9}, {9000, 67}}) {
     const Trapezoid shape = Trapezoid::at(nullptr, height, columns);
@@ -274,12 +276,12 @@ TEST(Trapezoid, SubstitutionsAreThoseOfItsColumns) {
     VectorXd expected = given, x = given;
     top.solveInPlace(expected.head(columns));
     expected.tail(height - columns) -= below * expected.head(columns);
-    substitute_forward(l, x.data(), 2);
+    substitute_forward(l, x.data(), team);
     EXPECT_LE((x - expected).cwiseAbs().maxCoeff(), 1e-13 * expected.cwiseAbs().maxCoeff());
     expected = x = given;
     expected.head(columns) -= below.transpose() * expected.tail(height - columns);
     top.transpose().solveInPlace(expected.head(columns));
-    substitute_backward(l, x.data(), 2);
+    substitute_backward(l, x.data(), team);
     EXPECT_LE((x - expected).cwiseAbs().maxCoeff(), 1e-13 * expected.cwiseAbs().maxCoeff());
   }
 }
@@ -300,10 +302,11 @@ TEST(Trapezoid, HasTheSameBitsForAnyNumberOfThreads) {
     for (int j = 0; j < height; ++j)
       for (int i = j; i < height; ++i)
         *(j < columns ? l.at(i, j) : rest.at(i - columns, j - columns)) = front(i, j);
-    EXPECT_EQ(factorise(l, rest, positive, threads), -1);
+    parallel::Team team(threads);
+    EXPECT_EQ(factorise(l, rest, positive, team), -1);
     std::vector<double> x(5000 + height, 1.);
-    substitute_forward(l, x.data(), threads);
-    substitute_backward(l, x.data(), threads);
+    substitute_forward(l, x.data(), team);
+    substitute_backward(l, x.data(), team);
     room.insert(room.end(), x.begin(), x.end());
     results.push_back(std::move(room));
   }

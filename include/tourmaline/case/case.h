@@ -53,7 +53,7 @@ struct SolverCase {
   double tolerance =
       1e-12;  ///< of the contact iteration: natural residual over the largest nodal force
   int max_iterations = 100;          ///< Newton iterations in one step
-  int threads = 1;                   ///< of OpenBLAS and OpenMP
+  int threads = 1;                   ///< of the factorisation and of OpenBLAS
   std::string multiplier = "nodal";  ///< nodal | piecewise-constant; of the monolithic route
   /// r_nu [N/m^3] and r_tau [N s/m^3] of (40), (41); not given: from the stiffness at the contact
   std::optional<double> r_normal, r_tangential;
