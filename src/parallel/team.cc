@@ -17,8 +17,9 @@ Team::Team(int members) {
     const int there = this->members();
     leave();
     throw MachineError(
-        fmt::format("solver.threads = {}: the system gives this process only {} ({})", members,
-                    there, error.code().message()));
+        fmt::format("the system gives this process only {} of the {} threads that it needs ({}); "
+                    "lower solver.threads or raise the limit (ulimit -u, ulimit -v)",
+                    there, members, error.code().message()));
   }
 }
 

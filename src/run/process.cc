@@ -1,7 +1,9 @@
 #include "run/process.h"
 
 #include <deal.II/base/multithread_info.h>
+#include <fmt/format.h>
 #include <mpi.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,6 +15,7 @@
 #include "tourmaline/error.h"
 
 #include "krylov/body_system.h"
+#include "parallel/team.h"
 
 extern "C" void openblas_set_num_threads(int threads);
 
@@ -56,6 +59,23 @@ void require_mpi_not_ended() {
         "last run, or leave MPI to the runs");
 }
 
+// Where it gets no memory for a thread OpenBLAS asks for ever, and where it gets no thread it
+// raises SIGINT; of both kinds there are as many, its own and those of the factorisation, which
+// call it.
+void require_threads(int threads) {
+  constexpr rlim_t of_blas = rlim_t{140} << 20;  // address space of a thread that has called it
+  if (threads == 1)
+    return;
+  const parallel::Team as_many_as_can_be(2 * threads - 1);
+  rlimit limit;
+  const auto others = static_cast<rlim_t>(threads - 1);
+  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur / of_blas < 2 * others)
+    throw MachineError(fmt::format(
+        "solver.threads = {}: {} MiB of address space for each thread but the first are more than "
+        "the limit (ulimit -v) of {} MiB; take fewer threads or raise it",
+        threads, 2 * (of_blas >> 20), limit.rlim_cur >> 20));
+}
+
 }  // namespace
 
 void start_process(int threads) {
@@ -67,6 +87,7 @@ void start_process(int threads) {
     owner_of_mpi = getpid();
     std::atexit(end_mpi);
   }
+  require_threads(threads);
   openblas_set_num_threads(threads);
   // Its own loops on threads change last digits, and none of them takes long.
   dealii::MultithreadInfo::set_thread_limit(1);

@@ -81,6 +81,23 @@ TEST_F(MemoryLimit, BelowWhatTheLibrariesNeedItEndsAtOnce) {
   }
 }
 
+// OpenBLAS would ask for its buffers for ever.
+TEST_F(MemoryLimit, HoweverTightNeverLeavesThreadsHanging) {
+  int failed = 0;
+  for (const int megabytes : {1500, 3000, 6000, 12000}) {
+    SCOPED_TRACE(megabytes);
+    const Ended run = run_within(
+        megabytes, "--set mesh.box.cells=[8,8] --set time.steps=1 --set solver.threads=24");
+    if (run.status == 0)
+      continue;
+    ++failed;
+    EXPECT_EQ(run.status, 4);
+    EXPECT_THAT(run.errors, HasSubstr("solver.threads"));
+    EXPECT_EQ(std::count(run.errors.begin(), run.errors.end(), '\n'), 1) << run.errors;
+  }
+  EXPECT_GT(failed, 0);
+}
+
 struct Limit {
   char option;  // of ulimit
   const char *name;
