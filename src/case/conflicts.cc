@@ -12,6 +12,15 @@
 
 namespace tourmaline::casefile {
 
+std::vector<std::string> parts_of_boundary(const MeshCase &mesh, const std::string &boundary) {
+  if (!mesh.content)
+    return {boundary};
+  std::vector<std::string> all;
+  for (const int set : mesh.content->boundaries.sets_with(boundary))
+    all.push_back(std::to_string(set));
+  return all;
+}
+
 namespace {
 
 /// What has been prescribed so far: part of the boundary and field -> the formula that prescribes
@@ -38,12 +47,7 @@ class Prescribed {
   }
 
   std::vector<std::string> parts(const std::string &boundary) const {
-    if (!mesh_.content)
-      return {boundary};
-    std::vector<std::string> all;
-    for (const int set : mesh_.content->boundaries.sets_with(boundary))
-      all.push_back(std::to_string(set));
-    return all;
+    return parts_of_boundary(mesh_, boundary);
   }
 
   // "case.toml:12:13 [boundary[0]] potential = 0"

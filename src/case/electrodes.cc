@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 
+#include "case/conflicts.h"
 #include "case/nearest.h"
 #include "case/place_of_key.h"
 #include "case/toml_text.h"
@@ -102,10 +103,23 @@ void check_searches(const Case &asked) {
                                                            : "solver.body = \"iterative\""));
 }
 
+// Two on one facet would both be said to have its voltage.
+void check_apart(const ElectrodeCase &electrode, const MeshCase &mesh,
+                 std::map<std::string, const ElectrodeCase *> &by_part) {
+  for (const std::string &boundary : electrode.on)
+    for (const std::string &part : parts_of_boundary(mesh, boundary))
+      if (const ElectrodeCase *first = by_part.try_emplace(part, &electrode).first->second;
+          first != &electrode)
+        fail(
+            electrode, "on", toml_text(boundary),
+            "there is an electrode already, by " + place_of_key(first->places, first->where, "on"));
+}
+
 }  // namespace
 
 void check_electrodes(const Case &asked) {
-  std::map<std::string, std::string> by_name, by_boundary;  // where it was said first
+  std::map<std::string, std::string> by_name;  // where it was said first
+  std::map<std::string, const ElectrodeCase *> by_part;
   for (const ElectrodeCase &electrode : asked.electrodes) {
     check_name(electrode);
     check_alone(electrode);
@@ -115,12 +129,7 @@ void check_electrodes(const Case &asked) {
         !is_new)
       fail(electrode, "name", toml_text(electrode.name),
            "this name has already been given at " + first->second);
-    for (const std::string &boundary : electrode.on)
-      if (const auto [first, is_new] = by_boundary.try_emplace(
-              boundary, place_of_key(electrode.places, electrode.where, "on"));
-          !is_new)
-        fail(electrode, "on", toml_text(boundary),
-             "there is an electrode already, by " + first->second);
+    check_apart(electrode, asked.mesh, by_part);
   }
   check_searches(asked);
 }

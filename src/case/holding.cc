@@ -180,13 +180,15 @@ void check_holding(const Case &asked) {
                (!contact.electric.circuit || contact.electric.circuit->is_loaded());
       });
   if (!grounded && asked.model.electric)
-    throw CaseError(asked.source +
-                    (asked.electrodes.empty()
-                         ? " [[boundary]]: the electric potential floats, as no boundary "
-                           "prescribes it; give `potential` on at least one"
-                         : " [[electrode]]: the electric potential floats, as no electrode has a "
-                           "path to a given voltage; give one a `voltage`, or a boundary a "
-                           "`potential`"));
+    throw CaseError(
+        asked.source +
+        (asked.electrodes.empty()
+             ? " [[boundary]]: the electric potential floats, as no boundary "
+               "prescribes it; give `potential` on at least one, or an [[electrode]] with a "
+               "`voltage`"
+             : " [[electrode]]: the electric potential floats, as no electrode has a "
+               "path to a given voltage; give one a `voltage`, or a boundary a "
+               "`potential`"));
   if (asked.time.is_dynamic())  // inertia holds it
     return;
   const std::vector<std::string> free = free_motions(asked, supports_of(asked, Held::all_it_can));

@@ -223,13 +223,18 @@ class Reader : public Visitor {
         read(item(*node, law), &ignored);
   }
 
+  // The others are for the reference.
+  static std::string first_sentence(const std::string &text) {
+    return text.substr(0, text.find(". "));
+  }
+
   [[noreturn]] void fail_missing() const {
     std::string names, meanings;
     for (const Key &key : missing_) {
       const std::string unit = key.unit.empty() ? "" : " [" + key.unit + "]";
       names += (names.empty() ? "" : ", ") + key.name;
       meanings += (meanings.empty() ? "" : "; ") + (missing_.size() > 1 ? key.name + ", " : "") +
-                  key.description + unit;
+                  first_sentence(key.description) + unit;
     }
     throw MissingKeys(fmt::format("{}: missing, but must be given: {}{}",
                                   where(table_.node().source(), names), meanings, as_table()));

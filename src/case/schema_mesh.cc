@@ -278,10 +278,10 @@ void declare(Visitor &v, MeshCase &mesh) {
       mesh.annulus, [&](Visitor &inner, Annulus &ring) { declare(inner, ring, mesh.degree); });
   v.exactly_one({"box", "annulus", "file"});
   v.check("", [&] {
-    return mesh.box || mesh.annulus || mesh.file
-               ? ""
-               : "no mesh; give mesh.box = { min, max, cells, cell } or mesh.annulus = { inner, "
-                 "outer, cells, cell }";
+    return mesh.box || mesh.annulus || mesh.file ? ""
+                                                 : "no mesh; give mesh.box = { min, max, cells, "
+                                                   "cell }, mesh.annulus = { inner, outer, "
+                                                   "cells, cell } or mesh.file";
   });
   v.check("annulus", [&] {
     return mesh.box && mesh.annulus

@@ -33,6 +33,12 @@ bool cut(int descriptor, std::size_t size) {
   return ::ftruncate(descriptor, end) == 0 && ::lseek(descriptor, end, SEEK_SET) == end;
 }
 
+[[noreturn]] void fail_to_write(const std::filesystem::path &path, int error_number) {
+  throw MachineError(
+      fmt::format("cannot write {}: {}{}", path.string(), std::strerror(error_number),
+                  error_number == EFBIG ? "; raise the limit of file sizes (ulimit -f)" : ""));
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)), part_(path_) {
@@ -73,8 +79,7 @@ void AtomicFile::give_up() {
 }
 
 void AtomicFile::fail(int error_number) const {
-  throw MachineError(
-      fmt::format("cannot write {}: {}", path_.string(), std::strerror(error_number)));
+  fail_to_write(path_, error_number);
 }
 
 void AtomicFile::append(std::string_view text) {
@@ -122,8 +127,7 @@ void sync_path(const std::filesystem::path &path) {
   if (descriptor >= 0)
     ::close(descriptor);
   if (!done)
-    throw MachineError(
-        fmt::format("cannot write {}: {}", path.string(), std::strerror(error_number)));
+    fail_to_write(path, error_number);
 }
 
 }  // namespace tourmaline::output

@@ -83,9 +83,11 @@ std::string ending_text(int dimension, const Highlights &highlights,
     text += line("pressure", fmt::format("at most {} N/m^2, opening at most {} m",
                                          number(*pressure), number(*last.find("max_opening"))));
   if (!highlights.imbalance_name().empty())
-    text +=
-        line("balances", fmt::format("closed up to {:.1e} ({}, step {})", highlights.imbalance(),
-                                     highlights.imbalance_name(), highlights.imbalance_step()));
+    text += line("balances",
+                 highlights.imbalance() == 0
+                     ? "closed to the last digit"
+                     : fmt::format("closed up to {:.1e} ({}, step {})", highlights.imbalance(),
+                                   highlights.imbalance_name(), highlights.imbalance_step()));
   return text;
 }
 

@@ -11,6 +11,10 @@
 
 namespace tourmaline::run {
 
+int tried_steps(const casefile::TimeCase &time) {
+  return std::min(time.steps, 100);
+}
+
 template <int dim>
 void rehearse(const solve::Model<dim> &model, int n_steps) {
   const Probes<dim> refuses_places_outside(model);
@@ -37,7 +41,7 @@ void rehearse(const solve::Model<dim> &model, int n_steps) {
 template <int dim>
 void rehearse_from_start(solve::Model<dim> &model) {
   start_state(model);
-  rehearse(model, std::min(model.asked.time.steps, 100));
+  rehearse(model, tried_steps(model.asked.time));
 }
 
 namespace {

@@ -10,7 +10,10 @@ namespace tourmaline::run {
 template <int dim>
 void rehearse(const solve::Model<dim> &model, int n_steps);
 
-/// The same from the start state on, which is made as well; in up to a hundred steps.
+/// A hundred of them, or all where there are fewer.
+int tried_steps(const casefile::TimeCase &time);
+
+/// The same from the start state on, which is made as well; in `tried_steps`.
 template <int dim>
 void rehearse_from_start(solve::Model<dim> &model);
 

@@ -68,7 +68,7 @@ TimeLoop<dim>::TimeLoop(const casefile::Case &asked, const std::filesystem::path
       evolution_(model_),
       most_strained_(model_.n_unknowns()),
       adrift_(model_) {
-  rehearse(model_, 1);
+  rehearse(model_, checkpoint_ ? 1 : tried_steps(asked.time));
   if (options.friction) {
     model_.friction = contact::checked(options.friction, options.friction_name);
     model_.laws.replace_friction();

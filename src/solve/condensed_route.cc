@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "case/holding.h"
@@ -330,14 +331,16 @@ void CondensedRoute<dim>::give_up(double time, const InterfaceSolution &solution
         "the contact problem at t = {:g} s is too badly conditioned to be solved: round-off leaves "
         "no digit of the slips certain; {}",
         time, ill_conditioned_advice));
-  const std::vector<std::size_t> &unsettled = solution.unsettled;
+  std::set<std::size_t> nodes;  // one node may have several unknowns
+  for (const std::size_t i : solution.unsettled)
+    nodes.insert(contact_->node_of(i));
+  const std::vector<std::size_t> unsettled(nodes.begin(), nodes.end());
   const std::string where =
-      unsettled.empty()
-          ? "what crosses of heat or charge by the contact's state is unsettled"
-          : fmt::format("{} points are unsettled, among them{}", unsettled.size(),
-                        first_places(unsettled.size(), [&](std::size_t i) {
-                          return model_.interface[contact_->node_of(unsettled[i])].point;
-                        }));
+      unsettled.empty() ? "what crosses of heat or charge by the contact's state is unsettled"
+                        : fmt::format("{} nodes are unsettled, among them{}", unsettled.size(),
+                                      first_places(unsettled.size(), [&](std::size_t i) {
+                                        return model_.interface[unsettled[i]].point;
+                                      }));
   throw SolveError(fmt::format(
       "the contact iteration did not converge at t = {:g} s: residual {:.3g} of the largest force "
       "after {} iterations, wanted {:.3g}; {}; raise solver.max_iterations or solver.tolerance, or "

@@ -28,7 +28,8 @@ std::string known(const char *name, double value) {
 }  // namespace
 
 const char *const ill_conditioned_advice =
-    "look for a body that is very thin or barely held, and for constants or units that differ by "
+    "lower solver.tolerance where it has been raised, look for a body that is very thin or barely "
+    "held, and for constants or units that differ by "
     "many powers of ten; hold it at more places, model a thin part thicker or shorter, or, unless "
     "it is taken already, use solver.method = \"condensed\" with solver.body = \"direct\", which "
     "refines its solutions";

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "example.h"
 #include "tourmaline/case/reader.h"
 #include "tourmaline/error.h"
@@ -11,7 +13,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-// One tetrahedron, whose groups have these names.
+// One tetrahedron, whose groups have these names, all of them one facet.
 std::shared_ptr<const MeshFile> tetrahedron(const std::vector<std::string> &boundaries) {
   auto mesh = std::make_shared<MeshFile>();
   mesh->dimension = 3;
@@ -22,7 +24,9 @@ std::shared_ptr<const MeshFile> tetrahedron(const std::vector<std::string> &boun
   mesh->regions.set_of = {0};
   mesh->inside.assign(4, false);
   mesh->boundaries.names = boundaries;
-  mesh->boundaries.set_of = {0, 0, 0, boundaries.empty() ? 0 : mesh->boundaries.set_index({0})};
+  std::vector<int> all(boundaries.size());
+  std::iota(all.begin(), all.end(), 0);
+  mesh->boundaries.set_of = {0, 0, 0, all.empty() ? 0 : mesh->boundaries.set_index(all)};
   return mesh;
 }
 
@@ -54,6 +58,19 @@ TEST(NamesOfAMesh, ABoundaryThatAMeshWithoutNamesCannotHaveIsRefused) {
               AllOf(HasSubstr("case.toml:5:6 [boundary[0]] on = \"head\""),
                     HasSubstr("the mesh file names no boundary: put its surfaces into physical")));
   EXPECT_EQ(error_of(steel + "[[boundary]]\non = \"head\"\n" + held, {"head"}), "no error");
+}
+
+TEST(NamesOfAMesh, TwoElectrodesOnOneFacetAreRefusedByWhateverNames) {
+  const auto plates = [](const std::string &first, const std::string &second) {
+    return error_of(steel + "[[boundary]]\non = \"foot\"\ndisplacement = [0, 0, 0]\n" +
+                        "[[electrode]]\nname = \"a\"\non = " + first + "\nvoltage = 0\n" +
+                        "[[electrode]]\nname = \"b\"\non = " + second + "\nvoltage = 1\n",
+                    {"foot", "pad"});
+  };
+  for (const char *second : {"\"foot\"", "\"pad\""})
+    EXPECT_THAT(plates("\"foot\"", second),
+                AllOf(HasSubstr("there is an electrode already, by case.toml:9:6"),
+                      HasSubstr("case.toml:13:6 [electrode[1]] on = ")));
 }
 
 TEST(NamesOfAMesh, ContactOnTetrahedraOfDegree2IsRefusedWhereItIsAskedFor) {

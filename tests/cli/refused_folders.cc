@@ -46,6 +46,15 @@ TEST_F(RefusedFolder, ARefusedRunLeavesNoFolder) {
   }
 }
 
+TEST_F(RefusedFolder, AFormulaThatFailsLaterIsFoundBeforeACompleteRunIsReplaced) {
+  const std::string all = "run " + paper + " --set mesh.box.cells=[8,8] -q -o results";
+  ASSERT_EQ(run(all), 0) << complained_;
+  const auto before = files_below(here());
+  EXPECT_EQ(run(all + " --set 'contact.friction.bound=\"15*(t<0.1)-1\"'"), 2);
+  EXPECT_THAT(complained_, HasSubstr("contact.friction.bound"));
+  EXPECT_EQ(files_below(here()), before);
+}
+
 TEST_F(RefusedFolder, AChangedCaseIsRefusedWithTheKeysThatDiffer) {
   interrupt_a_run();
   const auto before = files_below(here());
