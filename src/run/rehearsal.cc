@@ -26,7 +26,8 @@ void rehearse(const solve::Model<dim> &model, int n_steps) {
   solve::ContactNodes<dim> contact(model, is_prescribed);
   solve::ExchangeNodes<dim> exchange(model);
   for (int i = 0; i < n_steps; ++i) {
-    const int n = n_steps == 1 ? 1 : 1 + (model.asked.time.steps - 1) * i / (n_steps - 1);
+    const long long later = model.asked.time.steps - 1LL;  // than the first
+    const int n = n_steps == 1 ? 1 : 1 + static_cast<int>(later * i / (n_steps - 1));
     const double time = model.time(n);
     for (const body::Prescribed &p : model.prescribed)
       state[p.unknown] = p.value.value(p.point, time);
