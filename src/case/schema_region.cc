@@ -91,8 +91,8 @@ void declare_composition(Visitor &v, Case &c) {
   const Key key = {
       .name = "material",
       .description =
-          "What the whole body is made of: constants of (1)-(3) in crystal axes, sigma = F eps(u) "
-          "- "
+          "What the whole body is made of: library = an entry of the library, constants, or both. "
+          "Constants are those of (1)-(3) in crystal axes, sigma = F eps(u) - "
           "E^T E(phi) - M theta, D = E eps(u) + beta E(phi) + P theta, q = -K grad theta, with "
           "E(phi) = -grad phi. Each of them may be given in the stress-charge form (c, e, "
           "permittivity at constant strain) or in the strain-charge form of data sheets (s, d, "

@@ -176,6 +176,14 @@ const Mistake missing[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Missing, MistakeInAFile, testing::ValuesIn(missing));
 
+// What follows its first sentence is for the reference.
+TEST(MissingTable, IsToldInOneSentence) {
+  EXPECT_THAT(
+      error_in(changed("[material]\nlibrary = \"BaTiO3-Liu2014\"\npyroelectric = [0, 1e-4]\n", "")),
+      testing::EndsWith("material: missing, but must be given: What the whole body is made of: "
+                        "library = an entry of the library, constants, or both"));
+}
+
 const Mistake choices[] = {
     {"\"tresca\"",
      "\"tresc\"",

@@ -59,6 +59,13 @@ TEST(Ending, WhereTheContactMayOpenItTellsPressureAndOpening) {
               HasSubstr("  pressure      at most 2.5e+06 N/m^2, opening at most 3e-09 m\n"));
 }
 
+TEST(Ending, WhatIsClosedToTheLastDigitNamesNoBalanceAndNoStep) {
+  Highlights highlights;
+  highlights.see(row(1, 0, 0));
+  EXPECT_THAT(ending_text(2, highlights, extremes, 1),
+              HasSubstr("  balances      closed to the last digit\n"));
+}
+
 TEST(Ending, WithoutContactThereIsNoneToTell) {
   Highlights highlights;
   output::HistoryRow free = row(1, 0, 0);
