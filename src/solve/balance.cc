@@ -187,7 +187,9 @@ typename Balance<dim>::Columns Balance<dim>::step(double time, std::span<const d
                         model_.asked.time.is_dynamic() ? &forces_before_ : nullptr, time, loads,
                         outcome, state, cell_by_cell);
   };
-  Step step = step_from(std::move(before_), is_refined);
+  // Charges of a conductor's nodes are differences of a million times larger ones: sums over nodes
+  // leave its energy no digit, and the body's few.
+  Step step = step_from(std::move(before_), is_refined || model_.composition.has_conductors());
   Columns columns = columns_of(step);
   const auto lacks_more_than = [&](double limit) {
     return std::any_of(judged_.begin(), judged_.end(), [limit](const auto &imbalance) {

@@ -103,14 +103,11 @@ void measure(Result &result, double step) {
   at_least("contact tangential_traction_*", all.at("contact normal_traction*").size);
 }
 
-// What the run itself says of its digits: the estimated forward error, and what balances lack,
-// which is where the permittivity of a conductor costs the digits of charges and energies: six of
-// sixteen it always costs, as it is 10^6 times the others. Where little else than a contact's
-// exchange holds its potential it costs more than the estimate says: ten numberings of the nodes of
-// one sample spread its electric energy by 3e-7 with the own factorisation, 2e-7 with MUMPS.
+// What the run itself says of its digits: the estimated forward error, and what balances lack. The
+// permittivity of a conductor, 10^6 times the others', costs charges some seven digits of sixteen.
 double uncertainty(const nlohmann::json &summary, const Table &history, bool conducts) {
   EXPECT_LT(summary["backward_error"], 1e-12);
-  double worst = conducts ? 5e-9 : 0;
+  double worst = conducts ? 5e-10 : 0;
   if (!summary["forward_error"].is_null())
     worst = std::max(worst, double(summary["forward_error"]));
   for (const auto &[name, cells] : history.columns)
