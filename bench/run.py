@@ -280,19 +280,6 @@ def long_run(folder):
             f"20 steps: {mebibytes(short['summary']['memory'])} MiB."]
 
 
-def micro():
-    print("micro-benchmarks", flush=True)
-    _, text = on_one_core([BUILD / "bench" / "micro", "--benchmark_format=json", "--benchmark_min_time=0.3"])
-    lines = ["| part | n = 64, ms | n = 128 | n = 256 |", "| --- | --- | --- | --- |"]
-    times = {}
-    for entry in json.loads(text)["benchmarks"]:
-        part, n = entry["name"].split("/")
-        times.setdefault(part, {})[n] = entry["real_time"]
-    for part, by_n in times.items():
-        lines.append(f"| {part.replace('_', ' ')} | " + " | ".join(f"{t:.3g}" for t in by_n.values()) + " |")
-    return lines
-
-
 def git(*arguments):
     return subprocess.run(["git", "-C", ROOT, *arguments], capture_output=True, text=True).stdout.strip()
 
@@ -331,7 +318,6 @@ def main():
         text += ["", "## Three dimensions", "",
                  "`cases/block-3d/twisted.toml` on n x n x n cubes of tetrahedra, two steps of 0.01 s.", ""] + solids(folder, quick)
         text += ["", "## Ranks", ""] + scaling(folder, 256 if quick else 512)
-        text += ["", "## Parts", ""] + micro()
     (ROOT / "bench" / "results.md").write_text("\n".join(text) + "\n")
     print("\n".join(text))
 
