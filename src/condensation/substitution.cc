@@ -5,10 +5,12 @@
 
 #include "condensation/trapezoid.h"
 
-// A substitution reads each number of the factor once, so memory bounds it where fronts are large.
-// Most are small: there calls of BLAS, and a vector that is read and written anew for each column,
-// take longer than memory does. So columns are taken by strips, which read or write the vector
-// once.
+// A substitution reads each number of the factor once, so memory bounds it, which is read fastest
+// as one stream: forwards in one substitution, backwards in the other. Columns are 100 numbers long
+// or fewer in most fronts, and of strips of eight of them, eight streams that soon end, memory
+// gives half or a third (docs/measurements.md). Where columns are long it gives the same, and a
+// strip reads or writes the vector, which no longer stays in the smallest cache, once for all
+// eight.
 
 // What has this is compiled for each kind of processor; the sanitizers' start comes too late for
 // it.
@@ -23,8 +25,59 @@ namespace tourmaline::condensation {
 namespace {
 
 constexpr int strip = 8, half_a_strip = 4;
+// Rows of single columns at most: a vector of so many stays in the smallest cache.
+constexpr int rows_at_once = 1024;
 // Rows that one thread takes at a time, whatever their number is.
 constexpr int rows_of_a_task = 4096;
+
+// Four rows at once.
+using Four [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
+
+// y -= l x, n numbers.
+[[gnu::always_inline]] inline void subtract(const double *l, double x, double *y, int n) {
+  int i = 0;
+  for (; i + 4 <= n; i += 4)
+    *reinterpret_cast<Four *>(y + i) -= *reinterpret_cast<const Four *>(l + i) * x;
+  for (; i < n; ++i)
+    y[i] -= l[i] * x;
+}
+
+// l . y, n numbers from the last one on.
+[[gnu::always_inline]] inline double product(const double *l, const double *y, int n) {
+  Four sums[4] = {};
+  const auto add = [&](int i, Four &sum) {
+    sum += *reinterpret_cast<const Four *>(l + i) * *reinterpret_cast<const Four *>(y + i);
+  };
+  int i = n;
+  for (; i >= 16; i -= 16)
+    for (int k = 1; k <= 4; ++k)
+      add(i - 4 * k, sums[k - 1]);
+  for (; i >= 4; i -= 4)
+    add(i - 4, sums[0]);
+  double rest = 0;
+  while (i-- > 0)
+    rest += l[i] * y[i];
+  const Four sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+  return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + rest;
+}
+
+// The unknowns of columns [c0, c1) of one panel, and rows below them down to `end` less what these
+// eliminate there.
+FOR_EACH_PROCESSOR
+void solve_forward(const Trapezoid &l, int c0, int c1, double *x, int end) {
+  const double *column = l.at(c0, c0);
+  for (int c = c0; c < c1; ++c, column += l.leading(c0 / l.width) + 1) {
+    x[c] /= column[0];
+    subtract(column + 1, x[c], x + c + 1, end - c - 1);
+  }
+}
+
+FOR_EACH_PROCESSOR
+void solve_backward(const Trapezoid &l, int c0, int c1, double *x, int end) {
+  const double *column = l.at(c1 - 1, c1 - 1);
+  for (int c = c1; c-- > c0; column -= l.leading(c0 / l.width) + 1)
+    x[c] = (x[c] - product(column + 1, x + c + 1, end - c - 1)) / column[0];
+}
 
 // Columns of a panel that are some rows long: entry (i, k) is l[i + k leading].
 struct Strip {
@@ -32,9 +85,6 @@ struct Strip {
   std::size_t leading;
   int rows;
 };
-
-// Four rows at once.
-using Four [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
 
 // y -= L x.
 template <int columns>
@@ -79,7 +129,7 @@ Strip strip_at(const Trapezoid &l, int c, int r0, int r1) {
 
 // Rows [r0, r1) of x less what columns [c0, c1) of one panel eliminate there.
 FOR_EACH_PROCESSOR
-void subtract(const Trapezoid &l, int c0, int c1, double *x, int r0, int r1) {
+void eliminate(const Trapezoid &l, int c0, int c1, double *x, int r0, int r1) {
   int c = c0;
   for (; c + strip <= c1; c += strip)
     subtract<strip>(strip_at(l, c, r0, r1), x + c, x + r0);
@@ -91,8 +141,7 @@ void subtract(const Trapezoid &l, int c0, int c1, double *x, int r0, int r1) {
 
 // sums[c - c0] += what rows [r0, r1) of x give to columns [c0, c1) of one panel.
 FOR_EACH_PROCESSOR
-void add_products(const Trapezoid &l, int c0, int c1, const double *x, int r0, int r1,
-                  double *sums) {
+void add_up(const Trapezoid &l, int c0, int c1, const double *x, int r0, int r1, double *sums) {
   int c = c0;
   for (; c + strip <= c1; c += strip)
     add_products<strip>(strip_at(l, c, r0, r1), x + r0, sums + (c - c0));
@@ -100,26 +149,6 @@ void add_products(const Trapezoid &l, int c0, int c1, const double *x, int r0, i
     add_products<half_a_strip>(strip_at(l, c, r0, r1), x + r0, sums + (c - c0));
   for (; c < c1; ++c)
     add_products<1>(strip_at(l, c, r0, r1), x + r0, sums + (c - c0));
-}
-
-// A strip's own triangle.
-void divide_forward(const Trapezoid &l, int c0, int c1, double *x) {
-  for (int c = c0; c < c1; ++c) {
-    const double *const column = l.column_from_row_0(c);
-    x[c] /= column[c];
-    for (int i = c + 1; i < c1; ++i)
-      x[i] -= column[i] * x[c];
-  }
-}
-
-void divide_backward(const Trapezoid &l, int c0, int c1, double *x) {
-  for (int c = c1; c-- > c0;) {
-    const double *const column = l.column_from_row_0(c);
-    double sum = x[c];
-    for (int i = c + 1; i < c1; ++i)
-      sum -= column[i] * x[i];
-    x[c] = sum / column[c];
-  }
 }
 
 int tasks(int begin, int end) {
@@ -133,6 +162,10 @@ void for_each_task(int begin, int end, parallel::Team &team, const Task &task) {
   });
 }
 
+bool is_low(const Trapezoid &l, int panel) {
+  return l.leading(panel) <= rows_at_once;
+}
+
 // Strips reach down to this row at once; what is below waits for its panel, and is shared out.
 int reach(const Trapezoid &l, int panel) {
   return std::max(l.last(panel), std::min(l.height, rows_of_a_task));
@@ -143,13 +176,17 @@ int reach(const Trapezoid &l, int panel) {
 void substitute_forward(const Trapezoid &l, double *x, parallel::Team &team) {
   for (int p = 0; p < l.panels(); ++p) {
     const int first = l.first(p), last = l.last(p), end = reach(l, p);
+    if (is_low(l, p)) {
+      solve_forward(l, first, last, x, l.height);
+      continue;
+    }
     for (int c = first; c < last; c += strip) {
       const int next = std::min(last, c + strip);
-      divide_forward(l, c, next, x);
-      subtract(l, c, next, x, next, end);
+      solve_forward(l, c, next, x, next);
+      eliminate(l, c, next, x, next, end);
     }
     for_each_task(end, l.height, team,
-                  [&](int, int r0, int r1) { subtract(l, first, last, x, r0, r1); });
+                  [&](int, int r0, int r1) { eliminate(l, first, last, x, r0, r1); });
   }
 }
 
@@ -157,18 +194,22 @@ void substitute_backward(const Trapezoid &l, double *x, parallel::Team &team) {
   std::vector<double> parts;
   for (int p = l.panels() - 1; p >= 0; --p) {
     const int first = l.first(p), last = l.last(p), end = reach(l, p), n = last - first;
+    if (is_low(l, p)) {
+      solve_backward(l, first, last, x, l.height);
+      continue;
+    }
     parts.assign(std::size_t(n) * tasks(end, l.height), 0.);
     for_each_task(end, l.height, team, [&](int k, int r0, int r1) {
-      add_products(l, first, last, x, r0, r1, parts.data() + std::size_t(k) * n);
+      add_up(l, first, last, x, r0, r1, parts.data() + std::size_t(k) * n);
     });
     for (std::size_t i = 0; i < parts.size(); ++i)
       x[first + static_cast<int>(i % n)] -= parts[i];
     for (int next = last, c = first + (n - 1) / strip * strip; next > first; next = c, c -= strip) {
       std::array<double, strip> sums{};
-      add_products(l, c, next, x, next, end, sums.data());
+      add_up(l, c, next, x, next, end, sums.data());
       for (int k = c; k < next; ++k)
         x[k] -= sums[k - c];
-      divide_backward(l, c, next, x);
+      solve_backward(l, c, next, x, next);
     }
   }
 }

@@ -97,7 +97,7 @@ void subtract_from_rest(const Trapezoid &l, const std::vector<Block> &blocks, co
 }  // namespace
 
 Trapezoid Trapezoid::at(double *data, int height, int columns) {
-  return {data, height, columns, std::max(1, std::min(columns, height < 1024 ? 64 : 128))};
+  return {data, height, columns, std::max(1, std::min(columns, height < 1024 ? 32 : 128))};
 }
 
 std::size_t Trapezoid::begin(int panel) const {

@@ -58,7 +58,7 @@ double contact_seconds(const Job &job) {
                      0.2 * std::pow(job.kept, 3) / job.speed.operations);
 }
 double other_seconds(const Job &job) {
-  const double read_of_a_node = job.dimension == 2 ? 1.6e4 : 5e4;  // bytes
+  const double read_of_a_node = job.dimension == 2 ? 1e4 : 5e4;  // bytes
   return job.nodes * read_of_a_node / job.speed.reading;
 }
 
@@ -67,7 +67,7 @@ double own_factorisation(const Job &job) {
          1e-4 * job.fronts;
 }
 double own_substitutions(const Job &job) {
-  return 1.84 * job.factor / job.speed.reading + 9e-6 * job.fronts;
+  return 1.9 * job.factor / job.speed.reading + 1.2e-6 * job.fronts;
 }
 double factorisation_by_mumps(const Job &job) {
   return job.operations / job.speed.operations + 40 * job.factor / job.speed.reading;
