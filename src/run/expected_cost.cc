@@ -67,7 +67,7 @@ double own_factorisation(const Job &job) {
          1e-4 * job.fronts;
 }
 double own_substitutions(const Job &job) {
-  return 1.9 * job.factor / job.speed.reading + 1.2e-6 * job.fronts;
+  return 2.7 * job.factor / job.speed.reading + 2e-7 * job.fronts;
 }
 double factorisation_by_mumps(const Job &job) {
   return job.operations / job.speed.operations + 40 * job.factor / job.speed.reading;

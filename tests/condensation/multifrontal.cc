@@ -255,12 +255,21 @@ TEST(Trapezoid, HasItsPanelsOneAfterAnotherAndEachEntryOnce) {
   }
 }
 
-// L, whose columns have strips of all widths, and rows that one task or several take.
+// L, whose columns are taken one by one, by strips of all widths, or one panel by strips and the
+// next one by one, and whose rows one task or several take.
 TEST(Trapezoid, SubstitutionsAreThoseOfItsColumns) {
   using Sizes = std::initializer_list<std::pair<int, int>>;
   parallel::Team team(2);
-  for (const auto &[height, columns] :
-       Sizes{{1, 1}, {7, 3}, {8, 8}, {13, 12}, {70, 66}, {40, 23}, {4103, 9}, {9000, 67}}) {
+  for (const auto &[height, columns] : Sizes{{1, 1},
+                                             {7, 3},
+                                             {8, 8},
+                                             {13, 12},
+                                             {70, 66},
+                                             {40, 23},
+                                             {1024, 40},
+                                             {1100, 300},
+                                             {4103, 9},
+                                             {9000, 67}}) {
     const Trapezoid shape = Trapezoid::at(nullptr, height, columns);
     std::vector<double> room(shape.size());
     const Trapezoid l = Trapezoid::at(room.data(), height, columns);
@@ -277,12 +286,14 @@ TEST(Trapezoid, SubstitutionsAreThoseOfItsColumns) {
     top.solveInPlace(expected.head(columns));
     expected.tail(height - columns) -= below * expected.head(columns);
     substitute_forward(l, x.data(), team);
-    EXPECT_LE((x - expected).cwiseAbs().maxCoeff(), 1e-13 * expected.cwiseAbs().maxCoeff());
+    EXPECT_LE((x - expected).cwiseAbs().maxCoeff(), 1e-13 * expected.cwiseAbs().maxCoeff())
+        << height << ' ' << columns;
     expected = x = given;
     expected.head(columns) -= below.transpose() * expected.tail(height - columns);
     top.transpose().solveInPlace(expected.head(columns));
     substitute_backward(l, x.data(), team);
-    EXPECT_LE((x - expected).cwiseAbs().maxCoeff(), 1e-13 * expected.cwiseAbs().maxCoeff());
+    EXPECT_LE((x - expected).cwiseAbs().maxCoeff(), 1e-13 * expected.cwiseAbs().maxCoeff())
+        << height << ' ' << columns;
   }
 }
 
