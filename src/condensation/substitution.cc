@@ -65,8 +65,10 @@ using Four [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
 // eliminate there.
 FOR_EACH_PROCESSOR
 void solve_forward(const Trapezoid &l, int c0, int c1, double *x, int end) {
-  const double *column = l.at(c0, c0);
-  for (int c = c0; c < c1; ++c, column += l.leading(c0 / l.width) + 1) {
+  const double *const first = l.at(c0, c0);
+  const std::size_t step = l.leading(c0 / l.width) + 1;
+  for (int c = c0; c < c1; ++c) {
+    const double *const column = first + (c - c0) * step;
     x[c] /= column[0];
     subtract(column + 1, x[c], x + c + 1, end - c - 1);
   }
@@ -74,9 +76,12 @@ void solve_forward(const Trapezoid &l, int c0, int c1, double *x, int end) {
 
 FOR_EACH_PROCESSOR
 void solve_backward(const Trapezoid &l, int c0, int c1, double *x, int end) {
-  const double *column = l.at(c1 - 1, c1 - 1);
-  for (int c = c1; c-- > c0; column -= l.leading(c0 / l.width) + 1)
+  const double *const first = l.at(c0, c0);
+  const std::size_t step = l.leading(c0 / l.width) + 1;
+  for (int c = c1; c-- > c0;) {
+    const double *const column = first + (c - c0) * step;
     x[c] = (x[c] - product(column + 1, x + c + 1, end - c - 1)) / column[0];
+  }
 }
 
 // Columns of a panel that are some rows long: entry (i, k) is l[i + k leading].
