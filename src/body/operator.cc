@@ -286,10 +286,11 @@ void Operator<dim>::multiply_by_field(std::span<const double> x, FieldProducts &
     product.resize(x.size());
   for (Node i = 0; i < graph_.n_nodes(); ++i) {
     Vector<n> u = Vector<n>::Zero(), phi = Vector<n>::Zero(), theta = Vector<n>::Zero();
+    const double own = x[unknown<dim>(i, Fields<dim>::potential)];
     for (std::size_t e = graph_.row[i]; e < graph_.row[i + 1]; ++e) {
       const Eigen::Map<const Vector<n>> xj(&x[unknown<dim>(graph_.column[e], 0)]);
       u.noalias() += storage_[e].template leftCols<dim>() * xj.template head<dim>();
-      phi += storage_[e].col(Fields<dim>::potential) * xj[Fields<dim>::potential];
+      phi += storage_[e].col(Fields<dim>::potential) * (xj[Fields<dim>::potential] - own);
       theta += storage_[e].col(Fields<dim>::temperature) * xj[Fields<dim>::temperature];
     }
     std::copy(u.begin(), u.end(), &products.of[0][unknown<dim>(i, 0)]);

@@ -111,7 +111,9 @@ class Operator {
   /// several ranks at most that of their shares.
   std::vector<double> sizes(double step, std::span<const double> x) const;
 
-  /// storage x, field by field; `products` is overwritten.
+  /// storage x, field by field; `products` is overwritten. A constant potential has no charges, so
+  /// those of a row come from differences to its own: in a conductor, whose permittivity is 10^6
+  /// times the others', sums of the potentials themselves lose seven digits.
   void multiply_by_field(std::span<const double> x, FieldProducts &products) const;
 
   /// The incompatible modes of this rank's cells, in the order of `for_each_cell`; empty without.

@@ -187,9 +187,7 @@ typename Balance<dim>::Columns Balance<dim>::step(double time, std::span<const d
                         model_.asked.time.is_dynamic() ? &forces_before_ : nullptr, time, loads,
                         outcome, state, cell_by_cell);
   };
-  // Charges of a conductor's nodes are differences of a million times larger ones: sums over nodes
-  // leave its energy no digit, and the body's few.
-  Step step = step_from(std::move(before_), is_refined || model_.composition.has_conductors());
+  Step step = step_from(std::move(before_), is_refined);
   Columns columns = columns_of(step);
   const auto lacks_more_than = [&](double limit) {
     return std::any_of(judged_.begin(), judged_.end(), [limit](const auto &imbalance) {
@@ -203,7 +201,7 @@ typename Balance<dim>::Columns Balance<dim>::step(double time, std::span<const d
   const bool lacks =
       lacks_more_than(has_foundation_columns() ? unquestioned : unquestioned_without_contact);
   before_ = std::move(step.now);  // as a run that goes on from here has it
-  if (lacks) {
+  if (lacks && !before_.by_cells) {
     step = step_from(std::move(step.before), true);
     step.round_off = round_off_of(model_, coupled_, step);
     columns = columns_of(step);

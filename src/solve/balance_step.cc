@@ -56,6 +56,7 @@ void multiply(const Model<dim> &model, bool cell_by_cell, BalancedState<dim> &st
   else
     model.op.multiply_by_field(state.unknowns, state.products);
   state.stored = stored_energy(state);
+  state.by_cells = cell_by_cell;
 }
 
 // By node, from the entries of the interface nodes; empty: nothing.
@@ -301,7 +302,7 @@ BalanceStep<dim> balance_step(const Model<dim> &model, const std::vector<bool> &
   step.rates = outcome.rates;
   step.now.unknowns.assign(now.begin(), now.end());
   multiply(model, cell_by_cell, step.now);
-  if (cell_by_cell)
+  if (cell_by_cell && !step.before.by_cells)
     multiply(model, true, step.before);
   step.conducted = cell_by_cell ? model.cells.conducted(now) : model.op.conducted(now);
   step.contact = by_unknown(model, outcome.contact_forces);

@@ -18,6 +18,7 @@ struct BalancedState {
   body::FieldProducts products;  ///< of the storage operator
   std::vector<double> charges;   ///< electric right-hand side, reactions included [C]
   body::Energies stored;         ///< [J]
+  bool by_cells = false;         ///< products and energies are sums of the cells'
 };
 
 /// Of the sums in a balance, what round-off may have made of them.

@@ -73,6 +73,12 @@ void expect_products_of_the_operator(CellShape shape, int degree, Modes modes = 
   of.cells.add_history(x, found);
   for (std::size_t i = 0; i < x.size(); ++i)
     EXPECT_NEAR(found[i], expected[i], 1e-13 * sizes[i]) << i;
+  FieldProducts of_operator, of_cells;
+  of.op.multiply_by_field(x, of_operator);
+  of.cells.multiply_by_field(x, of_cells);
+  for (int field = 0; field < 3; ++field)
+    for (std::size_t i = 0; i < x.size(); ++i)
+      EXPECT_NEAR(of_operator.of[field][i], of_cells.of[field][i], 1e-13 * sizes[i]) << i;
 }
 
 TEST(CellProducts, TheyAreThoseOfTheOperator) {
@@ -107,6 +113,20 @@ TEST(CellProducts, ATranslationOfAThinBodyHasNoForcesAtAll) {
   of.op.multiply(0.01, x, assembled);
   EXPECT_EQ(largest(cells), 0);
   EXPECT_GT(largest(assembled), 0);
+}
+
+TEST(CellProducts, AConstantPotentialHasNoChargesOfTheOperatorByFieldEither) {
+  const Body<2> of(CellShape::triangle, 2, {1, 1e-4});
+  std::vector<double> x(of.n(), 0.);
+  for (Node node = 0; node < of.body.n_nodes(); ++node)
+    x[unknown<2>(node, Fields<2>::potential)] = 0.3;
+  FieldProducts by_field;
+  of.op.multiply_by_field(x, by_field);
+  for (const std::vector<double> &product : by_field.of)
+    EXPECT_EQ(largest(product), 0);
+  std::vector<double> summed(of.n());
+  of.op.multiply(0.01, x, summed);
+  EXPECT_GT(largest(summed), 0);
 }
 
 }  // namespace
