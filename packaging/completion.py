@@ -14,8 +14,8 @@ Key = collections.namedtuple("Key", "path choices")
 # What stands after an option, or for a positional: a `case` file, a `folder`, a `file`, a `setting` (KEY=VALUE),
 # a `format`, a `material`, a `number` of a run, or free text.
 kinds = {"CASE": "case", "DIR": "folder", "NAME": "material", "--set": "setting", "--vary": "setting",
-         "--folder": "folder", "--format": "format", "--file": "case"}
-outputs = {"report": "file", "sweep": "number"}
+         "--columns": "number", "--format": "format", "--file": "case"}
+outputs = {"report": "file"}
 
 
 def kind(command, name):
@@ -78,7 +78,7 @@ def keys(reference):
                     for key in found if key.path.startswith(source)]
 
 
-# What an unknown --output is answered with, for a body that has all of it.
+# What an unknown column is answered with, for a body that has all of it.
 block = """mesh.box = { min = [0, 0, 0], max = [1, 1, 1], cells = [1, 1, 1], cell = "hexahedron" }
 material.library = "BaTiO3-Liu2014"
 time = { end = 1, steps = 1 }
@@ -92,7 +92,7 @@ def numbers(program):
     with tempfile.TemporaryDirectory() as folder:
         case = pathlib.Path(folder, "block.toml")
         case.write_text(block)
-        answer = subprocess.run([program, "sweep", case, "--vary", "time.steps=1", "--output", "?", "-o", folder],
+        answer = subprocess.run([program, "sweep", case, "--vary", "time.steps=1", "--columns", "?", "-o", folder],
                                 capture_output=True, text=True).stderr
     columns, places = re.search(r"allowed: (.*), each also as .*, and (.*)$", answer.strip()).groups()
     return [name for name in (columns + ", " + places).split(", ") if not re.match("charge_right|heat_right", name)]

@@ -39,11 +39,21 @@ void tell(const Outcome &outcome, bool quiet) {
     std::cout << file.string() << '\n';
 }
 
+// Before there was --columns, --output was it.
+void require_folder(const std::string &output) {
+  if (output.find_first_of(",:@") != std::string::npos)
+    throw tourmaline::CaseError(fmt::format(
+        "sweep --output {}: --output is the folder of the study; what sweep.csv and sweep.svg show "
+        "is chosen by --columns {}",
+        output, output));
+}
+
 int sweep(Request request, char *name, const CommandLine &program) {
   if (tourmaline::parallel::is_launched())
     throw tourmaline::CaseError(
         "sweep: each case is run by a process of its own, so this command is given without mpirun; "
         "--jobs says how many run side by side");
+  require_folder(request.folder.string());
   if (request.folder.empty())
     request.folder = std::filesystem::path("results") / (request.file.stem().string() + "-sweep");
   // Descriptors of this process mean others in its copies.
@@ -83,17 +93,16 @@ void add_sweep(CLI::App &app, char *name, const CommandLine &program, int &statu
       ->allow_extra_args(false);
   command
       ->add_option(
-          "--output", request->outputs,
+          "--columns", request->outputs,
           "what sweep.csv and sweep.svg show: columns of history.csv, or of probes that are no "
           "lines as "
           "PROBE.COLUMN, NAME or last:NAME at the end, "
           "min:NAME, max:NAME, mean:NAME, rms:NAME over all steps, mean:NAME@FROM..TO over a part "
           "of the time, NAME@TIME at a time [s]; at_max_FIELD_x, ...: places of extremes. "
-          "NAME,NAME,... Not the folder, which "
-          "is --folder here")
+          "NAME,NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option("-o,--folder", request->folder,
+  command->add_option("-o,--output", request->folder,
                       "folder of the study, made when missing; results/<name of the case>-sweep if "
                       "not given");
   command

@@ -366,14 +366,6 @@ void CellProducts<dim>::multiply(double step, std::span<const double> x,
   parallel::sum(y);
 }
 
-template <int dim>
-void CellProducts<dim>::add_history(std::span<const double> x, std::span<double> y) const {
-  FieldProducts products;
-  multiply_by_field(x, products);
-  for (std::size_t i = Fields<dim>::temperature; i < y.size(); i += Fields<dim>::count)
-    y[i] += products.sum(i);
-}
-
 template class CellProducts<2>;
 template class CellProducts<3>;
 

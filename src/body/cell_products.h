@@ -37,7 +37,6 @@ class CellProducts {
 
   /// As of `Operator`, all of them.
   void multiply(double step, std::span<const double> x, std::span<double> y) const;
-  void add_history(std::span<const double> x, std::span<double> y) const;
   void multiply_by_field(std::span<const double> x, FieldProducts &products) const;
   std::vector<double> conducted(std::span<const double> x) const;
   std::vector<double> held_by_capacitors(std::span<const double> x) const;

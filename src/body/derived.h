@@ -4,6 +4,7 @@
 
 #include "body/operator.h"
 #include "material/constants.h"
+#include "output/records.h"
 
 namespace tourmaline::body {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "output/records.h"
+#include "tourmaline/vector.h"
 
 namespace tourmaline::mesh {
 template <int dim>
@@ -17,6 +17,10 @@ struct Mesh;  // holds deal.II's cells: whoever makes one includes mesh/mesh.h
 namespace tourmaline::casefile {
 struct Case;
 }
+namespace tourmaline::output {
+struct Grid;  // whoever asks for one includes output/records.h
+struct NamedBoundary;
+}  // namespace tourmaline::output
 
 namespace tourmaline::body {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "discretisation_parts.h"
+#include "output/records.h"
 #include "parallel/ranks.h"
 
 namespace tourmaline::body {

@@ -6,6 +6,7 @@
 #include "body/operator.h"
 #include "material/constants.h"
 #include "material/plane.h"
+#include "output/records.h"
 
 namespace tourmaline::body {
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cell_block.h"
+#include "output/records.h"
 #include "parallel/ranks.h"
 
 namespace tourmaline::body {

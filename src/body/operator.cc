@@ -208,19 +208,6 @@ std::vector<double> Operator<dim>::rate_product(typename RateForces<dim>::Kind k
 }
 
 template <int dim>
-void Operator<dim>::add_history(std::span<const double> x, std::span<double> y) const {
-  constexpr int theta = Fields<dim>::temperature;
-  std::vector<double> heat(graph_.n_nodes(), 0.);
-  for (Node i = 0; i < graph_.n_nodes(); ++i)
-    for (std::size_t e = graph_.row[i]; e < graph_.row[i + 1]; ++e)
-      heat[i] += storage_[e].row(theta).dot(
-          Eigen::Map<const Vector<n>>(&x[unknown<dim>(graph_.column[e], 0)]));
-  parallel::sum(heat);
-  for (Node i = 0; i < graph_.n_nodes(); ++i)
-    y[unknown<dim>(i, theta)] += heat[i];
-}
-
-template <int dim>
 double Operator<dim>::row_times(std::size_t row, double step, std::span<const double> x) const {
   const Node i = static_cast<Node>(row / n);
   double sum = 0;
@@ -324,7 +311,15 @@ std::vector<double> Operator<dim>::held_by_capacitors(std::span<const double> x)
   return times(capacitors_, Fields<dim>::potential, x);
 }
 
+template <int dim>
+void add_history(const FieldProducts &products, std::span<double> y) {
+  for (std::size_t i = Fields<dim>::temperature; i < y.size(); i += Fields<dim>::count)
+    y[i] += products.sum(i);
+}
+
 template class Operator<2>;
 template class Operator<3>;
+template void add_history<2>(const FieldProducts &, std::span<double>);
+template void add_history<3>(const FieldProducts &, std::span<double>);
 
 }  // namespace tourmaline::body

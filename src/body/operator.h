@@ -22,6 +22,11 @@ struct FieldProducts {
   double sum(std::size_t unknown) const { return of[0][unknown] + of[1][unknown] + of[2][unknown]; }
 };
 
+/// Adds the heat rows of the products with a state to y, which has an entry for each unknown: what
+/// the step after that state remembers of it (6), (33).
+template <int dim>
+void add_history(const FieldProducts &products, std::span<double> y);
+
 /// The operator of the body without boundary conditions, in SI units. With the electric rows
 /// multiplied by -1 and the heat rows by -k / theta_ref it is symmetric (design: operator of a
 /// step):
@@ -87,10 +92,6 @@ class Operator {
 
   /// y = (storage - step / theta_ref G) x.
   void multiply(double step, std::span<const double> x, std::span<double> y) const;
-
-  /// Adds the heat rows of storage x to y: what a step remembers of the state x before it (6),
-  /// (33).
-  void add_history(std::span<const double> x, std::span<double> y) const;
 
   /// Row `row` of (storage - step / theta_ref G) times x.
   double row_times(std::size_t row, double step, std::span<const double> x) const;

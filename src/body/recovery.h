@@ -9,6 +9,7 @@
 
 #include "body/regional_nodes.h"
 #include "material/composition.h"
+#include "output/records.h"
 
 namespace tourmaline::body {
 

@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 
 #include "case/nearest.h"
 #include "case/toml_text.h"
 #include "case/utf8.h"
 #include "tourmaline/error.h"
+#include "whole_file.h"
 
 namespace tourmaline::casefile {
 
@@ -188,11 +187,10 @@ LoadTable::Points points_in_file(const std::filesystem::path &file,
   constexpr std::uintmax_t most = 64 << 20;
   if (std::filesystem::file_size(file, ignored) > most)
     throw CaseError(name + ": is larger than 64 MiB");
-  std::ifstream in(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (in.bad() || !in.is_open())
+  const std::optional<std::string> text = whole_file(file);
+  if (!text)
     throw CaseError(name + ": cannot be read");
-  return points_in_text(text, name, column);
+  return points_in_text(*text, name, column);
 }
 
 }  // namespace tourmaline::casefile

@@ -7,7 +7,7 @@ namespace tourmaline::material {
 // constants were measured.
 const std::string_view library_text = R"toml(
 [BaTiO3-Liu2014]
-source = "P. Liu et al., Int. J. Solids Struct. 51 (2014) 2167-2182, as used by Ouafik (2020), section 4. The pyroelectric constant is p3 = -1e-4 as printed; see docs/paper-notes.md for the sign that the paper's figures need. c12 = 77 GPa completes the set in three dimensions."
+source = "P. Liu et al., Int. J. Solids Struct. 51 (2014) 2167-2182, as used by Ouafik (2020), section 4. The pyroelectric constant is p3 = -1e-4 as printed; see docs/paper-notes.md for the sign that fits the paper's figures better. c12 = 77 GPa completes the set in three dimensions."
 symmetry = "6mm"
 c11 = 166e9
 c12 = 77e9

@@ -12,6 +12,7 @@
 
 #include "case/utf8.h"
 #include "tourmaline/error.h"
+#include "whole_file.h"
 
 namespace tourmaline::mesh {
 
@@ -78,9 +79,8 @@ Format format_of_msh(const std::filesystem::path &file) {
 void check_last_line(Format format, const std::string &file) {
   if (format != Format::geo)
     return;
-  std::ifstream in(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (!text.empty() && text.back() != '\n')
+  const std::optional<std::string> text = whole_file(file);
+  if (text && !text->empty() && text->back() != '\n')
     throw CaseError("does not end with the end of a line; Gmsh would not see its last line");
 }
 

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <string_view>
 #include <system_error>
 #include <type_traits>
@@ -14,12 +12,13 @@
 #include "output/atomic_file.h"
 #include "output/checksum.h"
 #include "tourmaline/error.h"
+#include "whole_file.h"
 
 namespace tourmaline::output {
 namespace {
 
 constexpr std::string_view magic = "Tourmaline checkpoint\n";
-constexpr std::uint64_t format_version = 5;
+constexpr std::uint64_t format_version = 6;
 
 /// Writes one member behind the other.
 class Writer {
@@ -101,11 +100,10 @@ class Reader {
 std::string contents(const std::filesystem::path &path) {
   if (!std::filesystem::is_regular_file(path))  // nobody may ever write to a pipe
     refuse(path, "is no checkpoint");
-  std::ifstream in(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (!in)
+  std::optional<std::string> text = whole_file(path);
+  if (!text)
     throw MachineError(fmt::format("cannot read {}", path.string()));
-  return text;
+  return *std::move(text);
 }
 
 /// What stands between the version and the checksum.

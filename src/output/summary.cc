@@ -67,7 +67,8 @@ Json seconds_json(const Seconds &seconds) {
            {{"total", number(seconds.step.total)},
             {"per_step", number(seconds.step.per_step)},
             {"substitutions", number(seconds.step.substitutions)},
-            {"contact", number(seconds.step.contact)}}},
+            {"contact", number(seconds.step.contact)},
+            {"estimates", number(seconds.step.estimates)}}},
           {"output", number(seconds.output)},
           {"total", number(seconds.total)}};
 }

@@ -16,8 +16,8 @@ struct Seconds {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
   struct Steps {
     double total = none, per_step = none;  // per_step: the mean
-    double substitutions = none,
-           contact = none;  // of the total: in the factor, in the contact problem
+    // Of the total: in the factor, in the contact problem, to find the errors of solutions.
+    double substitutions = none, contact = none, estimates = none;
   };
   double start = none;      // from the start of the program to the first stage
   double mesh = none;       // build or read the mesh

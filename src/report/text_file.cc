@@ -2,10 +2,11 @@
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <iterator>
+#include <optional>
+#include <utility>
 
 #include "tourmaline/error.h"
+#include "whole_file.h"
 
 namespace tourmaline::report {
 
@@ -13,12 +14,11 @@ std::string read_text_file(const std::filesystem::path &path) {
   if (std::error_code error; std::filesystem::is_directory(path, error))
     throw CaseError(path.string() + ": cannot be read: it is a folder");
   errno = 0;
-  std::ifstream in(path, std::ios::binary);
-  std::string text((std::istreambuf_iterator<char>(in)), {});
-  if (!in)
+  std::optional<std::string> text = whole_file(path);
+  if (!text)
     throw CaseError(path.string() + ": cannot be read" +
                     (errno != 0 ? std::string(": ") + std::strerror(errno) : std::string()));
-  return text;
+  return *std::move(text);
 }
 
 }  // namespace tourmaline::report

@@ -49,7 +49,7 @@ void Account::put(const solve::RouteReport &report, int steps, output::Summary &
   summary.seconds.factorise = report.factorise_seconds;
   summary.seconds.condense = report.condense_seconds;
   summary.seconds.step = {in_steps_, in_steps_ / steps, report.substitution_seconds,
-                          report.contact_seconds};
+                          report.contact_seconds, report.estimate_seconds};
   summary.seconds.total = before_ + process_age();
   summary.peak_memory_bytes = parallel::sum(peak_memory());
 }

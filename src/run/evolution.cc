@@ -59,11 +59,17 @@ void Evolution<dim>::sum_right_side(TakenStep &step) {
   StepCheck(step.n, time).loads(dim, model_.body.points(), step.loads);
   step.right_side = step.loads;
   leaked_.add_to(step.right_side);
-  if (route_->route().is_refined())
-    model_.cells.add_history(state_, step.right_side);
-  else
-    model_.op.add_history(state_, step.right_side);
+  add_remembered(step.right_side);
   motion_.add_history(time, state_, step.state, step.right_side);
+}
+
+template <int dim>
+void Evolution<dim>::add_remembered(std::vector<double> &right_side) {
+  const bool by_cells = route_->route().is_refined();
+  if (remembered_.heats.empty() || remembered_.by_cells != by_cells)
+    remember(model_.products_by_field(state_, by_cells), by_cells);
+  for (std::size_t i = 0; i < right_side.size(); ++i)
+    right_side[i] += remembered_.heats[i];
 }
 
 // Again with other potentials of foundations or electrodes, until they have the charges that their
@@ -95,14 +101,28 @@ TakenStep Evolution<dim>::take(int n) {
   motion_.end_step(state_, step.state);
   step.outcome.rates = motion_.record();
   state_ = step.state;
+  remembered_ = {};
+  last_ = n;
   leaked_.end_step(model_.time(n), state_);
   step.seconds = watch.lap();
   return step;
 }
 
 template <int dim>
+void Evolution<dim>::see_balanced(int n, const solve::BalancedState<dim> &end) {
+  if (n == last_)
+    remember(end.products, end.by_cells);
+}
+
+template <int dim>
+void Evolution<dim>::remember(const body::FieldProducts &products, bool by_cells) {
+  remembered_ = {std::vector<double>(state_.size(), 0.), by_cells};
+  body::add_history<dim>(products, remembered_.heats);
+}
+
+template <int dim>
 typename Evolution<dim>::Point Evolution<dim>::point() const {
-  Point point{state_, {}, route_->memory()};
+  Point point{state_, remembered_, {}, route_->memory()};
   leaked_.save(point.rest);
   if (electrodes_)
     electrodes_->save(point.rest);
@@ -114,6 +134,8 @@ typename Evolution<dim>::Point Evolution<dim>::point() const {
 template <int dim>
 void Evolution<dim>::go_back(const Point &point, int n) {
   state_ = point.state;
+  remembered_ = point.remembered;
+  last_ = 0;
   leaked_.restore(point.rest);
   if (electrodes_)
     electrodes_->restore(point.rest);

@@ -8,6 +8,7 @@
 #include "output/checkpoint.h"
 #include "output/progress.h"
 #include "run/chosen_route.h"
+#include "solve/balance_step.h"
 #include "solve/electrode_search.h"
 #include "solve/foundation_circuits.h"
 #include "solve/leaked_charge.h"
@@ -42,10 +43,19 @@ class Evolution {
   /// Step n, the next one, as the model's steps have it; the step after it goes on from there.
   /// Throws SolveError, CaseError, MachineError.
   TakenStep take(int n);
+  /// The balances of step n, which have made the products that the step after it remembers.
+  void see_balanced(int n, const solve::BalancedState<dim> &end);
+
+  /// What the next step remembers of the state before it: heats, zero at other unknowns.
+  struct Remembered {
+    std::vector<double> heats;  ///< by unknown; empty: not computed yet
+    bool by_cells = false;      ///< from products cell by cell
+  };
 
   /// All that steps from here depend on.
   struct Point {
     std::vector<double> state;
+    Remembered remembered;
     output::SavedNumbers rest;
     typename ChosenRoute<dim>::Memory route;
   };
@@ -65,6 +75,8 @@ class Evolution {
  private:
   void prescribe(double time, std::vector<double> &state);
   void sum_right_side(TakenStep &step);
+  void add_remembered(std::vector<double> &right_side);
+  void remember(const body::FieldProducts &products, bool by_cells);
   void advance(TakenStep &step);
 
   solve::Model<dim> &model_;
@@ -72,6 +84,8 @@ class Evolution {
   solve::Motion<dim> motion_;        // of that step
   solve::FoundationCircuits<dim> foundations_;
   std::vector<double> state_;
+  Remembered remembered_;  // of state_
+  int last_ = 0;           // the step that state_ is the end of, if a step has been taken
   std::optional<solve::SteadyHeat<dim>> steady_heat_;  // of a static case with temperatures
   std::optional<ChosenRoute<dim>> route_;
   std::optional<solve::ElectrodeSearch<dim>> electrodes_;  // where the route does not find them

@@ -36,6 +36,8 @@ class Recorder {
                           std::span<const double> before, std::span<const double> state,
                           const solve::Route &route,
                           const std::function<solve::Accuracy()> &measure);
+  /// The state that the last step ended in.
+  const solve::BalancedState<dim> &balanced() const { return balance_->balanced(); }
   /// The last state's nodes, and the tables into place.
   void finish(std::span<const double> state);
 

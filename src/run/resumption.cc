@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <span>
 
@@ -18,6 +16,7 @@
 #include "run/start_state.h"
 #include "run/versions.h"
 #include "tourmaline/error.h"
+#include "whole_file.h"
 
 namespace tourmaline::run {
 
@@ -57,8 +56,7 @@ std::string digest(const casefile::MeshFile &mesh) {
 }
 
 std::string text_in(const fs::path &file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+  return whole_file(file).value_or("");
 }
 
 std::string digest_of_file(const fs::path &file) {

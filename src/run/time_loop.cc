@@ -118,6 +118,7 @@ void TimeLoop<dim>::book(TakenStep step) {
   account_.step(step.n, step.outcome, step.seconds);
   adrift_.step(step.n, step.outcome, step.state);
   const output::HistoryRow row = record(step);
+  evolution_.see_balanced(step.n, recorder_->balanced());
   highlights_.see(row);
   most_strained_.step(row, step.state);
   temperature_.step(row);

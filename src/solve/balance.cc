@@ -35,6 +35,35 @@ bool add_once(std::vector<std::string> &names, const std::string &name) {
   return true;
 }
 
+template <int dim>
+Sum sum_of_energy(const BalanceStep<dim> &step, const EnergyWorks &works, double gained,
+                  double lost) {
+  Sum sum;
+  for (const double term :
+       {gained, lost, -works.load, -works.electric, -works.thermal, works.friction,
+        works.conduction, -works.foundation, step.normal.gained, step.normal.dissipated})
+    sum.add(term);
+  if (!step.rates.forces.empty())
+    for (const double term : {step.rates.kinetic_gained, step.rates.dissipated})
+      sum.add(term);
+  sum.size += std::abs(step.now.stored.sum()) + std::abs(step.before.stored.sum()) +
+              std::abs(step.rates.kinetic_energy);
+  return sum;
+}
+
+// What each field takes from outside, with a minus, and gives.
+template <int dim>
+std::array<std::vector<double>, 3> by_field(const BalanceStep<dim> &step,
+                                            const EnergyWorks &works) {
+  std::array<std::vector<double>, 3> of{
+      {{-works.load, works.friction, -works.foundation, step.normal.received},
+       {-works.electric},
+       {-works.thermal, works.conduction}}};
+  if (!step.rates.forces.empty())
+    of[0].insert(of[0].end(), {step.rates.dissipated, step.rates.kinetic_gained});
+  return of;
+}
+
 // What a balance lacks beyond this may be round-off, which is told apart; what then lacks more than
 // the next is looked at cell by cell, and more than this at once where the contact may take the
 // body through states of little energy.
@@ -239,68 +268,42 @@ void Balance<dim>::put_imbalance(const std::string &name, double value, double s
 
 template <int dim>
 void Balance<dim>::add_energy(const Step &step, Columns &columns) {
-  const double per_watt = -model_.step / model_.op.reference_temperature();
-  double load = 0, friction = 0, electric = 0, thermal = 0, conduction = 0;
-  std::array<double, 3> by_scheme{step.rates.lost, 0, 0};  // beside W(d)
-  double foundation = step.normal.pressed_in;
-  for (std::size_t i = 0; i < step.now.unknowns.size(); ++i) {
-    const int field = field_of<dim>(i);
-    if (field == 0) {
-      // What moves a prescribed displacement does work as a load does, and so does the foundation
-      // along the normal: together it is zero where u_nu = 0. Friction is worked against.
-      const double moving = step.working_load(i, is_prescribed_[i]);
-      const bool can_open = !can_open_.empty() && can_open_[i / Fields<dim>::count];
-      const double pressing = can_open ? 0 : step.working_contact(i) - step.working_friction(i);
-      const double carried = step.carried_by(i), along = step.change(i) - carried;
-      load += moving * carried + (moving + pressing) * along;
-      friction -= step.friction[i] * along;
-      by_scheme[0] += (step.friction[i] - step.working_friction(i)) * along;
-      foundation += step.working_contact(i) * carried;
-    } else if (field == 1) {
-      electric -= step.working(i) * (step.now.charges[i] - step.before.charges[i]);
-    } else if (model_.asked.time.is_static()) {
-      // Heat that flows steadily changes no energy; what the body takes up as its entropy changes
-      // comes from outside.
-      thermal -= step.now.unknowns[i] * (step.now.products.sum(i) - step.before.products.sum(i));
-    } else {
-      const std::size_t node = i / Fields<dim>::count;
-      const double supplied = step.heat_supplied[node] + step.heat_crossed[node];
-      thermal += step.working(i) * (-step.loads[i] - per_watt * supplied);
-      conduction -= per_watt * step.now.unknowns[i] * step.conducted[node];
-      by_scheme[2] += per_watt * (step.now.unknowns[i] - step.working(i)) * step.conducted[node];
-    }
-  }
-  const Energies energy = step.now.stored, shift = model_.op.energy_shift(step.now.unknowns);
+  const EnergyWorks works = energy_works(model_, step, is_prescribed_, can_open_);
   const Energies gain = step.change_of_energy();
-  const NormalEnergy &normal = step.normal;
-  std::array<double, 3> lost_by_field = by_scheme;
-  Energies loss;
+  std::array<double, 3> lost_by_field = works.by_scheme;
+  double lost = works.by_scheme[0] + works.by_scheme[2];
   if (!step.is_dynamic()) {
-    loss = step.energy_of_change();
+    const Energies loss = step.energy_of_change();
     lost_by_field = by_field(loss);
+    lost = loss.sum();
   }
-  const double lost = step.is_dynamic() ? by_scheme[0] + by_scheme[2] + normal.lost()
-                                        : loss.sum() + normal.lost(),
-               before = step.before.stored.sum(), gained = gain.sum();
-  Sum imbalance;
-  for (const double term : {gained, lost, -load, -electric, -thermal, friction, conduction,
-                            -foundation, normal.gained, normal.dissipated})
-    imbalance.add(term);
-  if (!step.rates.forces.empty())
-    for (const double term : {step.rates.kinetic_gained, step.rates.dissipated})
-      imbalance.add(term);
-  imbalance.size += std::abs(energy.sum()) + std::abs(before) + std::abs(step.rates.kinetic_energy);
+  lost += step.normal.lost();
+  put_energies(step, works, gain.sum(), lost, columns);
+  const Sum imbalance = sum_of_energy(step, works, gain.sum(), lost);
+  double round_off = 0;
+  for (const double of_field : step.round_off.energy)
+    if (std::isfinite(of_field))
+      round_off += of_field;
+  put_imbalance("energy_imbalance", imbalance.value, imbalance.size, round_off, columns);
+  judged_.back().second =
+      lack_of_energy(step, imbalance.size, by_field(gain), lost_by_field, by_field(step, works));
+}
+
+template <int dim>
+void Balance<dim>::put_energies(const Step &step, const EnergyWorks &works, double gained,
+                                double lost, Columns &columns) const {
+  const Energies &energy = step.now.stored, shift = model_.op.energy_shift(step.now.unknowns);
   const double k = model_.step;
   columns.insert(columns.end(), {{"elastic_energy", energy.elastic + shift.elastic},
                                  {"electric_energy", energy.electric + shift.electric},
                                  {"thermal_energy", energy.thermal + shift.thermal},
                                  {"coupling_energy", energy.coupling + shift.coupling},
                                  {"stored_energy_rate", gained / k},
-                                 {"load_power", load / k},
-                                 {"electric_power", electric / k},
-                                 {"thermal_power", thermal / k},
-                                 {"friction_dissipation", friction / k},
-                                 {"conduction_loss", conduction / k},
+                                 {"load_power", works.load / k},
+                                 {"electric_power", works.electric / k},
+                                 {"thermal_power", works.thermal / k},
+                                 {"friction_dissipation", works.friction / k},
+                                 {"conduction_loss", works.conduction / k},
                                  {"time_step_loss", lost / k}});
   if (step.is_dynamic())
     columns.insert(columns.end(), {{"kinetic_energy", step.rates.kinetic_energy},
@@ -308,28 +311,16 @@ void Balance<dim>::add_energy(const Step &step, Columns &columns) {
   if (has_damping_columns())
     columns.emplace_back("viscous_dissipation", step.rates.dissipated / k);
   if (has_foundation_columns())
-    columns.emplace_back("foundation_power", foundation / k);
+    columns.emplace_back("foundation_power", works.foundation / k);
   if (model_.laws.can_open())
-    columns.insert(columns.end(), {{"contact_energy", normal.stored},
-                                   {"contact_dissipation", normal.dissipated / k}});
-  double round_off = 0;
-  for (const double of_field : step.round_off.energy)
-    if (std::isfinite(of_field))
-      round_off += of_field;
-  put_imbalance("energy_imbalance", imbalance.value, imbalance.size, round_off, columns);
-  std::array<std::vector<double>, 3> works{
-      {{-load, friction, -foundation, normal.received}, {-electric}, {-thermal, conduction}}};
-  if (!step.rates.forces.empty())
-    works[0].insert(works[0].end(), {step.rates.dissipated, step.rates.kinetic_gained});
-  judged_.back().second =
-      lack_of_energy(step, imbalance.size, by_field(gain), lost_by_field, works);
+    columns.insert(columns.end(), {{"contact_energy", step.normal.stored},
+                                   {"contact_dissipation", step.normal.dissipated / k}});
 }
 
 // Energy that does not change hides no lack, and neither does that of fields, such as a
 // temperature, that others are not coupled to: each set of coupled fields has a balance of its own.
-// `works` are what the field takes from outside, with a minus, and gives. A field of which there is
-// nothing may hold what a solver let through from the others, 1e-14 of their scaled unknowns or
-// less.
+// A field of which there is nothing may hold what a solver let through from the others, 1e-14 of
+// their scaled unknowns or less.
 template <int dim>
 double Balance<dim>::lack_of_energy(const Step &step, double whole,
                                     const std::array<double, 3> &gained,

@@ -9,6 +9,7 @@
 
 #include "output/checkpoint.h"
 #include "solve/balance_step.h"
+#include "solve/energy_works.h"
 #include "solve/model.h"
 #include "solve/passage.h"
 #include "solve/route.h"
@@ -50,6 +51,9 @@ class Balance {
   /// round-off lacks nothing.
   const Columns &judged() const { return judged_; }
 
+  /// The state that the last step ended in.
+  const BalancedState<dim> &balanced() const { return before_; }
+
   /// Of the last step: the terms of these sums that stand at nodes.
   const std::vector<Passage> &passages() const { return passages_; }
 
@@ -78,6 +82,9 @@ class Balance {
   void find_crossings(contact::Crossing what);
   void find_contact_boundaries();
   void add_energy(const Step &step, Columns &columns);
+  void put_energies(const Step &step, const EnergyWorks &works, double gained, double lost,
+                    Columns &columns) const;
+  // `works` are what each field takes from outside, with a minus, and gives.
   double lack_of_energy(const Step &step, double whole, const std::array<double, 3> &gained,
                         const std::array<double, 3> &lost,
                         const std::array<std::vector<double>, 3> &works) const;

@@ -51,10 +51,7 @@ std::vector<double> by_unknown(const Model<dim> &model, const Eigen::VectorXd &f
 
 template <int dim>
 void multiply(const Model<dim> &model, bool cell_by_cell, BalancedState<dim> &state) {
-  if (cell_by_cell)
-    model.cells.multiply_by_field(state.unknowns, state.products);
-  else
-    model.op.multiply_by_field(state.unknowns, state.products);
+  state.products = model.products_by_field(state.unknowns, cell_by_cell);
   state.stored = stored_energy(state);
   state.by_cells = cell_by_cell;
 }

@@ -434,7 +434,9 @@ void CondensedRoute<dim>::take_contact_back() {
 template <int dim>
 void CondensedRoute<dim>::measure(std::span<const double> right_side, std::span<const double> state,
                                   const StepOutcome &outcome) {
+  Stopwatch watch;
   const Accuracy now = accuracy(right_side, state, outcome);
+  so_far_.estimate_seconds += watch.lap();
   see_backward_error(now.backward_error);
   see_forward_error(now.forward_error);
 }

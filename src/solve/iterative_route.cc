@@ -11,6 +11,7 @@
 #include "solve/contact_by_solutions.h"
 #include "solve/first_places.h"
 #include "solve/leaning.h"
+#include "stopwatch.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::solve {
@@ -74,8 +75,11 @@ void IterativeRoute<dim>::check_held() const {
 template <int dim>
 void IterativeRoute<dim>::measure() {
   const auto forward_error = [&] {
+    Stopwatch watch;
     set_contact();
-    return body_.forward_error(freed(body_.residual_by_cells()));
+    const double error = body_.forward_error(freed(body_.residual_by_cells()));
+    so_far_.estimate_seconds += watch.lap();
+    return error;
   };
   double error = is_refined() ? body_.last_correction() : forward_error();
   if (!is_refined() && error > worth_refined_solutions) {

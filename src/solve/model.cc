@@ -191,6 +191,16 @@ std::vector<double> Model<dim>::product(std::span<const double> x, bool by_cells
 }
 
 template <int dim>
+body::FieldProducts Model<dim>::products_by_field(std::span<const double> x, bool by_cells) const {
+  body::FieldProducts products;
+  if (by_cells)
+    cells.multiply_by_field(x, products);
+  else
+    op.multiply_by_field(x, products);
+  return products;
+}
+
+template <int dim>
 std::span<const double> Model<dim>::carried(std::span<const double> before, double time,
                                             std::vector<double> &carried) const {
   if (!laws.has_moving_foundation())

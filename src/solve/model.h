@@ -64,6 +64,8 @@ struct Model {
   void add_loads(double t, std::vector<double> &right_side) const;
   /// K x of the step; cell by cell, where the round-off of assembled entries would stay unseen.
   std::vector<double> product(std::span<const double> x, bool by_cells) const;
+  /// Of the storage operator, likewise.
+  body::FieldProducts products_by_field(std::span<const double> x, bool by_cells) const;
 
  private:
   void add_capacitors();

@@ -143,8 +143,11 @@ StepOutcome MonolithicRoute<dim>::advance(double time, std::span<const double> r
   exchange_.end_step(
       x_.body, [&](std::size_t node) { return crossing[node]; }, outcome);
   std::copy(x_.body.begin(), x_.body.end(), state.begin());
-  if (outgrew_measured<dim>(state))
+  if (outgrew_measured<dim>(state)) {
+    Stopwatch watch;
     see_forward_error(accuracy(right_side, state, outcome).forward_error);
+    so_far_.estimate_seconds += watch.lap();
+  }
   return outcome;
 }
 

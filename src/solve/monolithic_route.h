@@ -10,7 +10,8 @@ namespace tourmaline::solve {
 /// The paper's route, section 3.2: Newton's method (43), (44) on all unknowns and multipliers of
 /// the augmented Lagrangian system (37), whose tangent is assembled and factorised in every
 /// iteration. Where this iteration does not settle, steps of the method of multipliers on the same
-/// augmented Lagrangian, which converge from any start, bring it near enough (docs/monolithic.md).
+/// augmented Lagrangian, which with exact minimisations converge from any start, bring it near
+/// enough (docs/monolithic.md).
 ///
 /// Throws CaseError where the multipliers asked for are not determined.
 template <int dim>

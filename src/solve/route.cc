@@ -81,16 +81,16 @@ RouteReport Route::report() const {
 
 void Route::save(output::SavedNumbers &numbers) const {
   const RouteReport now = report();
-  numbers.put("route",
-              {now.backward_error, now.forward_error, double(now.is_refined),
-               double(now.factorisations), now.factorise_seconds, now.substitution_seconds,
-               now.contact_seconds, double(now.krylov_iterations), double(now.krylov_largest),
-               double(now.safe_steps), measured_[0], measured_[1], measured_[2]});
+  numbers.put("route", {now.backward_error, now.forward_error, double(now.is_refined),
+                        double(now.factorisations), now.factorise_seconds, now.substitution_seconds,
+                        now.contact_seconds, double(now.krylov_iterations),
+                        double(now.krylov_largest), double(now.safe_steps), measured_[0],
+                        measured_[1], measured_[2], now.estimate_seconds});
   save_memory(numbers);
 }
 
 void Route::restore(const output::SavedNumbers &numbers, bool of_other_step) {
-  const auto before = numbers.get("route", 13);
+  const auto before = numbers.get("route", 14);
   so_far_.backward_error = before[0];
   so_far_.forward_error = before[1];
   if (before[2] != 0 && !is_refined())
@@ -102,7 +102,8 @@ void Route::restore(const output::SavedNumbers &numbers, bool of_other_step) {
   so_far_.krylov_iterations = static_cast<std::size_t>(before[7]);
   so_far_.krylov_largest = static_cast<int>(before[8]);
   so_far_.safe_steps = static_cast<int>(before[9]);
-  std::copy(before.begin() + 10, before.end(), measured_.begin());
+  std::copy_n(before.begin() + 10, measured_.size(), measured_.begin());
+  so_far_.estimate_seconds = before[13];
   restore_memory(numbers);
   if (of_other_step)
     forget_matrices();
@@ -132,6 +133,7 @@ void Route::take_over(const Handover &other) {
   so_far_.condense_seconds = all.condense_seconds + (is_counted_ ? 0 : so_far_.condense_seconds);
   so_far_.substitution_seconds = all.substitution_seconds - own.substitution_seconds;
   so_far_.contact_seconds = all.contact_seconds;
+  so_far_.estimate_seconds = all.estimate_seconds;
   so_far_.krylov_iterations = all.krylov_iterations;
   so_far_.krylov_largest = all.krylov_largest;
   so_far_.safe_steps = all.safe_steps;

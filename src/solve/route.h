@@ -71,6 +71,7 @@ struct RouteReport {
   int factorisations = 0;
   double analyse_seconds = 0, factorise_seconds = 0, condense_seconds = 0;
   double substitution_seconds = 0, contact_seconds = 0;  ///< over all steps
+  double estimate_seconds = 0;                           ///< of errors, likewise
   std::size_t unknowns = 0, electric_and_thermal_unknowns = 0;
   long long factor_entries = 0;
   double factor_flops = 0;

@@ -32,8 +32,8 @@ struct SaddleSettings {
 
 /// Newton's method (43), (44) for one step, from the prediction. Its tangent jumps where points
 /// begin to stick or slip, so it may cycle; then steps of the method of multipliers on the same
-/// augmented Lagrangian, which alone converge from any start, move lambda_tau towards the solution,
-/// until Newton's method settles.
+/// augmented Lagrangian, which alone, with exact minimisations, converge from any start, move
+/// lambda_tau towards the solution, until Newton's method settles.
 ///
 /// In a body that bends easily the forces inside are larger by many powers of ten than those that
 /// act on it, and a residual within the tolerance of the former may be all of the latter: Newton's

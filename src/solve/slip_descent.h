@@ -37,10 +37,10 @@ struct SlipProgramme {
   const std::vector<double> &curvature;     ///< by point: about the largest of its block of A [N/m]
 };
 
-/// Descent in the same programme, from any start to its only minimiser: proximal gradient steps,
-/// whose length is found so that they descend, each followed by truncated Newton steps that the
-/// programme's value accepts (docs/theory.md, section 7). At the end `response` was asked for the
-/// increment that is returned.
+/// Descent in the same programme, with exact responses from any start to its only minimiser:
+/// proximal gradient steps, whose length is found so that they descend, each followed by truncated
+/// Newton steps that the programme's value accepts (docs/theory.md, section 7). At the end
+/// `response` was asked for the increment that is returned.
 InterfaceSolution minimise(const SlipProgramme &programme, SlipResponse &response,
                            Eigen::VectorXd start, const InterfaceSettings &settings);
 

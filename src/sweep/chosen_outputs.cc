@@ -45,7 +45,7 @@ std::string joined(const std::vector<std::string> &names, bool places) {
   return text;
 }
 
-/// Reads what stands after `--output`.
+/// Reads what stands after `--columns`.
 class Chooser {
  public:
   Chooser(std::vector<Output> possible, double end) : possible_(std::move(possible)), end_(end) {
@@ -69,7 +69,7 @@ class Chooser {
 
  private:
   [[noreturn]] void fail(const std::string &name, const std::string &reason) const {
-    throw CaseError("--output " + casefile::shortened(name) + ": " + reason);
+    throw CaseError("--columns " + casefile::shortened(name) + ": " + reason);
   }
 
   [[noreturn]] void fail_unknown(const std::string &name, const std::string &before,
@@ -83,7 +83,7 @@ class Chooser {
              "; allowed: " + joined(names_, false) +
              ", each also as min:NAME, max:NAME, mean:NAME, rms:NAME, last:NAME or NAME@TIME, "
              "the first four also over a part of the time, mean:NAME@FROM..TO" +
-             ", and " + joined(names_, true) + "; the folder of a study is said by -o or --folder");
+             ", and " + joined(names_, true) + "; the folder of a study is said by -o or --output");
   }
 
   // WORD:NAME@FROM..TO
@@ -182,7 +182,7 @@ std::vector<Output> chosen_outputs(const std::vector<std::string> &names,
     Output output = chooser.choose(name);
     if (std::any_of(chosen.begin(), chosen.end(),
                     [&](const Output &before) { return is_same(before, output); }))
-      throw CaseError("--output " + name + ": is asked for twice");
+      throw CaseError("--columns " + name + ": is asked for twice");
     chosen.push_back(std::move(output));
   }
   return chosen;

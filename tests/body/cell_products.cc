@@ -67,12 +67,6 @@ void expect_products_of_the_operator(CellShape shape, int degree, Modes modes = 
   const std::vector<double> sizes = of.op.sizes(0.01, x);
   for (std::size_t i = 0; i < x.size(); ++i)
     EXPECT_NEAR(found[i], expected[i], 1e-13 * sizes[i]) << i;
-  std::fill(expected.begin(), expected.end(), 0.);
-  std::fill(found.begin(), found.end(), 0.);
-  of.op.add_history(x, expected);
-  of.cells.add_history(x, found);
-  for (std::size_t i = 0; i < x.size(); ++i)
-    EXPECT_NEAR(found[i], expected[i], 1e-13 * sizes[i]) << i;
   FieldProducts of_operator, of_cells;
   of.op.multiply_by_field(x, of_operator);
   of.cells.multiply_by_field(x, of_cells);

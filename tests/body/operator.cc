@@ -157,7 +157,9 @@ TEST(Operator, RowsColumnsAndHistoryArePartsOfTheSameMatrix) {
   std::vector<double> kx(n), storage_x(n), history(n, 0.);
   op.multiply(0.01, x, kx);
   op.multiply(0, x, storage_x);
-  op.add_history(x, history);
+  FieldProducts products;
+  op.multiply_by_field(x, products);
+  add_history<2>(products, history);
   const double size = std::sqrt(dot(kx, kx));
   for (std::size_t i = 0; i < n; ++i) {
     EXPECT_NEAR(op.row_times(i, 0.01, x), kx[i], 1e-13 * size);

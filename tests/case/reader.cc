@@ -232,8 +232,11 @@ TEST(Override, MakesTheFirstEntryOfAnArray) {
   const std::string without = cube.substr(0, cube.find("[[boundary]]"));
   const Case c = read_text(
       without, "cube.toml",
-      {"boundary[0].on=bottom", "boundary[0].displacement=[0,0,0]", "boundary[0].potential=0"});
-  EXPECT_EQ(c.boundaries.size(), 1u);
+      {"boundary[0].on=bottom", "boundary[0].displacement=[0,0,0]", "boundary[0].potential=2"});
+  ASSERT_EQ(c.boundaries.size(), 1u);
+  EXPECT_EQ(c.boundaries[0].on, std::vector<std::string>{"bottom"});
+  EXPECT_TRUE(c.boundaries[0].displacement->at(2)->is_zero());
+  EXPECT_EQ(c.boundaries[0].potential->value({}, 0), 2);
 }
 
 TEST(Override, ABareWordIsAText) {

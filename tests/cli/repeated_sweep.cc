@@ -112,7 +112,7 @@ TEST_F(Sweep, AMemberWithoutItsPageIsNotDone) {
 
 TEST_F(Sweep, AMemberWhoseTableWasCutIsRunAgain) {
   const std::string study =
-      "sweep small.toml --vary contact.friction.bound=5,15 --output max:slip -q -o study";
+      "sweep small.toml --vary contact.friction.bound=5,15 --columns max:slip -q -o study";
   ASSERT_EQ(run(study), 0);
   const std::string table = content_of(here() / "study/sweep.csv");
   const std::filesystem::path history = here() / "study/bound=15/history.csv";
@@ -125,7 +125,7 @@ TEST_F(Sweep, AMemberWhoseTableWasCutIsRunAgain) {
 
 TEST_F(Sweep, AMemberWhoseResultsAnotherRunReplacedIsRunAgain) {
   const std::string study =
-      "sweep small.toml --vary contact.friction.bound=5,15 --output max:slip,load_y -o study";
+      "sweep small.toml --vary contact.friction.bound=5,15 --columns max:slip,load_y -o study";
   ASSERT_EQ(run(study), 0);
   const auto first = ends(here() / "study");
   const std::string table = content_of(here() / "study/sweep.csv"),

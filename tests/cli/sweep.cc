@@ -14,7 +14,7 @@ using testing::HasSubstr;
 
 TEST_F(Sweep, ATablesRowHoldsWhatARunOfItsOwnSays) {
   ASSERT_EQ(run("sweep small.toml --vary contact.friction.bound=15,30 --vary time.steps=2,3 "
-                "--output slip,max_displacement,at_max_potential_y -o study"),
+                "--columns slip,max_displacement,at_max_potential_y -o study"),
             0);
   EXPECT_EQ(complained_, "");
   EXPECT_EQ(said_, "4 cases: 0 done before, 0 failed\nstudy/sweep.csv\nstudy/sweep.svg\n");
@@ -59,7 +59,7 @@ TEST_F(Sweep, TheFolderIsNamedAfterTheCase) {
 }
 
 TEST_F(Sweep, WhatIsTakenOfAColumnIsWhatItsHistoryHolds) {
-  ASSERT_EQ(run("sweep small.toml --vary contact.friction.bound=5,15 --output "
+  ASSERT_EQ(run("sweep small.toml --vary contact.friction.bound=5,15 --columns "
                 "slip,max:slip,min:friction_dissipation,mean:friction_dissipation,"
                 "rms:friction_dissipation,friction_dissipation@0.5,friction_dissipation@0.625 "
                 "-o study"),

@@ -22,21 +22,28 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 HERE = ROOT / "tests/mutation"
 # Whose tests are asked, in this order, from that of the fault's own room on.
-ROOMS = ["contact", "condensation", "solve", "cases", "verification", "cli", "parallel"]
+ROOMS = ["body", "contact", "condensation", "solve", "cases", "verification", "cli", "parallel"]
 # These start the program.
 WITH_PROGRAM = {"cli", "parallel"}
 # Of processor time. A run that a fault keeps from ending is found by that.
 MOST_SECONDS = 1800
 
 
-def faults_of(path):
-    faults = tomllib.loads(path.read_text())["fault"]
-    for fault in faults:
-        count = (ROOT / "src" / fault["file"]).read_text().count(fault["text"])
-        if count != 1:
-            raise SystemExit(f"{path.name}: this text is {count} times in src/{fault['file']}, and must be there once:\n"
-                             f"{fault['text']}")
-    return faults
+def listed(path=HERE / "faults.toml"):
+    return tomllib.loads(path.read_text())["fault"]
+
+
+def complaint_of(fault):
+    """Why the fault cannot be seeded; None when it can."""
+    source = ROOT / "src" / fault["file"]
+    if source.suffix != ".cc" or not source.exists():
+        return f"src/{fault['file']} is no source, of which a faulty copy could be compiled"
+    if (count := source.read_text().count(fault["text"])) != 1:
+        return f"this text is {count} times in src/{fault['file']}, and must be there once:\n{fault['text']}"
+    for room, _ in rooms_to_ask(fault):
+        if not (ROOT / "tests" / room).is_dir() or room not in ROOMS:
+            return f"there are no tests of {room} to ask about src/{fault['file']}"
+    return None
 
 
 class Build:
@@ -46,12 +53,14 @@ class Build:
         self.folder, self.scratch = folder, scratch
         commands = json.loads((folder / "compile_commands.json").read_text())
         self.compile = {entry["file"]: shlex.split(entry["command"]) for entry in commands}
-
+        self.joined = {source: file for file in self.compile if "/joined/" in file for source in included_by(file)}
         self.linker = "-fuse-ld=lld" if shutil.which("ld.lld") else ""
-        self.read_headers()
+        if not self.joined:
+            self.read_headers()
 
     def compiled(self, source, *options):
-        command = [part for part in self.compile[str(source)] if not part.endswith("ccache")]
+        of = self.joined.get(str(source), str(source))
+        command = [part for part in self.compile[of] if not part.endswith("ccache")]
         start, end = command.index("-o"), command.index("-c")
         # What is unused now must not keep it from being compiled.
         command = [*command[:start], *command[start + 2 : end], *command[end + 2 :], "-w", *options]
@@ -68,10 +77,16 @@ class Build:
         some = next(source for source in self.compile if source.startswith(str(ROOT / "src/solve")))
         self.compiled(some, "-x", "c++-header", "all.h", "-o", "all.h.gch").check_returncode()
 
-    def object_of(self, source, text, name):
+    def object_of(self, source, text, name, joined=False):
+        """Of the source alone, or as the build joins it with others."""
         faulty = self.scratch / f"{name}.cc"
         faulty.write_text(text)
-        done = self.compiled(source, "-include", "all.h", "-iquote", source.parent, "-c", faulty, "-o", f"{name}.o")
+        if joined:
+            others = Path(self.joined[str(source)]).read_text()
+            faulty = self.scratch / f"{name}-joined.cc"
+            faulty.write_text(others.replace(f'"{source}"', f'"{name}.cc"'))
+        headers = [] if self.joined else ["-include", "all.h"]
+        done = self.compiled(source, *headers, "-iquote", source.parent, "-c", faulty, "-o", f"{name}.o")
         if done.returncode != 0:
             raise SystemExit(f"{name} cannot be compiled, so nothing is known of it:\n{done.stderr}")
         return self.scratch / f"{name}.o"
@@ -82,9 +97,17 @@ class Build:
         made = self.scratch / name / Path(target).name
         made.parent.mkdir(exist_ok=True)
         line = next(line for line in reversed(commands.splitlines()) if f" -o {target} " in line)
-        line = line.replace(f" -o {target} ", f" {self.linker} {in_front} -o {made} ")
+        # Of what stands in the library beside others that are needed the first is taken.
+        twice = "-Wl,-z,muldefs" if self.joined else ""
+        line = line.replace(f" -o {target} ", f" {self.linker} {twice} {in_front} -o {made} ")
         subprocess.run(line, cwd=self.folder, shell=True, check=True)
         return made
+
+
+def included_by(file):
+    """The sources that a build without ccache has made into one (cmake/Join.cmake)."""
+    path = Path(file)
+    return re.findall(r'^#include "(/.*)"$', path.read_text(), re.M) if path.exists() else []
 
 
 def limit():
@@ -107,10 +130,12 @@ def failing_test(executable, tests, program):
 
 
 class Found:
-    """What earlier runs have found, for faults and sources that have not changed since."""
+    """What earlier runs have found, and on which commits, for faults and sources that have not changed since."""
 
     def __init__(self, file):
         self.file = file
+        self.commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, capture_output=True, text=True,
+                                     check=True).stdout.strip()
         self.by_text = json.loads(file.read_text()) if file.exists() else {}
 
     @staticmethod
@@ -123,42 +148,45 @@ class Found:
 
     def put(self, fault, test):
         if test:
-            self.by_text[self.key(fault)] = test
+            self.by_text[self.key(fault)] = {"test": test, "commit": self.commit}
             self.file.write_text(json.dumps(self.by_text, indent=1))
 
 
 def rooms_to_ask(fault):
-    own = ROOMS.index(fault["file"].split("/")[0])
-    begin = fault.get("begin", ROOMS[own]).split()
-    return [(begin[0], begin[1] if len(begin) > 1 else "*"), *((room, "*") for room in ROOMS[own:])]
+    """Rooms, and of each which of its tests."""
+    room = fault["file"].split("/")[0]
+    behind = ROOMS[ROOMS.index(room) :] if room in ROOMS else [room]
+    begin = fault.get("begin", room).split()
+    return [(begin[0], begin[1] if len(begin) > 1 else "*"), *((room, "*") for room in behind)]
 
 
 def found_by(build, number, fault, few):
     """Which test of which room finds the fault; None when none does."""
     source = ROOT / "src" / fault["file"]
     name = f"fault{number}"
-    faulty = build.object_of(source, source.read_text().replace(fault["text"], fault["seeded"]), name)
-    for room, tests in rooms_to_ask(fault)[: 2 if few else None]:
-        program = build.link("apps/tourmaline/tourmaline", faulty, name) if room in WITH_PROGRAM else None
-        if test := failing_test(build.link(f"tests/test_{room}", faulty, name), tests, program):
-            return f"`{room}`: {test}"
+    # Alone it is compiled in a fraction of the time; but where sources are joined, what others have taken into
+    # themselves stays sound.
+    for joined in (False, True) if str(source) in build.joined else (False,):
+        faulty = build.object_of(source, source.read_text().replace(fault["text"], fault["seeded"]), name, joined)
+        for room, tests in rooms_to_ask(fault)[: 2 if few else None]:
+            program = build.link("apps/tourmaline/tourmaline", faulty, name) if room in WITH_PROGRAM else None
+            if test := failing_test(build.link(f"tests/test_{room}", faulty, name), tests, program):
+                return f"`{room}`: {test}"
     return None
 
 
-def page(faults, found):
-    commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, capture_output=True, text=True,
-                            check=True).stdout.strip()
-    rows = "\n".join(f"| `{fault['file']}` | {fault['wrong']} | {test or '**none**'} |"
-                     for fault, test in zip(faults, found))
+def page(faults, runs):
+    rows = "\n".join(f"| `{fault['file']}` | {fault['wrong']} | {run['test'] if run else '**none**'} | "
+                     f"{run['commit'] if run else ''} |" for fault, run in zip(faults, runs))
     return f"""# Seeded faults
 
 Written by `./dev mutate`, which seeds faults of [tests/mutation/faults.toml](../tests/mutation/faults.toml) one after
-another into a copy of one source and runs tests until one fails. Here: {len(faults)} faults, {len(faults) - found.count(None)} of them found, on
-commit {commit}. A fault is looked for in its own room's tests first, then in those of the rooms behind it; the table has the first
-test that failed.
+another into a copy of one source and runs tests until one fails. Here: {len(faults)} faults, {len(faults) - runs.count(None)} of them found. A
+fault is looked for in its own room's tests first, then in those of the rooms behind it; the table has the first
+test that failed and the commit on which it did.
 
-| file below `src/` | what is wrong there | found by |
-|---|---|---|
+| file below `src/` | what is wrong there | found by | on |
+|---|---|---|---|
 {rows}
 """
 
@@ -171,11 +199,13 @@ def main():
     options.add_argument("--only", default="", help="faults of files whose names match this expression")
     options.add_argument("--again", action="store_true", help="also those that were found before")
     asked = options.parse_args()
-    every = faults_of(HERE / "faults.toml")
+    every = listed()
+    if complaint := next(filter(None, map(complaint_of, every)), None):
+        raise SystemExit(f"faults.toml: {complaint}")
     faults = [fault for fault in every if re.search(asked.only, fault["file"])]
     scratch = ROOT / "build/mutation"
     scratch.mkdir(parents=True, exist_ok=True)
-    known = Found(scratch / "found.json")
+    known = Found(scratch / "found-on.json")
     faults = [fault for fault in faults if asked.again or not known.get(fault)]
     build = Build(asked.build.resolve(), scratch)
 

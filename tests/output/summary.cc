@@ -23,7 +23,7 @@ Summary whole_summary() {
   summary.is_refined = true;
   summary.extremes = {{"potential", -0., 0.1, {0, 0.5, 0}, {1, -0., 0}}};
   summary.seconds.mesh = 0.25;
-  summary.seconds.step = {2, 0.125, 2};
+  summary.seconds.step = {.total = 2, .per_step = 0.125, .substitutions = 2, .estimates = 0.5};
   summary.peak_memory_bytes = 1 << 30;
   summary.warnings = {"coarse"};
   return summary;
@@ -82,7 +82,8 @@ TEST(SummaryText, ItHasTheKeysOfTheContractInTheirOrder) {
       "total": 2.0,
       "per_step": 0.125,
       "substitutions": 2.0,
-      "contact": null
+      "contact": null,
+      "estimates": 0.5
     },
     "output": null,
     "total": null

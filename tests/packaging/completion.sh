@@ -42,7 +42,7 @@ offers 'tourmaline run first.toml --set contact.friction.' contact.friction.law=
 offers 'tourmaline run first.toml --set "boundary[2].tr' 'boundary[2].traction='
 offers 'tourmaline run first.toml --set solver.method=' condensed monolithic
 offers 'tourmaline run first.toml --set region[3].material.symmetry=c' cubic
-offers 'tourmaline sweep first.toml --output sl' slip
-offers 'tourmaline sweep first.toml --output slip,max:friction_d' friction_dissipation
-offers 'tourmaline sweep first.toml --output slip,me' slip,mean:
+offers 'tourmaline sweep first.toml --columns sl' slip
+offers 'tourmaline sweep first.toml --columns slip,max:friction_d' friction_dissipation
+offers 'tourmaline sweep first.toml --columns slip,me' slip,mean:
 exit $wrong

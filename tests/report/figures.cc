@@ -9,6 +9,7 @@
 #include <set>
 
 #include "../output/temporary_folder.h"
+#include "drawn.h"
 #include "report/number_text.h"
 #include "report/raster.h"
 #include "report/scale.h"
@@ -61,14 +62,49 @@ TEST_F(Figures, TheSameResultsMakeTheSameFigure) {
   EXPECT_TRUE(first == output::content_of(file));
 }
 
+/// What stands at a field's colour bar: numbers, of the largest three digits, and the unit.
+std::vector<Written> bar_of(const Result &result, const Field &field, std::size_t component) {
+  const ShownRange shown = shown_range(result, field, component);
+  const auto [low, high, diverging] = colour_range(shown.low, shown.high);
+  const double size = std::max(-low, high), digit = std::pow(10, std::floor(std::log10(size)) - 2);
+  std::vector<Written> texts;
+  for (int i = 0; i < 5; ++i) {
+    const double value = std::round((low + i / 4. * (high - low)) / digit) * digit;
+    const char *beyond = i == 0 && shown.cut_below ? "≤ " : i == 4 && shown.cut_above ? "≥ " : "";
+    texts.push_back({beyond + number_text(value / std::pow(10, shown_power(size)), 3), 7});
+  }
+  texts.push_back({unit_text(shown_power(size), field.unit), 7.5});
+  return texts;
+}
+
 TEST_F(Figures, AFieldAComponentAndAMomentCanBeChosen) {
-  const auto png = [&](std::optional<double> time) {
-    return output::content_of(
-        write_figures(run.path(), out.path(), {FigureFormat::png, {"stress.xy"}, time}).front());
+  struct Moment {
+    std::optional<double> asked;
+    double recorded;
+    std::string text;
   };
-  EXPECT_TRUE(std::filesystem::exists(
-      write_figures(run.path(), out.path(), {FigureFormat::png, {"stress.xy"}, {}}).front()));
-  EXPECT_FALSE(png(0.07) == png(0.2));
+  std::set<std::string> bars;
+  const auto expect_drawn = [&](const Moment &moment, const Field &field, std::size_t component) {
+    const std::string &name = field.components[component];
+    const auto files = write_figures(run.path(), out.path(),
+                                     {FigureFormat::svg, {field.name + "." + name}, moment.asked});
+    EXPECT_EQ(names_of_files(files), std::vector<std::string>{field.name + "_" + name + ".svg"});
+    const std::string svg = output::content_of(files.front());
+    const std::string title = (field.name == "stress" ? "Stress " : "Displacement ") + name +
+                              ", t = " + moment.text + " s";
+    EXPECT_TRUE(shows(svg, {{title, 9.5, true}})) << title;
+    const Result result = read_result(run.path(), {0, moment.recorded, true});
+    const std::vector<Written> bar = bar_of(result, *result.field(field.name), component);
+    EXPECT_TRUE(shows(svg, bar)) << title << ": " << bar[0].text << " to " << bar[4].text;
+    bars.insert(bar[0].text + " to " + bar[4].text);
+  };
+  const Result any = read_result(run.path(), {0, std::nullopt, true});
+  for (const Moment &moment :
+       {Moment{0.07, 0.2 / 3, "0.06667"}, Moment{0.14, 0.4 / 3, "0.1333"}, Moment{{}, 0.2, "0.2"}})
+    for (const char *name : {"displacement", "stress"})
+      for (std::size_t c = 0; c < any.field(name)->components.size(); ++c)
+        expect_drawn(moment, *any.field(name), c);
+  EXPECT_EQ(bars.size(), 3U * (2 + 4));
 }
 
 TEST_F(Figures, AMomentOutsideOfTheRunIsRefused) {
@@ -105,30 +141,68 @@ TEST_F(Figures, AnUnknownFieldIsAnsweredWithTheKnownOnes) {
   EXPECT_THROW(figure_format("gif"), CaseError);
 }
 
+/// That marks stand by these numbers, in one direction of the paper.
+void expect_by(const std::vector<Place> &marks, int direction, const std::vector<double> &numbers) {
+  ASSERT_EQ(marks.size(), numbers.size());
+  const auto [least, greatest] = std::minmax_element(numbers.begin(), numbers.end());
+  const double from = marks[least - numbers.begin()][direction],
+               to = marks[greatest - numbers.begin()][direction];
+  // 1e-3 pt: the file has six digits.
+  for (std::size_t i = 0; i < marks.size(); ++i)
+    EXPECT_NEAR(
+        marks[i][direction] - from,
+        *least == *greatest ? 0 : (to - from) * (numbers[i] - *least) / (*greatest - *least), 1e-3);
+  if (*least < *greatest) {
+    EXPECT_GT(direction == 0 ? to - from : from - to, 50);
+  }
+}
+
 TEST_F(Figures, CurvesAlongTheContactAreDrawnByTheirColumns) {
-  const auto svg = [&](const std::string &name, std::optional<double> time = {}) {
-    const auto files = write_figures(run.path(), out.path(), {FigureFormat::png, {name}, time});
-    EXPECT_EQ(names_of_files(files),
-              std::vector<std::string>{"contact_" + name.substr(std::string("contact.").size()) +
-                                       ".png"});
-    return output::content_of(files.front());
+  struct Curve {
+    const char *name, *title;
+    std::vector<double> values;  ///< of all rows of contact.csv
   };
-  const std::set<std::string> pictures{
-      svg("contact.pressure"),   svg("contact.pressure", 0.07), svg("contact.normal_traction"),
-      svg("contact.gap"),        svg("contact.friction_bound"), svg("contact.slip_y"),
-      svg("contact.temperature")};
-  EXPECT_EQ(pictures.size(), 7U);
+  const Result result = read_result(run.path(), {});
+  const auto column = [&](const char *name) { return *result.contact->find(name); };
+  std::vector<double> pressure = column("normal_traction");
+  for (double &value : pressure)
+    value = -value;
+  const ContactPiece &piece = result.contact_pieces.at(0);
+  for (const Curve &curve : {Curve{"pressure", "Contact pressure", pressure},
+                             {"normal_traction", "Normal traction", column("normal_traction")},
+                             {"gap", "Opening of the contact", column("gap")},
+                             {"friction_bound", "Friction bound", result.friction_bound},
+                             {"slip_y", "Slip y", column("slip_y")},
+                             {"temperature", "Temperature", column("temperature")}})
+    for (const bool first_step : {false, true}) {
+      SCOPED_TRACE(curve.name);
+      const auto files = write_figures(run.path(), out.path(),
+                                       {FigureFormat::svg,
+                                        {std::string("contact.") + curve.name},
+                                        first_step ? std::optional(0.07) : std::nullopt});
+      EXPECT_EQ(names_of_files(files),
+                std::vector<std::string>{std::string("contact_") + curve.name + ".svg"});
+      const std::string svg = output::content_of(files.front());
+      const std::string title =
+          curve.title + std::string(first_step ? ", t = 0.06667 s [" : ", t = 0.2 s [");
+      EXPECT_TRUE(shows(svg, {{title, 8.5, true}})) << title;
+      const std::size_t begin = first_step ? 0 : curve.values.size() / 3 * 2;
+      std::vector<double> values;
+      for (const std::uint32_t row : piece.rows)
+        values.push_back(curve.values.at(begin + row));
+      const std::vector<Place> points = marks(svg, drawn_lines(svg).at(0).colour);
+      expect_by(points, 0, piece.along);
+      expect_by(points, 1, values);
+    }
 }
 
 TEST_F(Figures, TheStatusOfTheContactIsDrawnWithALineAcrossForEachWord) {
   const auto files =
       write_figures(run.path(), out.path(), {FigureFormat::svg, {"contact.status"}, {}});
   EXPECT_EQ(names_of_files(files), std::vector<std::string>{"contact_status.svg"});
-  const std::string svg = output::content_of(files.front());
-  const std::size_t across = svg.find("stroke:rgb(88.6");
-  ASSERT_NE(across, std::string::npos);
-  const std::string path = svg.substr(across, svg.find("/>", across) - across);
-  EXPECT_EQ(std::count(path.begin(), path.end(), 'L'), 3) << path;
+  const auto across = drawn_lines(output::content_of(files.front()), "0.5");
+  ASSERT_EQ(across.size(), 1U);
+  EXPECT_EQ(across[0].pieces.size(), 3U);
 }
 
 TEST_F(Figures, CurvesStandBesideFieldsInOneRequest) {
@@ -180,12 +254,26 @@ TEST(ContactCurves, OfASolidBodyAreRefusedWithWhatThereIsInstead) {
 }
 
 TEST_F(Figures, TheSettingShowsThePoling) {
-  const auto setting = [&](const std::string &poling) {
-    const ResultFolder turned({"time.steps=1", "material.poling=" + poling}, "[8, 8]");
-    return output::content_of(
-        write_figures(turned.path(), out.path(), {FigureFormat::png, {}, {}}).front());
-  };
-  EXPECT_FALSE(setting("[0, 1]") == setting("[0, -1]"));
+  for (const auto &[x, y] : {Place{0, 1}, Place{0, -1}, Place{-0.6, 0.8}}) {
+    const ResultFolder turned(
+        {"time.steps=1", "material.poling=[" + std::to_string(x) + ", " + std::to_string(y) + "]"},
+        "[8, 8]");
+    const std::string svg =
+        output::content_of(write_figures(turned.path(), out.path(), {}).front());
+    std::vector<std::vector<Place>> heads;  // of arrows
+    for (const DrawnArea &area : drawn_areas(svg))
+      if (area.corners.size() == 3)
+        heads.push_back(area.corners);
+    ASSERT_GT(heads.size(), 20U);
+    heads.pop_back();  // the legend's
+    for (const auto &head : heads) {
+      const double along = head[0][0] - (head[1][0] + head[2][0]) / 2,
+                   down = head[0][1] - (head[1][1] + head[2][1]) / 2;
+      // 1e-3: the file has six digits.
+      EXPECT_NEAR(along / std::hypot(along, down), x, 1e-3);
+      EXPECT_NEAR(-down / std::hypot(along, down), y, 1e-3);
+    }
+  }
 }
 
 TEST(FiguresOfARunWithoutFields, AreRefusedWithTheReason) {

@@ -3,13 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
-#include <regex>
 #include <set>
-#include <sstream>
 
 #include "../output/temporary_folder.h"
+#include "drawn.h"
 #include "report/ticks.h"
 
 namespace tourmaline::report {
@@ -61,44 +59,6 @@ TEST_F(PlotFile, EachFormatIsWhatItsNameSays) {
   EXPECT_THAT(written(FigureFormat::png), StartsWith("\x89PNG"));
 }
 
-// The lines of the data in an SVG file, and apart from them those of its legend: colour and points.
-struct DrawnLine {
-  std::string colour;
-  std::vector<std::vector<std::array<double, 2>>> pieces;
-};
-
-DrawnLine drawn_line(const std::string &colour, const std::string &path) {
-  DrawnLine line{colour, {}};
-  std::istringstream words(path);
-  std::string word;
-  while (words >> word) {
-    if (word == "M")
-      line.pieces.emplace_back();
-    std::array<double, 2> point{};
-    words >> point[0] >> point[1];
-    line.pieces.back().push_back(point);
-  }
-  return line;
-}
-
-// The styles stand in one attribute or, from cairo 1.18 on, each in its own.
-std::vector<DrawnLine> drawn_lines(const std::string &svg) {
-  const std::regex of_data(
-      R"re(stroke-width(?::|=")1\.1[;"][^>]*stroke(?::|=")(rgb\([^)]*\))[^>]* d="([^"]*)")re");
-  std::vector<DrawnLine> lines;
-  for (std::sregex_iterator at(svg.begin(), svg.end(), of_data), end; at != end; ++at)
-    lines.push_back(drawn_line((*at)[1], (*at)[2]));
-  return lines;
-}
-
-std::size_t marks(const std::string &svg, const std::string &colour) {
-  std::size_t count = 0;
-  for (const std::string &filled : {"fill:" + colour, "fill=\"" + colour})
-    for (std::size_t at = svg.find(filled); at != std::string::npos; at = svg.find(filled, at + 1))
-      ++count;
-  return count;
-}
-
 // Ratio of the two distances between the three points of the first line.
 double spacing(const std::string &svg) {
   const auto points = drawn_lines(svg).at(0).pieces.at(0);
@@ -124,8 +84,8 @@ TEST_F(PlotFile, AGapIsNotDrawnAndLeavesTheOtherLineAsItWas) {
       for (const auto &piece : line.pieces)
         strokes += piece.size() > 1;
   EXPECT_EQ(strokes, 1);
-  EXPECT_EQ(marks(svg, whole.at(0).colour), 2 + 1);
-  EXPECT_EQ(marks(svg, whole.at(1).colour), 3 + 1);
+  EXPECT_EQ(marks(svg, whole.at(0).colour).size(), 2 + 1);
+  EXPECT_EQ(marks(svg, whole.at(1).colour).size(), 3 + 1);
 }
 
 TEST_F(PlotFile, OnePointIsAMarkAndNoPointNone) {
@@ -133,14 +93,20 @@ TEST_F(PlotFile, OnePointIsAMarkAndNoPointNone) {
   for (const double value : {0., 5., -1e-300, 1e300, std::nan("")}) {
     plot.abscissae = {7};
     plot.panels[0].lines = {{value}, {value}};
-    EXPECT_EQ(marks(written(FigureFormat::svg), colour), (std::isnan(value) ? 0 : 1) + 1) << value;
+    EXPECT_EQ(marks(written(FigureFormat::svg), colour).size(), (std::isnan(value) ? 0 : 1) + 1)
+        << value;
   }
 }
 
 TEST_F(PlotFile, LogarithmsSpanAllNumbers) {
   plot.logarithmic = true;
   plot.abscissae = {1e-300, 1, 1e300};
-  EXPECT_THAT(written(FigureFormat::svg), StartsWith("<?xml"));
+  plot.panels[0].lines[0] = {0, 2, 1};
+  const std::string svg = written(FigureFormat::svg);
+  EXPECT_NEAR(spacing(svg), 1, 1e-3);
+  // Of the frame's 210 points 6 % of what is shown are left free at either end.
+  const auto points = drawn_lines(svg).at(0).pieces.at(0);
+  EXPECT_NEAR(points.at(2)[0] - points.at(0)[0], 210 / 1.12, 1e-3);
 }
 
 TEST_F(PlotFile, ManyLinesHaveAsManyColours) {

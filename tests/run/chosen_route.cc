@@ -39,7 +39,7 @@ class WayBack : public ::testing::Test {
                     const Advance &advance) {
     State right_side(model.n_unknowns(), 0.), next = before;
     model.loads.integrate(model.time(n), right_side);
-    model.op.add_history(before, right_side);
+    body::add_history<3>(model.products_by_field(before, false), right_side);
     advance(n, right_side, before, next);
     return next;
   }
@@ -114,7 +114,7 @@ class SeveralSizes : public ::testing::TestWithParam<const char *> {
     route.begin_step(n);
     State right_side(model.n_unknowns(), 0.), next = before;
     model.loads.integrate(model.time(n), right_side);
-    model.op.add_history(before, right_side);
+    body::add_history<2>(model.products_by_field(before, false), right_side);
     route.advance(n, right_side, before, next);
     return next;
   }

@@ -61,7 +61,7 @@ class Reference {
     const auto n = static_cast<Index>(state_.size());
     std::vector<double> loads(state_.size(), 0.);
     model_.loads.integrate(time, loads);
-    model_.op.add_history(state_, loads);
+    body::add_history<dim>(model_.products_by_field(state_, false), loads);
     VectorXd b = VectorXd::Zero(n_rows_);
     b.head(n) = scale_.cwiseProduct(VectorXd::Map(loads.data(), n));
     for (std::size_t k = 0; k < model_.prescribed.size(); ++k) {

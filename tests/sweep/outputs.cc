@@ -104,7 +104,7 @@ TEST(ChosenOutputs, OneOfTheCasesHasToHaveThem) {
   // Only the conductive foundation takes heat.
   EXPECT_EQ(chosen_outputs({"heat_left"}, paper()).size(), 1u);
   EXPECT_THAT([] { chosen_outputs({"heat_left"}, {paper().front()}); },
-              ThrowsMessage<CaseError>(HasSubstr("--output heat_left: no column")));
+              ThrowsMessage<CaseError>(HasSubstr("--columns heat_left: no column")));
 }
 
 TEST(ChosenOutputs, AMisspeltNameIsAnsweredWithTheNearest) {
@@ -172,7 +172,7 @@ INSTANTIATE_TEST_SUITE_P(
                     WrongOutput{"max:slop", "did you mean \"max:slip\"?"},
                     WrongOutput{"slop@0.1", "did you mean \"slip@0.1\"?"},
                     WrongOutput{"max:", "no column of history.csv"},
-                    WrongOutput{"results", "the folder of a study is said by -o or --folder"},
+                    WrongOutput{"results", "the folder of a study is said by -o or --output"},
                     WrongOutput{":slip", "allowed: last:NAME"},
                     WrongOutput{"average:slip", "allowed: last:NAME, min:NAME"},
                     WrongOutput{"slip@", "write NAME@TIME"}, WrongOutput{"slip@0", "above 0"},

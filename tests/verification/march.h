@@ -28,7 +28,7 @@ March march(const solve::Model<dim> &model) {
   for (int n = 1; n <= model.asked.time.steps; ++n) {
     std::vector<double> right_side(model.n_unknowns(), 0.);
     model.loads.integrate(model.time(n), right_side);
-    model.op.add_history(at.state, right_side);
+    body::add_history<dim>(model.products_by_field(at.state, false), right_side);
     const std::vector<double> before = at.state;
     for (const body::Prescribed &p : model.prescribed)
       at.state[p.unknown] = p.value.value(p.point, model.time(n));
