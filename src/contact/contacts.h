@@ -39,6 +39,7 @@ class Contacts {
   FrictionAt friction() const;
   /// A program's own friction takes the place of the case's at all contacts.
   void replace_friction();
+  bool has_own_friction() const { return any(&ContactLaws::has_own_friction); }
   /// Steps of another k [s] follow.
   void set_step(double step);
 

@@ -67,6 +67,7 @@ class ContactLaws {
 
   /// A program's own friction takes the place of the case's.
   void replace_friction();
+  bool has_own_friction() const { return is_replaced_; }
   /// Steps of another k [s] follow.
   void set_step(double step) { step_ = step; }
 

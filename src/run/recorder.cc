@@ -9,6 +9,7 @@
 #include "parallel/ranks.h"
 #include "run/contact_sums.h"
 #include "run/step_check.h"
+#include "solve/leaning.h"
 #include "stopwatch.h"
 
 namespace tourmaline::run {
@@ -39,7 +40,7 @@ Vector<dim> tangential(const Vector<dim> &v, const Vector<dim> &normal) {
 
 template <int dim>
 Recorder<dim>::Recorder(const solve::Model<dim> &model, output::ResultFolder &folder)
-    : model_(model), folder_(folder), probes_(model) {
+    : model_(model), folder_(folder), judgement_(solve::left_to_contact(model)), probes_(model) {
   for (std::size_t c = 0; c < model.laws.size(); ++c)
     linear_.push_back({model.laws[c].linear(contact::Crossing::heat),
                        model.laws[c].linear(contact::Crossing::charge)});
@@ -275,7 +276,8 @@ std::vector<output::ContactRow> Recorder<dim>::contact_rows(int n,
       if (by_node.size() > 0)
         rows.back().quantities.emplace_back(name, by_node[static_cast<Eigen::Index>(i)]);
     };
-    put("friction_bound", outcome.friction_bound);
+    if (!model_.laws.has_own_friction())  // of which nobody knows one
+      put("friction_bound", outcome.friction_bound);
     put("accumulated_slip", outcome.accumulated_slip);
   }
   return rows;

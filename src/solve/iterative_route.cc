@@ -44,15 +44,35 @@ void IterativeRoute<dim>::take_back() {
   take_contact_back();
 }
 
-// The change of the last step once more, at its rate.
+// How the foundation carries a body that only contact holds along in the step to that time, on
+// average.
+template <int dim>
+typename Model<dim>::Vector IterativeRoute<dim>::carried_to(double time) const {
+  typename Model<dim>::Vector moved = Model<dim>::Vector::Zero();
+  if (left_to_contact_.empty() || !model_.laws.has_moving_foundation())
+    return moved;
+  for (const contact::InterfaceNode<dim> &at : model_.interface)
+    moved += model_.foundation(at, time) - model_.foundation(at, model_.time_before(time));
+  return moved / static_cast<double>(model_.interface.size());
+}
+
+// The body is carried along; the rest is the change of the last step once more, at its rate.
 template <int dim>
 void IterativeRoute<dim>::predict(std::span<const double> before) {
+  using Vector = typename Model<dim>::Vector;
   const int n = model_.steps.number(time_);
   const double times = n > 1 ? model_.step / model_.steps.size(n - 1) : 1;
-  if (!two_before_.empty() && !std::exchange(is_predicted_, false))
-    for (std::size_t i = 0; i < state_.size(); ++i)
-      if (!is_prescribed_[i])
-        state_[i] += times * (before[i] - two_before_[i]);
+  const bool is_new = !std::exchange(is_predicted_, false), goes_on = !two_before_.empty();
+  const Vector now = carried_to(time_),
+               last = goes_on ? carried_to(model_.time_before(time_)) : Vector::Zero().eval();
+  for (std::size_t i = 0; is_new && i < state_.size(); ++i) {
+    if (is_prescribed_[i])
+      continue;
+    const auto c = static_cast<Eigen::Index>(i % body::Fields<dim>::count);
+    state_[i] += c < dim ? now[c] - times * last[c] : 0;
+    if (goes_on)
+      state_[i] += times * (before[i] - two_before_[i]);
+  }
   two_before_.assign(before.begin(), before.end());
 }
 

@@ -68,6 +68,7 @@ class IterativeRoute : public Route {
   virtual void save_contact(output::SavedNumbers &numbers) const = 0;
   virtual void restore_contact(const output::SavedNumbers &numbers) = 0;
 
+  typename Model<dim>::Vector carried_to(double time) const;
   void predict(std::span<const double> before);
   void check_held() const;
   void measure();

@@ -12,6 +12,7 @@ namespace tourmaline::solve {
 namespace {
 
 constexpr double dubious = 1e-6, wrong = 0.1;
+constexpr double unheld = 1e-5;  // of forces on a body that slides
 
 constexpr std::array titles{"the balance of energy", "the balance of forces",
                             "the balance of charges", "the balance of heat"};
@@ -40,6 +41,7 @@ void Judgement::step(int n, double time,
   for (const auto &[name, value] : imbalances) {
     const auto i = std::find(names.begin(), names.end(), name) - names.begin();
     const double size = std::abs(value);
+    require_held(n, time, name, size);
     if (!(size <= wrong)) {
       const Accuracy accuracy = measure();
       throw SolveError(fmt::format(
@@ -51,6 +53,18 @@ void Judgement::step(int n, double time,
     if (size > worst_[i].value)
       worst_[i] = {size, static_cast<double>(n), time};
   }
+}
+
+void Judgement::require_held(int n, double time, const std::string &name, double lacks) const {
+  if (left_to_contact_.empty() || name != "force_imbalance" || !(lacks > unheld))
+    return;
+  throw SolveError(fmt::format(
+      "step {}, t = {:g} s: loads and contact forces differ by {:.1e} of their size "
+      "(force_imbalance). Nothing but contact keeps the body from {}, and under these loads the "
+      "contact does not: the body slides, or leaves. Nothing of this step was written. Prescribe "
+      "further components of `displacement`, press the body to the foundation, or let inertia or "
+      "damping resist (time.regime = \"dynamic\")",
+      n, time, lacks, left_to_contact_));
 }
 
 void Judgement::forward_error(int n, double time, const Accuracy &accuracy) {

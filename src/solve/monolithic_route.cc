@@ -21,6 +21,7 @@
 #include "solve/saddle_contact.h"
 #include "solve/saddle_newton.h"
 #include "solve/spring_path.h"
+#include "stopwatch.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::solve {

@@ -431,6 +431,28 @@ TEST(EveryRoute, HoldsASolidAtTheGapOfAFoundationThatMoves) {
   expect_balances(iterative, 1e-9);
 }
 
+// A step that begins where the body has been left behind begins without contact.
+TEST(EveryRoute, CarriesABodyThatOnlyItsContactHoldsAlongWithTheFoundation) {
+  for (const char *moved : {"contact.foundation_displacement=['5e-9*t','3e-9*t']",
+                            "contact.foundation_displacement=['2e-8*sin(9*t)','-1e-8*sin(7*t)']"}) {
+    const auto run = [&](std::vector<std::string> overrides) {
+      overrides.emplace_back(moved);
+      return run_text(R"toml(
+mesh.box = { min = [0, 0], max = [0.02, 0.004], cells = [3, 3], cell = "quadrilateral" }
+material = { library = "BaTiO3-Liu2014", pyroelectric = [0, 1e-4] }
+time = { end = 1, steps = 5 }
+boundary = [ { on = "top", traction = ["-1e4*sin(t)", "-3e5*t"], potential = 0, temperature = 0 } ]
+contact = { on = "bottom", normal = "unilateral", friction = { law = "coulomb", coefficient = 0.6 } }
+)toml",
+                      overrides);
+    };
+    const RunCase condensed = run({});
+    EXPECT_TRUE(has_status(condensed.contact(), "stick"));
+    for (const char *route : {"solver.body=iterative", "solver.method=monolithic"})
+      expect_same_answer(run({route}), condensed, 2);
+  }
+}
+
 // So many unknowns of the contact that the condensed route keeps a factor of them.
 TEST(EveryRoute, AgreesOnAContactOfAThousandNodes) {
   const auto run = [](const std::string &laws, std::vector<std::string> overrides = {}) {

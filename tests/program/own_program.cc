@@ -92,6 +92,14 @@ TEST_F(OwnProgram, ResultsNameItsLaw) {
               HasSubstr("\"friction_law\": \"borrowed, 15 N/m^2\""));
 }
 
+// On contact that opens the case's laws have one.
+TEST_F(OwnProgram, ItsLawHasNoColumnOfBounds) {
+  const Outcome outcome = run("one", "contact.normal=unilateral bound=15");
+  EXPECT_EQ(outcome.status, 0) << outcome.said;
+  EXPECT_THAT(contact("one"),
+              AllOf(HasSubstr("normal_traction"), Not(HasSubstr("friction_bound"))));
+}
+
 TEST_F(OwnProgram, OnSeveralRanksItsLawGivesTheSame) {
   for (const std::string route :
        {"solver.body=direct", "solver.body=iterative", "solver.method=monolithic"}) {

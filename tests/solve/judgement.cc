@@ -13,6 +13,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::ThrowsMessage;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -29,6 +30,16 @@ TEST(Judgement, AStepWhoseBalanceLacksATenthOrIsNoNumberFails) {
     EXPECT_THROW(see(judgement, 2, lacks), SolveError);
     EXPECT_THROW(see(judgement, 2, 0, lacks), SolveError);
   }
+}
+
+TEST(Judgement, ABodyThatOnlyContactHoldsHasForcesThatBalance) {
+  Judgement judgement("a translation along x");
+  see(judgement, 1, 9e-6, 0.09);
+  for (const double lacks : {1.1e-5, -1.1e-5})
+    EXPECT_THAT([&] { see(judgement, 2, lacks); },
+                ThrowsMessage<SolveError>(HasSubstr("keeps the body from a translation along x")));
+  Judgement of_supports;
+  see(of_supports, 1, 1.1e-5);
 }
 
 TEST(Judgement, AStepWhoseErrorIsATenthFailsAndAnUnknownErrorDoesNot) {
