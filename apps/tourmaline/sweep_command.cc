@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <regex>
 
 #include "limits.h"
 #include "parallel/ranks.h"
@@ -39,13 +40,15 @@ void tell(const Outcome &outcome, bool quiet) {
     std::cout << file.string() << '\n';
 }
 
-// Before there was --columns, --output was it.
+// Before there was --columns, --output was it: what looks like columns is no folder, unless it
+// stands in one.
 void require_folder(const std::string &output) {
-  if (output.find_first_of(",:@") != std::string::npos)
+  static const std::regex columns("[^/]*,[^/]*|(last|min|max|mean|rms):[^/]*|[^/]*@[0-9.]+");
+  if (std::regex_match(output, columns))
     throw tourmaline::CaseError(fmt::format(
-        "sweep --output {}: --output is the folder of the study; what sweep.csv and sweep.svg show "
-        "is chosen by --columns {}",
-        output, output));
+        "sweep --output {0}: --output is the folder of the study; what sweep.csv and sweep.svg "
+        "show is chosen by --columns {0}. If a folder is meant, write ./{0}",
+        output));
 }
 
 int sweep(Request request, char *name, const CommandLine &program) {

@@ -28,7 +28,8 @@ TEST_P(BadSweep, IsRefusedInOneParagraphBeforeAnythingRuns) {
 TEST_F(Sweep, ColumnsAreNoFolder) {
   EXPECT_EQ(run("sweep small.toml --vary contact.friction.bound=5 --output max:slip,load_y"), 2);
   EXPECT_THAT(complained_, HasSubstr("--output is the folder of the study; what sweep.csv and "
-                                     "sweep.svg show is chosen by --columns max:slip,load_y"));
+                                     "sweep.svg show is chosen by --columns max:slip,load_y. If "
+                                     "a folder is meant, write ./max:slip,load_y"));
   EXPECT_EQ(files_below(here()), std::set<std::string>{"small.toml"});
 }
 
