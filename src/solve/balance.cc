@@ -8,7 +8,6 @@
 #include "larger.h"
 #include "parallel/ranks.h"
 #include "solve/electrodes.h"
-#include "solve/exchange_weights.h"
 
 namespace tourmaline::solve {
 
@@ -27,13 +26,6 @@ struct Sum {
     size += std::abs(term);
   }
 };
-
-bool add_once(std::vector<std::string> &names, const std::string &name) {
-  if (std::find(names.begin(), names.end(), name) != names.end())
-    return false;
-  names.push_back(name);
-  return true;
-}
 
 template <int dim>
 Sum sum_of_energy(const BalanceStep<dim> &step, const EnergyWorks &works, double gained,
@@ -99,84 +91,16 @@ Balance<dim>::Balance(const Model<dim> &model, std::span<const double> initial)
       before_(initial_balance(model, initial)),
       of_step_(model.step),
       smallest_heat_(smallest_heat()),
-      coupled_(coupled_fields(model)) {
+      coupled_(coupled_fields(model)),
+      boundaries_(model) {
   if (!model.electrodes.empty())
     electrode_charges_ = model.asked.time.is_dynamic() ? settled_charges(model, initial)
                                                        : initial_charges(model, initial);
-  for (const body::Prescribed &p : model.prescribed) {
-    const int component = static_cast<int>(p.unknown % Fields<dim>::count);
-    if (component == Fields<dim>::temperature && p.is_given())
-      add_once(heat_boundaries_, p.boundary);
-    else if (component == Fields<dim>::potential && p.electrode < 0 && p.is_given())
-      add_once(charge_boundaries_, p.boundary);
-  }
-  for (const body::Load &load : model.loads.each())
-    if (load.kind().kind == LoadKind::heat_flux)
-      add_once(heat_boundaries_, load.kind().boundary);
-    else if (load.kind().kind == LoadKind::surface_charge)
-      add_once(charge_boundaries_, load.kind().boundary);
-  for (const body::SurfaceExchange &linear : model.linear_exchanges)
-    for (const std::string &name : linear.on) {
-      const bool is_heat = linear.field == body::SurfaceExchange::temperature;
-      add_once(is_heat ? heat_boundaries_ : charge_boundaries_, name);
-    }
-  find_weights();
-  for (const contact::Crossing what : {contact::Crossing::heat, contact::Crossing::charge})
-    find_crossings(what);
-  find_contact_boundaries();
   if (!model.laws.can_open())
     return;
   can_open_.resize(model.body.n_nodes());
   for (const contact::InterfaceNode<dim> &at : model.interface)
     can_open_[at.node] = model.laws.of(at).can_open();
-}
-
-template <int dim>
-void Balance<dim>::find_weights() {
-  for (const body::SurfaceExchange &linear : model_.linear_exchanges)
-    for (const std::string &name : linear.on)
-      (linear.field == body::SurfaceExchange::temperature ? exchange_ : capacitors_)[name] =
-          exchange_weights(model_.body, {name}, linear.coefficient, linear.factor);
-}
-
-// What crosses by the contact's state crosses at nodes: each belongs to the first boundary of its
-// contact that it is on. What leaks by place alone leaks through facets, which reach nodes of other
-// contacts.
-template <int dim>
-void Balance<dim>::find_crossings(contact::Crossing what) {
-  const bool is_heat = what == contact::Crossing::heat;
-  std::vector<std::string> &boundary_of = is_heat ? heat_boundary_of_ : charge_boundary_of_;
-  const auto is_booked = [&](const contact::ContactLaws &laws) {
-    return laws.crosses_by_state(what) || (!is_heat && laws.remembers_charge());
-  };
-  for (std::size_t c = 0; c < model_.asked.contacts.size(); ++c) {
-    if (!is_booked(model_.laws[c]))
-      continue;
-    boundary_of.resize(model_.interface.size());
-    for (const std::string &name : model_.asked.contacts[c].on) {
-      add_once(is_heat ? heat_boundaries_ : charge_boundaries_, name);
-      const std::vector<body::Node> nodes = model_.body.nodes_on({name});
-      for (std::size_t i = 0; i < boundary_of.size(); ++i)
-        if ((model_.interface[i].contact == c || !model_.laws[c].crosses_by_state(what)) &&
-            boundary_of[i].empty() &&
-            std::find(nodes.begin(), nodes.end(), model_.interface[i].node) != nodes.end())
-          boundary_of[i] = name;
-    }
-  }
-}
-
-// Forces of the contact act at nodes, too.
-template <int dim>
-void Balance<dim>::find_contact_boundaries() {
-  contact_boundary_of_.resize(model_.interface.size());
-  for (std::size_t c = 0; c < model_.asked.contacts.size(); ++c)
-    for (const std::string &name : model_.asked.contacts[c].on) {
-      const std::vector<body::Node> nodes = model_.body.nodes_on({name});
-      for (std::size_t i = 0; i < contact_boundary_of_.size(); ++i)
-        if (model_.interface[i].contact == c && contact_boundary_of_[i].empty() &&
-            std::binary_search(nodes.begin(), nodes.end(), model_.interface[i].node))
-          contact_boundary_of_[i] = name;
-    }
 }
 
 // Where nothing warms a body, its heats are round-off and do not balance. They are measured by what
@@ -209,7 +133,7 @@ typename Balance<dim>::Columns Balance<dim>::step(double time, std::span<const d
   if (model_.step != of_step_) {
     of_step_ = model_.step;
     smallest_heat_ = smallest_heat();
-    find_weights();
+    boundaries_.weigh();
   }
   const auto step_from = [&](BalancedState<dim> before, bool cell_by_cell) {
     return balance_step(model_, is_prescribed_, std::move(before),
@@ -403,7 +327,7 @@ void Balance<dim>::find_forces(const Step &step) {
     for (int c = 0; c < dim; ++c) {
       const body::Node node = model_.interface[i].node;
       passages_.push_back(
-          {node, c, step.contact[body::unknown<dim>(node, c)], contact_boundary_of_[i]});
+          {node, c, step.contact[body::unknown<dim>(node, c)], boundaries_.of_force(i)});
     }
 }
 
@@ -433,15 +357,16 @@ std::vector<Passage> Balance<dim>::charges_held(const Step &step) const {
                           step.charge_crossed[node],
                       p.boundary, p.electrode >= 0});
     }
-  for (std::size_t i = 0; i < charge_boundary_of_.size(); ++i) {
+  for (std::size_t i = 0; i < model_.interface.size(); ++i) {
     const body::Node node = model_.interface[i].node;
     const std::size_t unknown = body::unknown<dim>(node, Fields<dim>::potential);
-    if (charge_boundary_of_[i].empty())
+    const std::string &boundary = boundaries_.of_charge(i);
+    if (boundary.empty())
       continue;
     double charge = step.leaked.size() > 0 ? step.leaked[static_cast<Eigen::Index>(i)] : 0;
     charge += is_prescribed_[unknown] ? step.charge_crossed[node]
                                       : step.now.charges[unknown] - step.known_charges()[unknown];
-    held.push_back({node, Fields<dim>::potential, charge, charge_boundary_of_[i]});
+    held.push_back({node, Fields<dim>::potential, charge, boundary});
   }
   return held;
 }
@@ -466,12 +391,12 @@ void Balance<dim>::add_charges(const Step &step, Columns &columns) {
           charge_factor(model_, load.kind().boundary) * load.resultant(step.time);
     else if (load.kind().kind == LoadKind::charge)
       inside += load.resultant(step.time);
-  for (const std::string &name : charge_boundaries_) {
-    const double held = exchanged(capacitors_, Fields<dim>::potential, name, step);
+  for (const std::string &name : boundaries_.of_charges()) {
+    const double held = boundaries_.charge_held(name, step.now.unknowns);
     through[name] += held;
     imbalance.size += std::abs(held);
   }
-  for (const std::string &name : charge_boundaries_)
+  for (const std::string &name : boundaries_.of_charges())
     columns.emplace_back("charge_" + name, through[name]);
   double total = on_electrodes - inside;
   for (const auto &[name, charge] : through)
@@ -511,16 +436,6 @@ double Balance<dim>::other_end(std::size_t electrode, const Eigen::VectorXd &vol
   return voltages[to - all.begin()];
 }
 
-template <int dim>
-double Balance<dim>::exchanged(const std::map<std::string, NodeWeights> &exchange, int component,
-                               const std::string &boundary, const Step &step) {
-  double flow = 0;
-  if (const auto found = exchange.find(boundary); found != exchange.end())
-    for (const auto &[node, weight] : found->second)
-      flow += weight * step.now.unknowns[body::unknown<dim>(node, component)];
-  return flow;
-}
-
 // What holds prescribed temperatures, and what crosses at the contact by its state, outwards.
 template <int dim>
 std::vector<Passage> Balance<dim>::heats_held(const Step &step) const {
@@ -530,11 +445,10 @@ std::vector<Passage> Balance<dim>::heats_held(const Step &step) const {
       const auto node = static_cast<body::Node>(p.unknown / Fields<dim>::count);
       held.push_back({node, Fields<dim>::temperature, -step.heat_supplied[node], p.boundary});
     }
-  for (std::size_t i = 0; i < heat_boundary_of_.size(); ++i)
-    if (!heat_boundary_of_[i].empty()) {
+  for (std::size_t i = 0; i < model_.interface.size(); ++i)
+    if (const std::string &boundary = boundaries_.of_heat(i); !boundary.empty()) {
       const body::Node node = model_.interface[i].node;
-      held.push_back(
-          {node, Fields<dim>::temperature, -step.heat_crossed[node], heat_boundary_of_[i]});
+      held.push_back({node, Fields<dim>::temperature, -step.heat_crossed[node], boundary});
     }
   return held;
 }
@@ -564,8 +478,8 @@ void Balance<dim>::add_heat(const Step &step, Columns &columns) {
       default:
         break;
     }
-  for (const std::string &name : heat_boundaries_) {
-    out[name] += exchanged(exchange_, Fields<dim>::temperature, name, step);
+  for (const std::string &name : boundaries_.of_heats()) {
+    out[name] += boundaries_.heat_exchanged(name, step.now.unknowns);
     columns.emplace_back("heat_" + name, out[name]);
     imbalance.add(out[name]);
   }

@@ -9,6 +9,7 @@
 
 #include "output/checkpoint.h"
 #include "solve/balance_step.h"
+#include "solve/boundary_book.h"
 #include "solve/energy_works.h"
 #include "solve/model.h"
 #include "solve/passage.h"
@@ -79,8 +80,6 @@ class Balance {
   std::vector<Passage> heats_held(const Step &step) const;
   void add_heat(const Step &step, Columns &columns);
   void add_friction_heat(const Step &step, Columns &columns) const;
-  void find_crossings(contact::Crossing what);
-  void find_contact_boundaries();
   void add_energy(const Step &step, Columns &columns);
   void put_energies(const Step &step, const EnergyWorks &works, double gained, double lost,
                     Columns &columns) const;
@@ -88,7 +87,6 @@ class Balance {
   double lack_of_energy(const Step &step, double whole, const std::array<double, 3> &gained,
                         const std::array<double, 3> &lost,
                         const std::array<std::vector<double>, 3> &works) const;
-  using NodeWeights = std::vector<std::pair<body::Node, double>>;
   /// Whether the foundation is more than the paper's.
   bool has_foundation_columns() const {
     return model_.laws.has_moving_foundation() || model_.laws.has_normal_unknowns();
@@ -97,9 +95,6 @@ class Balance {
     return model_.op.rate_forces() != nullptr && model_.op.rate_forces()->is_damped();
   }
   double smallest_heat() const;
-  void find_weights();
-  static double exchanged(const std::map<std::string, NodeWeights> &exchange, int component,
-                          const std::string &boundary, const Step &step);
 
   const Model<dim> &model_;
   std::vector<bool> is_prescribed_;    // by unknown
@@ -110,13 +105,9 @@ class Balance {
   double of_step_;                     // k that the following is made for [s]
   double smallest_heat_;               // [W]
   CoupledFields coupled_;
+  BoundaryBook<dim> boundaries_;
   Columns judged_;
   std::vector<Passage> passages_;
-  std::vector<std::string> heat_boundaries_, charge_boundaries_;
-  // by interface node: the boundary that what crosses there counts for; empty: nothing crosses so
-  std::vector<std::string> heat_boundary_of_, charge_boundary_of_;
-  std::vector<std::string> contact_boundary_of_;              // likewise, of forces
-  std::map<std::string, NodeWeights> exchange_, capacitors_;  // integral of k_c N_i, of c N_i
 };
 
 }  // namespace tourmaline::solve
