@@ -13,6 +13,9 @@ constexpr const char *options[][2] = {
     {"-ksp_type", "fgmres"},
     {"-ksp_gmres_restart", "100"},
     {"-ksp_max_it", "500"},
+    // PETSc 3.20 and later would sum by dgemv over vectors that happen to lie next to each other:
+    // the last bits would be those of the addresses.
+    {"-vec_mdot_use_gemv", "0"},
     {"-pc_type", "fieldsplit"},
     {"-pc_fieldsplit_type", "multiplicative"},
     {"-fieldsplit_u_ksp_type", "preonly"},
