@@ -233,8 +233,8 @@ void declare(Visitor &v, HeatExchangeCase &heat) {
   v.optional_table(
       {.name = "pressure",
        .description = "Exchange that grows with the contact pressure p = -sigma_nu: "
-                      "coefficient (p/reference)^exponent is added to k_c; what crosses is then "
-                      "summed at the nodes, not integrated facet by facet",
+                      "coefficient (p/reference)^exponent is added to k_c; what it adds is summed "
+                      "at the nodes, not integrated facet by facet",
        .used = exchange,
        .also = {"pressure_dependent"}},
       heat.pressure, [](Visitor &inner, PressureConductanceCase &value) { declare(inner, value); });

@@ -160,7 +160,7 @@ typename Balance<dim>::Columns Balance<dim>::step(double time, std::span<const d
     columns = columns_of(step);
   }
   if (!model_.electrodes.empty())
-    electrode_charges_ = electrode_charges(model_, before_.charges, step.known_charges());
+    electrode_charges_ = charges_on_electrodes(step, before_.charges);
   if (step.is_dynamic())
     forces_before_ = {{loads.begin(), loads.end()},
                       std::move(step.contact),
@@ -405,12 +405,24 @@ void Balance<dim>::add_charges(const Step &step, Columns &columns) {
                 columns);
 }
 
+// Without what crosses the contact at nodes that they share with it.
+template <int dim>
+Eigen::VectorXd Balance<dim>::charges_on_electrodes(const Step &step,
+                                                    std::span<const double> charges) const {
+  const std::span<const double> known = step.known_charges();
+  std::vector<double> without(known.begin(), known.end());
+  for (const std::vector<body::Node> &electrode : model_.electrodes)
+    for (const body::Node node : electrode)
+      without[body::unknown<dim>(node, Fields<dim>::potential)] += step.charge_crossed[node];
+  return electrode_charges(model_, charges, without);
+}
+
 template <int dim>
 void Balance<dim>::add_electrodes(const Step &step, Columns &columns) const {
   if (model_.electrodes.empty())
     return;
   const Eigen::VectorXd voltages = electrode_voltages(model_, step.now.unknowns);
-  const Eigen::VectorXd charges = electrode_charges(model_, step.now.charges, step.known_charges());
+  const Eigen::VectorXd charges = charges_on_electrodes(step, step.now.charges);
   for (std::size_t e = 0; e < model_.electrodes.size(); ++e) {
     const auto i = static_cast<Eigen::Index>(e);
     const std::string name = "electrode_" + model_.asked.electrodes[e].name;

@@ -72,6 +72,8 @@ class Balance {
   void add_forces(const Step &step, Columns &columns);
   void find_forces(const Step &step);
   void add_moment(const Step &step, Columns &columns) const;
+  /// With the electric right-hand side `charges` of the step's end, by electrode [C].
+  Eigen::VectorXd charges_on_electrodes(const Step &step, std::span<const double> charges) const;
   std::vector<Passage> charges_held(const Step &step) const;
   void add_charges(const Step &step, Columns &columns);
   void add_electrodes(const Step &step, Columns &columns) const;

@@ -85,8 +85,8 @@ VectorXd BodyBySolutions<dim>::increments_of(std::span<const double> state) cons
 template <int dim>
 VectorXd BodyBySolutions<dim>::possible(VectorXd d) const {
   for (const ContactPoint &p : contact_.points())
-    if (!std::isfinite(p.law.potential(d.segment(p.offset, p.size))))
-      d.segment(p.offset, p.size).setZero();
+    if (!std::isfinite(p.law.potential(p.slip(d))))
+      p.hold(d);
   return d;
 }
 
@@ -198,8 +198,8 @@ bool BodyBySolutions<dim>::newton_step(const ContactTangent &tangent, std::vecto
     const auto own = Eigen::seqN(p.offset, p.size);
     next(own) += moved(own);
     // a slip that turns is caught
-    if (p.law.normal() == nullptr && p.law.held().isZero(0) && next(own).dot(d_(own)) < 0)
-      next(own).setZero();
+    if (p.law.normal() == nullptr && p.law.held().isZero(0) && p.slip(next).dot(p.slip(d_)) < 0)
+      p.hold(next);
   }
   put(next);
   return true;

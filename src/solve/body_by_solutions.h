@@ -41,6 +41,11 @@ class BodyBySolutions : public ContactBody, private SlipResponse {
   std::vector<krylov::NodeTangent<dim>> held() const;
   /// Puts these unknowns of the contact into the state.
   void put(const Eigen::VectorXd &d);
+  /// The state has these unknowns of the contact.
+  void take(const Eigen::VectorXd &d) {
+    d_ = d;
+    is_solved_ = false;
+  }
   /// Newton's step for contact and body at once. False where the linear system could not be solved,
   /// its residual taken down by `reduction`. `residual`: what is left free of the body's.
   bool newton_step(const ContactTangent &tangent, std::vector<double> residual, double reduction);

@@ -92,11 +92,11 @@ class CondensedRoute : public Route {
                     std::span<double> state);
   void advance_contact(double time, const VectorXd &s, std::span<const double> before,
                        std::span<const double> state, VectorXd &c, StepOutcome &outcome);
-  CoupledSolution solve_contact(double time, const VectorXd &s, std::span<const double> before);
+  CoupledSolution solve_contact(double time, const VectorXd &s, const VectorXd &start);
+  VectorXd sharpen(double time, const VectorXd &s, CoupledSolution &solution);
   void require_solved(double time, const InterfaceProgramme &programme,
                       const InterfaceSolution &solution) const;
-  CoupledSolution solve_with_exchange(double time, const VectorXd &s,
-                                      std::span<const double> before);
+  CoupledSolution solve_with_exchange(double time, const VectorXd &s, const VectorXd &start);
   CoupledSolution solve_programme(const InterfaceProgramme &programme, const VectorXd &start,
                                   const InterfaceSettings &settings) const;
   CoupledSolution solve_leaning(const InterfaceProgramme &programme, const VectorXd &first,
@@ -249,16 +249,15 @@ CoupledSolution CondensedRoute<dim>::solve_leaning(const InterfaceProgramme &pro
 // Of held exchanges each has a matrix of its own, of which nothing is kept.
 template <int dim>
 CoupledSolution CondensedRoute<dim>::solve_with_exchange(double time, const VectorXd &s,
-                                                         std::span<const double> before) {
+                                                         const VectorXd &start) {
   const MatrixXd &all = condensed_.stiffness();
   const Eigen::SparseMatrix<double> &directions = contact_->directions();
   const Index n_rows = directions.rows(), n = directions.cols(), m = exchange_->size();
   const VectorXd resisted = all.leftCols(n_rows) * contact_->stuck();
   const VectorXd terms = s.cwiseAbs().cwiseMax(resisted.cwiseAbs());
-  VectorXd force(n + m), start(n + m);
+  VectorXd force(n + m);
   force << directions.transpose() * (s - resisted).head(n_rows),
       exchange_->scale().cwiseProduct((s - resisted).tail(m));
-  start << last_increment_, exchange_->entries(before);
   const std::vector<ExchangePoint> exchanges = exchange_->points(*contact_);
   const ExchangeProgramme programme{
       {whole_stiffness_, force, contact_->points(), terms.head(n_rows).maxCoeff(),
@@ -292,17 +291,38 @@ void CondensedRoute<dim>::require_solved(double time, const InterfaceProgramme &
 
 template <int dim>
 CoupledSolution CondensedRoute<dim>::solve_contact(double time, const VectorXd &s,
-                                                   std::span<const double> before) {
+                                                   const VectorXd &start) {
   if (exchanges())
-    return solve_with_exchange(time, s, before);
+    return solve_with_exchange(time, s, start);
   const VectorXd resisted = condensed_.stiffness() * contact_->stuck();
   const VectorXd force = contact_->directions().transpose() * (s - resisted);
   const double scale = larger(s.cwiseAbs().maxCoeff<Eigen::PropagateNaN>(),
                               resisted.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
   const InterfaceProgramme programme{slip_stiffness_, force, contact_->points(), scale};
-  CoupledSolution solution = solve_programme(programme, last_increment_, settings(&factor_));
+  CoupledSolution solution = solve_programme(programme, start, settings(&factor_));
   require_solved(time, programme, solution.interface);
   return solution;
+}
+
+// The displacements of the contact. Where they are the small difference of larger ones (of what
+// sticking to a foundation that slips away, or closing a gap, would take), the programme is solved
+// once more, and points that slip or are open are measured from where they were.
+template <int dim>
+VectorXd CondensedRoute<dim>::sharpen(double time, const VectorXd &s, CoupledSolution &solution) {
+  const Index n = contact_->n_unknowns();
+  if (contact_->loses_digits(solution)) {
+    contact_->measure_from_before(solution);
+    CoupledSolution sharp = solve_contact(time, s, solution.interface.increment);
+    sharp.interface.iterations += solution.interface.iterations;
+    sharp.stage = solution.stage;
+    sharp.slip_jumped = solution.slip_jumped;
+    solution = std::move(sharp);
+  }
+  // Adding the increment to the very values of the last step keeps a sticking point in its place
+  // exactly.
+  const VectorXd c = contact_->displacements(solution.interface.increment.head(n));
+  contact_->measure_from_stuck(solution);
+  return c;
 }
 
 // Where nothing holds the body, round-off of its stiffness does: loads then move it by so much that
@@ -357,7 +377,10 @@ void CondensedRoute<dim>::advance_contact(double time, const VectorXd &s,
                                           StepOutcome &outcome) {
   contact_->begin_step(time, before, state);
   exchange_->begin_step(time, state);
-  CoupledSolution solution = solve_contact(time, s, before);
+  VectorXd start(last_increment_.size() + exchange_->size());
+  start << last_increment_, exchange_->entries(before);
+  CoupledSolution solution = solve_contact(time, s, start);
+  const VectorXd displacements = sharpen(time, s, solution);
   const VectorXd crossing = solution.interface.increment.tail(exchange_->size());
   exchange_->end_step(
       exchange_->scale().cwiseProduct(crossing),
@@ -365,9 +388,7 @@ void CondensedRoute<dim>::advance_contact(double time, const VectorXd &s,
   solution.interface.increment.conservativeResize(contact_->n_unknowns());
   solution.interface.force.conservativeResize(contact_->n_unknowns());
   last_increment_ = solution.interface.increment;
-  // Adding the increment to the very values of the last step keeps a sticking point in its place
-  // exactly.
-  c << contact_->displacements(last_increment_), exchange_->scale().cwiseProduct(crossing);
+  c << displacements, exchange_->scale().cwiseProduct(crossing);
   const VectorXd held = condensed_.stiffness() * c - s;
   outcome.contact_forces = held.head(contact_->directions().rows());
   outcome.slip_jumped = solution.slip_jumped;

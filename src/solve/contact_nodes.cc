@@ -1,5 +1,6 @@
 #include "solve/contact_nodes.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "solve/exchange_programme.h"
@@ -85,7 +86,11 @@ template <int dim>
 void ContactNodes<dim>::begin_step(double time, std::span<const double> before,
                                    std::span<const double> state) {
   const std::span<const double> carried = model_.carried(before, time, carried_);
+  from_.reset();  // of a step that failed
+  for (ContactPoint &p : points_)
+    p.start = Tangent(0);
   held_.resize(directions_.rows());
+  last_.resize(directions_.rows());
   VectorXd c(directions_.rows());
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const contact::InterfaceNode<dim> &at = model_.interface[i];
@@ -94,6 +99,7 @@ void ContactNodes<dim>::begin_step(double time, std::span<const double> before,
                              model_.reach(at, time));
     held_.segment<dim>(dim * static_cast<Index>(i)) = node.admissible.base;
     c.segment<dim>(dim * static_cast<Index>(i)) = displacement(carried, i);
+    last_.segment<dim>(dim * static_cast<Index>(i)) = displacement(before, i);
     if (node.normal != none)
       points_[node.normal].law =
           contact::NormalPoint(model_.laws.of(at).normal(at.point, penetration(i, time, before)));
@@ -103,9 +109,60 @@ void ContactNodes<dim>::begin_step(double time, std::span<const double> before,
       know_pressure(i, time, before);
   }
   stuck_ = directions_.transpose() * c;
+  start_ = directions_.transpose() * (last_ - c);
+  const VectorXd above = directions_.transpose() * (last_ - held_);
   for (const Node &node : nodes_)
-    if (node.normal != none)
-      stuck_[points_[node.normal].offset] = 0;
+    if (node.normal != none) {
+      const Index n = points_[node.normal].offset;
+      stuck_[n] = 0;
+      start_[n] = above[n];
+    }
+}
+
+template <int dim>
+bool ContactNodes<dim>::loses_digits(const CoupledSolution &solution) const {
+  constexpr double far_more = 100;
+  double to_stick = 0;
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    if (const ContactPoint &p = points_[i]; solution.interface.status[i] != ContactStatus::stick)
+      to_stick = std::max(to_stick, start_.segment(p.offset, p.size).norm());
+  return to_stick > 0 && to_stick > far_more * displacements(solution.interface.increment.head(n_))
+                                                   .template lpNorm<Eigen::Infinity>();
+}
+
+// Whether the node is held in no direction.
+template <int dim>
+bool ContactNodes<dim>::is_free(std::size_t i, const CoupledSolution &solution) const {
+  const std::vector<ContactStatus> &status = solution.interface.status;
+  const Node &node = nodes_[i];
+  return node.normal != none && 1 + points_[node.slip].size == dim &&
+         status[node.normal] != ContactStatus::stick && status[node.slip] != ContactStatus::stick;
+}
+
+template <int dim>
+void ContactNodes<dim>::measure_from_before(CoupledSolution &solution) {
+  VectorXd from = stuck(), moved = VectorXd::Zero(n_);
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    if (ContactPoint &p = points_[i]; solution.interface.status[i] != ContactStatus::stick) {
+      const auto entries = Eigen::seqN(p.offset, p.size);
+      p.start = moved(entries) = start_(entries);
+      solution.interface.increment(entries) -= p.start;
+    }
+  from += directions_ * moved;
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    if (const auto rows = Eigen::seqN(dim * static_cast<Index>(i), dim); is_free(i, solution))
+      from(rows) = last_(rows);
+  from_ = std::move(from);
+}
+
+template <int dim>
+void ContactNodes<dim>::measure_from_stuck(CoupledSolution &solution) {
+  for (ContactPoint &p : points_)
+    if (p.start.size() > 0) {
+      solution.interface.increment.segment(p.offset, p.size) += p.start;
+      p.start = Tangent(0);
+    }
+  from_.reset();
 }
 
 // At the end of the last step.

@@ -48,10 +48,22 @@ class ContactNodes {
   /// The laws of the step that ends at `time`; `state` holds the prescribed values, `before` is the
   /// state of the last step.
   void begin_step(double time, std::span<const double> before, std::span<const double> state);
-  Eigen::VectorXd stuck() const { return held_ + directions_ * stuck_; }
-  Eigen::VectorXd displacements(const Eigen::VectorXd &z) const {
-    return held_ + directions_ * (stuck_ + z);
+  Eigen::VectorXd stuck() const {
+    return from_ ? *from_ : Eigen::VectorXd(held_ + directions_ * stuck_);
   }
+  Eigen::VectorXd displacements(const Eigen::VectorXd &z) const {
+    return from_ ? Eigen::VectorXd(*from_ + directions_ * z)
+                 : Eigen::VectorXd(held_ + directions_ * (stuck_ + z));
+  }
+
+  /// Whether points that slip or are open would have to be displaced far more to stick than they
+  /// are: a foundation has slipped away, or a gap is much wider than the body deforms.
+  bool loses_digits(const CoupledSolution &solution) const;
+  /// Measures these points from where they were a step ago in the place of where they would stick,
+  /// and the solution's increments with them: no digits are lost to the difference then.
+  void measure_from_before(CoupledSolution &solution);
+  /// Takes that back.
+  void measure_from_stuck(CoupledSolution &solution);
 
   /// Of the nodal forces that hold the contact, `outcome.contact_forces`, takes away what supports
   /// bear, and says which part is friction; and the statuses of the nodes.
@@ -85,6 +97,7 @@ class ContactNodes {
     return nodes_[i].normal == none && model_.laws.of(model_.interface[i]).can_open();
   }
 
+  bool is_free(std::size_t i, const CoupledSolution &solution) const;
   void add_normal(std::size_t i, std::vector<Eigen::Triplet<double>> &entries);
   void add_slip(std::size_t i, std::vector<Eigen::Triplet<double>> &entries);
   void set_friction(std::size_t i, double time, const Vector &carried);
@@ -104,6 +117,10 @@ class ContactNodes {
   Eigen::Index n_ = 0;                // entries of z
   Eigen::SparseMatrix<double> directions_;
   Eigen::VectorXd held_, stuck_;
+  Eigen::VectorXd last_;   // displacements a step ago
+  Eigen::VectorXd start_;  // z with which all points would be there
+  std::optional<Eigen::VectorXd>
+      from_;  // where points are with z = 0, if it is not where they stick
   Eigen::VectorXd slipped_, slipped_before_;  // accumulated slip by node, and a step ago [m]
   std::vector<double> carried_;
 };

@@ -294,11 +294,10 @@ bool slip_sets_in_unstable(const CoupledContact &contact, const VectorXd &start,
   for (std::size_t j = 0; j < contact.couplings.size(); ++j) {
     const FrictionCoupling &coupling = contact.couplings[j];
     const ContactPoint &p = contact.points[coupling.slip];
-    const VectorXd slip = found.interface.increment.segment(p.offset, p.size);
+    const VectorXd slip = p.slip(found.interface.increment);
     if (!coupling.bound || slip.isZero(0))
       continue;
-    const double fall =
-        coupling.bound->at(found.pressure[j], start.segment(p.offset, p.size).norm()).by_slip;
+    const double fall = coupling.bound->at(found.pressure[j], p.slip(start).norm()).by_slip;
     if (fall < 0)
       falls.emplace_back(static_cast<Index>(entries.size()),
                          p.weight * fall * slip * slip.transpose() / slip.squaredNorm());

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "solve/leaked_charge.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::solve {
@@ -57,6 +58,19 @@ VectorXd kept_charges(const Model<dim> &model, VectorXd charges) {
   return charges;
 }
 
+// Nothing has leaked before t = 0, though the products and loads are those of a step that leaks.
+template <int dim>
+VectorXd charges_before_leaks(const Model<dim> &model, std::optional<double> time,
+                              std::span<const double> state, std::span<const double> products,
+                              std::vector<double> loads) {
+  if (model.laws.remembers_charge()) {
+    const std::vector<double> leaks = leaking(model, time, state);
+    for (std::size_t node = 0; node < leaks.size(); ++node)
+      loads[unknown<dim>(static_cast<body::Node>(node), Fields<dim>::potential)] -= leaks[node];
+  }
+  return electrode_charges<dim>(model, products, loads);
+}
+
 }  // namespace
 
 template <int dim>
@@ -66,7 +80,7 @@ VectorXd initial_charges(const Model<dim> &model, std::span<const double> initia
   std::vector<double> products(initial.size());
   const std::vector<double> no_loads(initial.size(), 0.);
   model.op.multiply(model.step, initial, products);
-  return electrode_charges<dim>(model, products, no_loads);
+  return charges_before_leaks<dim>(model, std::nullopt, initial, products, no_loads);
 }
 
 template <int dim>
@@ -74,7 +88,7 @@ VectorXd settled_charges(const Model<dim> &model, std::span<const double> settle
   std::vector<double> products(settled.size()), loads(settled.size(), 0.);
   model.op.multiply(model.step, settled, products);
   model.loads.integrate(0, loads);
-  return electrode_charges<dim>(model, products, loads);
+  return charges_before_leaks<dim>(model, 0, settled, products, loads);
 }
 
 template <int dim>

@@ -190,11 +190,10 @@ ContactState state_at(const ExchangePoint &at, const std::vector<ContactPoint> &
   if (at.normal) {
     const ContactPoint &n = points[*at.normal];
     state.pressure = solution.interface.force[n.offset] / n.weight;
-    state.penetration += d[n.offset];
+    state.penetration += n.slip(d)[0];
   }
   const ContactPoint &p = points[at.slip];
-  state.friction =
-      friction_at(at.slip, points, solution, couplings).dissipation(d.segment(p.offset, p.size));
+  state.friction = friction_at(at.slip, points, solution, couplings).dissipation(p.slip(d));
   return state;
 }
 

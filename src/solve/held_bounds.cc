@@ -52,8 +52,8 @@ double HeldBounds::asked_for(std::size_t node, const State &found) const {
   const auto row = static_cast<Index>(node);
   if (turns_[node] < undecided)
     return found.is_closed ? whole_[row] : 0;
-  if (!found.is_closed)
-    return std::max(std::min(held_[row], found.friction) - found.opening, 0.);
+  if (!found.is_closed)  // a bound that falls to nothing with the pressure leaves no share
+    return std::clamp(std::min(held_[row], found.friction) - found.opening, 0., whole_[row]);
   const bool sticks = found.slip == 0;  // and would with more
   return sticks ? whole_[row] : std::clamp(held_[row] + found.pressure, 0., whole_[row]);
 }

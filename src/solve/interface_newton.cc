@@ -111,8 +111,7 @@ class Iteration {
 
 Tangent Iteration::trial(std::size_t i) const {
   const ContactPoint &p = programme_.points[i];
-  return (force_.segment(p.offset, p.size) + curvature_[i] * d_.segment(p.offset, p.size)) /
-         p.weight;
+  return (force_.segment(p.offset, p.size) + curvature_[i] * p.slip(d_)) / p.weight;
 }
 
 Tangent Iteration::friction_force(std::size_t i) const {
@@ -132,10 +131,10 @@ void Iteration::sweep(bool backwards) {
     const Tangent x = trial(i);
     const Tangent lambda = p.law.traction(x, curvature_[i] / p.weight);
     const Tangent after = (x - lambda) * (p.weight / curvature_[i]);
-    const Tangent change = after - d_.segment(p.offset, p.size);
+    const Tangent change = after - p.slip(d_);
     if (change.isZero(0))
       continue;
-    d_.segment(p.offset, p.size) = after;
+    p.put(after, d_);
     force_.noalias() -= programme_.stiffness.middleCols(p.offset, p.size) * change;
   }
 }
@@ -159,7 +158,7 @@ void Iteration::sweeps() {
 // A point that was stopped at its bend, where the law is smooth but turns within o, sticks for
 // Newton's method until a sweep takes it away from there.
 bool Iteration::is_smooth(const ContactPoint &p) const {
-  const Tangent d = d_.segment(p.offset, p.size);
+  const Tangent d = p.slip(d_);
   const auto is_at_bend = [&] { return d.isZero(0) && p.law.has_bend(p.size); };
   return p.size > 0 && p.law.is_smooth_at(d) && !is_at_bend();
 }
@@ -181,10 +180,10 @@ Iteration::Dissipated Iteration::dissipated(const VectorXd &next) const {
   for (const ContactPoint &p : programme_.points) {
     if (p.size == 0)
       continue;
-    const Tangent before = d_.segment(p.offset, p.size), after = next.segment(p.offset, p.size);
-    const Tangent change = after - before;
-    if (change.norm() < small * p.law.held().norm() && p.law.is_smooth_at(before) &&
-        p.law.is_smooth_at(after)) {
+    const Tangent before = p.slip(d_), after = p.slip(next);
+    const Tangent change = next.segment(p.offset, p.size) - d_.segment(p.offset, p.size);
+    if (change.norm() < small * (p.law.held().norm() + p.start.norm()) &&
+        p.law.is_smooth_at(before) && p.law.is_smooth_at(after)) {
       sum.change += p.weight / 2 * (p.law.gradient(before) + p.law.gradient(after)).dot(change);
     } else {
       const double value = p.law.potential(before);
@@ -202,7 +201,7 @@ Tangent Iteration::model_place(std::size_t i, bool ahead) const {
   const ContactPoint &p = programme_.points[i];
   if (ahead && p.law.normal() != nullptr && !p.law.has_kink(p.size))
     return (p.weight * trial(i) - friction_force(i)) / curvature_[i];
-  return d_.segment(p.offset, p.size);
+  return p.slip(d_);
 }
 
 // Of the Newton step in the smooth points: the Hessian of their laws beside A.
@@ -210,7 +209,7 @@ void Iteration::add_point(std::size_t i, bool ahead, SystemRows &rows, VectorXd 
                           Index row) const {
   constexpr double slightly = 1e-10;
   const ContactPoint &p = programme_.points[i];
-  const Tangent d = d_.segment(p.offset, p.size);
+  const Tangent d = p.slip(d_);
   TangentMatrix hessian = p.weight * p.law.hessian(model_place(i, ahead));
   if (may_be_singular_)
     hessian.diagonal() += slightly * programme_.stiffness.diagonal().segment(p.offset, p.size);
@@ -262,7 +261,7 @@ double Iteration::slope(const VectorXd &direction, const VectorXd &resisted, dou
   for (const ContactPoint &p : programme_.points) {
     const Tangent along = direction.segment(p.offset, p.size);
     if (!along.isZero(0))
-      sum += p.weight * p.law.gradient(d_.segment(p.offset, p.size) + length * along).dot(along);
+      sum += p.weight * p.law.gradient(p.slip(d_) + length * along).dot(along);
   }
   return sum;
 }
@@ -387,6 +386,19 @@ InterfaceSolution nothing_to_slip(const InterfaceProgramme &programme) {
 }
 
 }  // namespace
+
+Tangent ContactPoint::slip(const VectorXd &d) const {
+  Tangent slip = d.segment(offset, size);
+  if (start.size() > 0)
+    slip += start;
+  return slip;
+}
+
+void ContactPoint::put(const Tangent &slip, VectorXd &d) const {
+  d.segment(offset, size) = slip;
+  if (start.size() > 0)
+    d.segment(offset, size) -= start;
+}
 
 bool may_yield(const std::vector<ContactPoint> &points) {
   return std::any_of(points.begin(), points.end(), [](const ContactPoint &p) {

@@ -8,12 +8,20 @@
 
 namespace tourmaline::solve {
 
-/// A contact point's place in the interface unknowns: `size` entries from `offset` on; `weight`
+/// A contact point's place in the interface unknowns d: `size` entries from `offset` on; `weight`
 /// [m^(dim-1)] makes nodal forces of the law's tractions.
 struct ContactPoint {
   Eigen::Index offset = 0, size = 0;
   double weight = 0;
   contact::LocalLaw law;
+  /// The slip or penetration where these entries of d are zero [m]; without entries it is zero.
+  contact::Tangent start = contact::Tangent(0);
+
+  /// The slip or penetration at d [m].
+  contact::Tangent slip(const Eigen::VectorXd &d) const;
+  /// Puts the point where that is exactly so, and where it is exactly zero.
+  void put(const contact::Tangent &slip, Eigen::VectorXd &d) const;
+  void hold(Eigen::VectorXd &d) const { put(contact::Tangent::Zero(size), d); }
 };
 
 /// Rows of another field, temperatures or potentials of contact nodes, behind those of points.
@@ -22,9 +30,9 @@ struct FieldRows {
   double scale = 0;  ///< size of the terms that their f was summed from [N]
 };
 
-/// The contact problem of one step in the slip increments d:
+/// The contact problem of one step in the slip increments d, or such less the points' `start`:
 ///
-///     minimise  d.A d / 2 - f.d + sum_i w_i j_i(d_i)
+///     minimise  d.A d / 2 - f.d + sum_i w_i j_i(d_i + start_i)
 ///
 /// with A symmetric positive definite and j_i the convex dissipation of the law at point i, in
 /// which the known part of the slip is (`PointLaw`). Its nodal friction forces are f - A d, w_i

@@ -86,8 +86,9 @@ void IterativeRoute<dim>::check_held() const {
   const auto [largest, round_off] = body_.nodal_forces();
   if (!(round_off > counts * larger(largest, body_.first_nodal_forces().largest)))
     return;
-  const std::string motions = unheld();
-  let_go(time_, motions.empty() ? left_to_contact_ : motions);
+  // Without any load round-off is all that the forces of a body are that its foundation carries.
+  if (const std::string motions = unheld(); !motions.empty())
+    let_go(time_, motions);
 }
 
 // A step that moves a field as never before tells whether refinement helps, and goes on with it if
@@ -181,7 +182,8 @@ template class IterativeRoute<3>;
 
 template <int dim>
 std::unique_ptr<Route> iterative_route(const Model<dim> &model) {
-  const bool decides = model.laws.has_normal_unknowns() ||
+  // Only those know how to keep the digits of a body whose foundation slips far.
+  const bool decides = model.laws.has_normal_unknowns() || model.laws.has_moving_foundation() ||
                        model.laws.crosses_by_state(contact::Crossing::heat) ||
                        model.laws.crosses_by_state(contact::Crossing::charge);
   return decides ? contact_by_solutions(model) : active_set_route(model);

@@ -1,5 +1,7 @@
 #include "solve/leaked_charge.h"
 
+#include <algorithm>
+
 #include "parallel/ranks.h"
 
 namespace tourmaline::solve {
@@ -9,12 +11,46 @@ using body::unknown;
 using Eigen::Index;
 using Eigen::VectorXd;
 
+namespace {
+
 template <int dim>
-LeakedCharge<dim>::LeakedCharge(const Model<dim> &model) : model_(model) {
-  for (const body::SurfaceExchange &exchange : model.linear_exchanges)
-    if (exchange.accumulates)
-      leaks_.push_back(exchange);
-  if (!leaks_.empty())
+void add_facets(const Model<dim> &model, const body::SurfaceExchange &leak,
+                std::optional<double> time, std::span<const double> state,
+                std::vector<double> &by_node) {
+  model.body.for_each_facet(leak.on, [&](const body::Quadrature<dim> &facet) {
+    for (std::size_t q = 0; q < facet.jxw.size(); ++q) {
+      double higher = time ? -leak.outside.value(facet.points[q], *time) : 0;
+      for (std::size_t a = 0; a < facet.nodes.size(); ++a)
+        higher += facet.value(q, a) * state[unknown<dim>(facet.nodes[a], Fields<dim>::potential)];
+      const double flow =
+          model.step * leak.coefficient.value(facet.points[q], 0) * facet.jxw[q] * higher;
+      for (std::size_t a = 0; a < facet.nodes.size(); ++a)
+        by_node[facet.nodes[a]] += facet.value(q, a) * flow;
+    }
+  });
+}
+
+}  // namespace
+
+template <int dim>
+std::vector<double> leaking(const Model<dim> &model, std::optional<double> time,
+                            std::span<const double> state) {
+  std::vector<double> by_node(model.body.n_nodes(), 0.);
+  parallel::together([&] {
+    for (const body::SurfaceExchange &exchange : model.linear_exchanges)
+      if (exchange.accumulates)
+        add_facets(model, exchange, time, state, by_node);
+  });
+  parallel::sum(by_node);
+  return by_node;
+}
+
+template <int dim>
+LeakedCharge<dim>::LeakedCharge(const Model<dim> &model)
+    : model_(model),
+      leaks_(std::any_of(model.linear_exchanges.begin(), model.linear_exchanges.end(),
+                         [](const body::SurfaceExchange &at) { return at.accumulates; })) {
+  if (leaks_)
     charge_ = flux_ = VectorXd::Zero(static_cast<Index>(model.interface.size()));
 }
 
@@ -32,32 +68,10 @@ void LeakedCharge<dim>::describe(StepOutcome &outcome) const {
 }
 
 template <int dim>
-void LeakedCharge<dim>::add_facets(const body::SurfaceExchange &leak, double time,
-                                   std::span<const double> state,
-                                   std::vector<double> &by_node) const {
-  model_.body.for_each_facet(leak.on, [&](const body::Quadrature<dim> &facet) {
-    for (std::size_t q = 0; q < facet.jxw.size(); ++q) {
-      double higher = -leak.outside.value(facet.points[q], time);
-      for (std::size_t a = 0; a < facet.nodes.size(); ++a)
-        higher += facet.value(q, a) * state[unknown<dim>(facet.nodes[a], Fields<dim>::potential)];
-      const double flow =
-          model_.step * leak.coefficient.value(facet.points[q], 0) * facet.jxw[q] * higher;
-      for (std::size_t a = 0; a < facet.nodes.size(); ++a)
-        by_node[facet.nodes[a]] += facet.value(q, a) * flow;
-    }
-  });
-}
-
-template <int dim>
 void LeakedCharge<dim>::end_step(double time, std::span<const double> state) {
-  if (leaks_.empty())
+  if (!leaks_)
     return;
-  std::vector<double> by_node(model_.body.n_nodes(), 0.);
-  parallel::together([&] {
-    for (const body::SurfaceExchange &leak : leaks_)
-      add_facets(leak, time, state, by_node);
-  });
-  parallel::sum(by_node);
+  const std::vector<double> by_node = leaking(model_, time, state);
   for (std::size_t i = 0; i < model_.interface.size(); ++i) {
     const contact::InterfaceNode<dim> &at = model_.interface[i];
     charge_[static_cast<Index>(i)] += by_node[at.node];
@@ -71,7 +85,7 @@ void LeakedCharge<dim>::end_step(double time, std::span<const double> state) {
 
 template <int dim>
 void LeakedCharge<dim>::save(output::SavedNumbers &numbers) const {
-  if (leaks_.empty())
+  if (!leaks_)
     return;
   numbers.put("leaked charge", charge_);
   numbers.put("leaked flux", flux_);
@@ -79,12 +93,16 @@ void LeakedCharge<dim>::save(output::SavedNumbers &numbers) const {
 
 template <int dim>
 void LeakedCharge<dim>::restore(const output::SavedNumbers &numbers) {
-  if (leaks_.empty())
+  if (!leaks_)
     return;
   numbers.fill("leaked charge", charge_);
   numbers.fill("leaked flux", flux_);
 }
 
+template std::vector<double> leaking(const Model<2> &, std::optional<double>,
+                                     std::span<const double>);
+template std::vector<double> leaking(const Model<3> &, std::optional<double>,
+                                     std::span<const double>);
 template class LeakedCharge<2>;
 template class LeakedCharge<3>;
 

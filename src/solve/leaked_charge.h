@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,10 +11,16 @@
 
 namespace tourmaline::solve {
 
+/// What leaks that do not depend on the contact's state let out of the body in a step of the
+/// model's size with this state, integrated against the shape functions, by node [C]; by the
+/// foundation's potential at `time`, nothing: at 0 V. On all ranks.
+template <int dim>
+std::vector<double> leaking(const Model<dim> &model, std::optional<double> time,
+                            std::span<const double> state);
+
 /// The charge that has crossed leaks which do not depend on the contact's state, d(D.nu)/dt = c
-/// (phi
-/// - phi_f), over all steps: what goes on crossing in later ones. That of the step at hand is in
-/// the operator, c k as a capacitor. By interface node; where there are none, nothing.
+/// (phi - phi_f), over all steps: what goes on crossing in later ones. That of the step at hand is
+/// in the operator, c k as a capacitor. By interface node; where there are none, nothing.
 template <int dim>
 class LeakedCharge {
  public:
@@ -30,11 +37,8 @@ class LeakedCharge {
   void restore(const output::SavedNumbers &numbers);
 
  private:
-  void add_facets(const body::SurfaceExchange &leak, double time, std::span<const double> state,
-                  std::vector<double> &by_node) const;
-
   const Model<dim> &model_;
-  std::vector<body::SurfaceExchange> leaks_;
+  bool leaks_ = false;
   Eigen::VectorXd charge_;  // integrated against the shape functions [C]
   Eigen::VectorXd flux_;    // D.nu at the nodes [C/m^2]
 };

@@ -88,8 +88,7 @@ NaturalMap::Place NaturalMap::at(VectorXd d, VectorXd share) const {
 
 Tangent NaturalMap::trial(std::size_t i, const Place &x) const {
   const ContactPoint &p = point(i);
-  return (x.force.segment(p.offset, p.size) + curvature_[i] * x.d.segment(p.offset, p.size)) /
-         p.weight;
+  return (x.force.segment(p.offset, p.size) + curvature_[i] * p.slip(x.d)) / p.weight;
 }
 
 NaturalMap::Pressure NaturalMap::pressure(const FrictionCoupling &coupling, const Place &x) const {
@@ -132,7 +131,7 @@ VectorXd NaturalMap::share_value(const Place &x) const {
 
 double NaturalMap::slip_size(std::size_t i, const Place &x) const {
   const ContactPoint &p = point(i);
-  return std::hypot(x.d.segment(p.offset, p.size).norm(), p.law.held().norm());
+  return std::hypot(p.slip(x.d).norm(), p.law.held().norm());
 }
 
 // Of a point that carries all of it.
@@ -260,7 +259,7 @@ NaturalMap::Unknowns NaturalMap::unknowns(const Place &x) const {
     const ContactPoint &p = point(i);
     u.branches.push_back(branch(i, x));
     if (u.branches.back().is_held)
-      u.d.segment(p.offset, p.size) = -x.d.segment(p.offset, p.size);
+      u.d.segment(p.offset, p.size) = -p.slip(x.d);
   }
   for (std::size_t j = 0; j < couplings_.size() && ramp_; ++j) {
     if (jump_[j] == 0)
@@ -287,7 +286,7 @@ ContactTangent::Point NaturalMap::tangent_at(std::size_t i, const Place &x,
   if (coupling == nullptr)
     return row;
   if (const double size = slip_size(i, x); size > 0)
-    row.of_own -= p.weight / size * at.by_slip * x.d.segment(p.offset, p.size).transpose();
+    row.of_own -= p.weight / size * at.by_slip * p.slip(x.d).transpose();
   if (coupling->normal && !at.by_pressure.isZero(0)) {
     // w p' = D (lambda' + c delta') at the normal's point
     const std::size_t n = *coupling->normal;
@@ -399,7 +398,7 @@ NaturalMap::Place NaturalMap::settled(const Place &x) const {
   Place exact = x;
   for (std::size_t i = 0; i < points_.size(); ++i)
     if (branch(i, x).is_held)
-      exact.d.segment(point(i).offset, point(i).size).setZero();
+      point(i).hold(exact.d);
   return exact.d == x.d && !body_->carries_forces() ? x : at(exact.d, exact.share);
 }
 

@@ -13,13 +13,13 @@ using contact::Tangent;
 // Where a point sticks nothing is rubbed, and as its slip is held there the slope does not count.
 NaturalMap::Sight NaturalMap::sight(const ExchangePoint &at, const Place &x) const {
   const ContactPoint &p = point(at.slip);
-  const Tangent slip = x.d.segment(p.offset, p.size);
+  const Tangent slip = p.slip(x.d);
   Sight seen;
   seen.state = at.known;
   if (at.normal) {
     const ContactPoint &n = point(*at.normal);
     seen.state.pressure = pressure(*at.normal, x);
-    seen.state.penetration += x.d[n.offset];
+    seen.state.penetration += n.slip(x.d)[0];
     seen.by_trial = n.law.normal()->pressure_derivative(trial(*at.normal, x)[0],
                                                         curvature_[*at.normal] / n.weight);
   }

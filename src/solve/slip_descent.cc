@@ -39,7 +39,7 @@ class Descent {
   Tangent part(const VectorXd &v, std::size_t i) const {
     return v.segment(points_[i].offset, points_[i].size);
   }
-  Tangent trial(std::size_t i, double r) const { return (part(force_, i) + r * part(d_, i)); }
+  Tangent trial(std::size_t i, double r) const { return part(force_, i) + r * points_[i].slip(d_); }
   Tangent friction_force(std::size_t i, double r) const;
   double residual(std::size_t i) const {
     return (part(force_, i) - friction_force(i, programme_.curvature[i])).norm();
@@ -83,9 +83,11 @@ VectorXd Descent::proximal_point(double tolerance) const {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const double r = stiffness_factor_ * programme_.curvature[i];
     const Tangent resisted = trial(i, r) - friction_force(i, r);
-    next.segment(points_[i].offset, points_[i].size) = resisted.norm() <= nothing
-                                                           ? Tangent(Tangent::Zero(resisted.size()))
-                                                           : Tangent(resisted / r);
+    const ContactPoint &p = points_[i];
+    if (resisted.norm() <= nothing)
+      p.hold(next);
+    else
+      p.put(resisted / r, next);
   }
   return next;
 }
@@ -119,14 +121,14 @@ bool Descent::proximal_step(double tolerance) {
 std::vector<bool> Descent::smooth_points() const {
   std::vector<bool> smooth;
   for (std::size_t i = 0; i < points_.size(); ++i)
-    smooth.push_back(points_[i].size > 0 && points_[i].law.is_smooth_at(part(d_, i)));
+    smooth.push_back(points_[i].size > 0 && points_[i].law.is_smooth_at(points_[i].slip(d_)));
   return smooth;
 }
 
 double Descent::dissipation(const VectorXd &d) const {
   double sum = 0;
   for (std::size_t i = 0; i < points_.size(); ++i)
-    sum += points_[i].weight * points_[i].law.potential(part(d, i));
+    sum += points_[i].weight * points_[i].law.potential(points_[i].slip(d));
   return sum;
 }
 
@@ -134,8 +136,8 @@ double Descent::dissipation(const VectorXd &d) const {
 VectorXd Descent::along(const VectorXd &direction, double length) const {
   VectorXd next = d_ + length * direction;
   for (std::size_t i = 0; i < points_.size(); ++i)
-    if (part(next, i).norm() <= 1e-6 * part(d_, i).norm())
-      next.segment(points_[i].offset, points_[i].size).setZero();
+    if (points_[i].slip(next).norm() <= 1e-6 * points_[i].slip(d_).norm())
+      points_[i].hold(next);
   return next;
 }
 
@@ -174,7 +176,7 @@ VectorXd Descent::newton_direction(const std::vector<bool> &is_smooth) {
     if (!is_smooth[i])
       continue;
     const ContactPoint &p = points_[i];
-    const Tangent d = part(d_, i);
+    const Tangent d = p.slip(d_);
     hessian[i] = p.weight * p.law.hessian(d);
     descent.segment(p.offset, p.size) = part(force_, i) - p.weight * p.law.gradient(d);
   }
@@ -231,7 +233,7 @@ bool Descent::settle() {
     const double r = programme_.curvature[i];
     if (p.size > 0 && p.law.has_kink(p.size) &&
         p.law.status(trial(i, r) / p.weight, r / p.weight) == ContactStatus::stick)
-      next.segment(p.offset, p.size).setZero();
+      p.hold(next);
   }
   if (next == d_)
     return false;

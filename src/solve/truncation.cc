@@ -9,7 +9,7 @@ using Eigen::VectorXd;
 
 double length_to_turn(const ContactPoint &point, const VectorXd &d, const VectorXd &direction,
                       Turns turns) {
-  const Tangent slip = d.segment(point.offset, point.size);
+  const Tangent slip = point.slip(d);
   const double backwards = -slip.dot(direction.segment(point.offset, point.size));
   const bool turns_here = point.size > 0 && backwards > 0 &&
                           (point.law.has_kink(point.size) ||
@@ -22,7 +22,7 @@ VectorXd truncated_step(const std::vector<ContactPoint> &points, const VectorXd 
   VectorXd next = d + length * direction;
   for (const ContactPoint &p : points)
     if (length >= length_to_turn(p, d, direction, turns))
-      next.segment(p.offset, p.size).setZero();
+      p.hold(next);
   return next;
 }
 

@@ -436,5 +436,65 @@ TEST(Joined, TwoSidesOfOneElectrodeAreTwoElectrodesWithAWireBetweenThem) {
   EXPECT_LT(largest(joined.numbers("electrode_sides_charge")), 1e-9 * std::abs(charge));
 }
 
+const char *beside_a_contact = R"(
+mesh.box = { min = [0, 0], max = [1, 1], cells = [2, 2], cell = "quadrilateral" }
+material = { symmetry = "isotropic", young = 1e9, poisson = 0.3, eps11 = 1000 }
+model.thermal = false
+)";
+
+// All is at one potential: nothing leaks, and an open electrode keeps its voltage, however long the
+// first step is.
+TEST(Electrode, BesideALeakStartsWithoutItsCharge) {
+  const std::string text = std::string(beside_a_contact) + R"(
+boundary = [ { on = "right", displacement = [0, 0], potential = 0.1 } ]
+electrode = [ { name = "e", on = "bottom" } ]
+initial.potential = 0.1
+[contact]
+on = "left"
+electric = { law = "leak", coefficient = 1e-9, foundation_potential = 0.1 }
+)";
+  for (const char *route :
+       {"solver.method=condensed", "solver.body=iterative", "solver.method=monolithic"})
+    for (const char *circuit :
+         {"output.report=false", "electrode[0].resistor=1e9", "electrode[0].voltage=0.1"}) {
+      SCOPED_TRACE(std::string(route) + " " + circuit);
+      const std::string source = std::string(circuit).find("resistor") == std::string::npos
+                                     ? "output.fields=false"
+                                     : "electrode[0].voltage=0.1";
+      const Table history =
+          run_text(text, {route, circuit, source, "time={end=100,steps=1}"}).history();
+      EXPECT_NEAR(history.numbers("electrode_e_voltage")[0], 0.1, 1e-12);
+      EXPECT_NEAR(history.numbers("electrode_e_charge")[0], 0, 1e-20);
+      EXPECT_NEAR(history.numbers("electrode_e_current")[0], 0, 1e-22);
+    }
+}
+
+// Gauss's law: what the electrode has comes out at the contact, whose corner node they share.
+TEST(Electrode, HasNothingOfWhatCrossesTheContact) {
+  const std::string text = std::string(beside_a_contact) + R"(
+boundary = [ { on = "right", displacement = [0, 0] } ]
+electrode = [ { name = "e", on = "bottom", voltage = "t" } ]
+time = { end = 2, steps = 2 }
+[contact]
+on = "left"
+electric = { law = "exchange", coefficient = 1e-8, foundation_potential = 0 }
+)";
+  for (const char *route :
+       {"solver.method=condensed", "solver.body=iterative", "solver.method=monolithic"})
+    for (const char *law : {"contact.electric.law=exchange", "contact.electric.ramp=1",
+                            "contact.electric={law='leak',coefficient=1e-8,"
+                            "foundation_potential=0,ramp=1}"}) {
+      SCOPED_TRACE(std::string(route) + " " + law);
+      const Table history = run_text(text, {route, law}).history();
+      const std::vector<double> on = history.numbers("electrode_e_charge"),
+                                out = history.numbers("charge_left"),
+                                current = history.numbers("electrode_e_current");
+      for (std::size_t n = 0; n < 2; ++n)
+        EXPECT_NEAR(on[n], out[n], 1e-9 * out[n]);
+      EXPECT_NEAR(current[0], on[0], 1e-9 * on[0]);
+      EXPECT_NEAR(current[1], on[1] - on[0], 1e-9 * on[1]);
+    }
+}
+
 }  // namespace
 }  // namespace tourmaline::verified

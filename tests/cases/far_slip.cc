@@ -1,0 +1,123 @@
+// Label: analytic. A foundation that slips, or is apart, by many powers of ten more than the body
+// deforms: what the contact does is then a small difference of displacements.
+
+#include <fmt/format.h>
+
+#include "closed_balances.h"
+#include "equal_quantities.h"
+#include "run_case.h"
+
+namespace tourmaline::verified {
+namespace {
+
+const std::vector<std::string> routes{"solver.method=condensed", "solver.body=iterative",
+                                      "solver.method=monolithic"};
+
+// A block that is pressed down by 1e-10 m; where there is friction heat, it would heat up by far.
+std::string rubbed(const std::string &laws, const std::string &foundation) {
+  return fmt::format(R"(
+mesh.box = {{ min = [0, 0], max = [0.02, 0.01], cells = [8, 4], cell = "quadrilateral" }}
+material.library = "BaTiO3-Liu2014"
+time = {{ end = 2, steps = 2 }}
+boundary = [ {{ on = "top", displacement = [0, "-1e-10*t"], potential = 0, temperature = 0 }} ]
+[contact]
+on = "bottom"
+{}
+foundation_displacement = {}
+)",
+                     laws, foundation);
+}
+
+void expect_equal_answers(const RunCase &one, const RunCase &other, int dim) {
+  std::vector<Quantity> of_nodes{{}, {"potential"}, {"temperature"}},
+      of_contact{{"normal_traction"}};
+  for (int c = 0; c < dim; ++c) {
+    of_nodes[0].push_back(fmt::format("u_{}", "xyz"[c]));
+    of_contact[0].push_back(fmt::format("tangential_traction_{}", "xyz"[c]));
+  }
+  expect_equal_quantities(one.nodes(), other.nodes(), of_nodes, 1e-9);
+  expect_equal_quantities(one.contact(), other.contact(), of_contact, 1e-9);
+  EXPECT_EQ(one.contact().columns.at("status"), other.contact().columns.at("status"));
+}
+
+class FarSlip : public ::testing::TestWithParam<std::string> {};
+
+// How far a body is dragged along does not matter, once all of it slips.
+TEST_P(FarSlip, DoesWhatANearOneDoes) {
+  const RunCase near = run_text(rubbed(GetParam(), "['1e-7*t', 0]"), {routes[0]});
+  for (const std::string &route : routes) {
+    SCOPED_TRACE(route);
+    for (const char *far : {"['1e-3*t', 0]", "['10*t', 0]"}) {
+      SCOPED_TRACE(far);
+      const RunCase run = run_text(rubbed(GetParam(), far), {route});
+      expect_equal_answers(run, near, 2);
+      expect_closed_balances(run.history());
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    OfEveryLaw, FarSlip,
+    ::testing::Values(
+        "friction = { law = 'tresca', bound = 100 }",
+        "friction = { law = 'coulomb', coefficient = 0.3 }",
+        "normal = 'unilateral'\nfriction = { law = 'coulomb', coefficient = 0.3 }",
+        "normal = { law = 'compliance', coefficient = 1e14 }\n"
+        "friction = { law = 'tresca', bound = 100 }",
+        "normal = { law = 'damped', coefficient = 1e14 }\n"
+        "friction = { law = 'coulomb', coefficient = 0.3, cohesion = 1 }",
+        "normal = 'unilateral'\nfriction = { law = 'coulomb', coefficient = 0.3 }\n"
+        "heat = { law = 'exchange', coefficient = 1, foundation_temperature = 0, "
+        "pressure = { coefficient = 1, reference = 500, exponent = 0.95 } }\n"
+        "electric = { law = 'exchange', coefficient = 1e-7, foundation_potential = 0, "
+        "ramp = 1e-10 }"));
+
+// A disc that turns below the block: friction has another direction at every node.
+TEST(FarSlipInSpace, IsTheSameOnAllRoutes) {
+  const std::string text = R"toml(
+mesh.box = { min = [0, 0, 0], max = [0.02, 0.02, 0.01], cells = [4, 4, 2], cell = "hexahedron" }
+material.library = "BaTiO3-Liu2014"
+time = { end = 2, steps = 2 }
+boundary = [ { on = "top", displacement = [0, 0, "-1e-10*t"], potential = 0, temperature = 0 } ]
+[contact]
+on = "bottom"
+normal = "unilateral"
+foundation_displacement = ["-t*(y-0.009)", "t*(x-0.013)", 0]
+friction = { law = "coulomb", coefficient = 0.3 }
+)toml";
+  const RunCase exact = run_text(text, {routes[2]});
+  for (const std::string &route : {routes[0], routes[1]}) {
+    SCOPED_TRACE(route);
+    const RunCase run = run_text(text, {route});
+    expect_equal_answers(run, exact, 3);
+    expect_closed_balances(run.history());
+  }
+}
+
+// A millimetre above its foundation a body is as it would be without one, however little it is
+// loaded.
+TEST(WideGap, ChangesNothing) {
+  const std::string body = R"(
+mesh.box = { min = [0, 0], max = [0.02, 0.01], cells = [8, 4], cell = "quadrilateral" }
+material.library = "BaTiO3-Liu2014"
+time = { end = 2, steps = 2 }
+boundary = [ { on = "left", displacement = [0, 0], potential = 0, temperature = 0 },
+             { on = "top", traction = [0, "-0.001*t"] } ]
+)";
+  const RunCase alone = run_text(body);
+  for (const char *normal : {"'unilateral'", "{ law = 'compliance', coefficient = 1e14 }"})
+    for (const std::string &route : routes) {
+      SCOPED_TRACE(normal + route);
+      const RunCase run = run_text(body +
+                                       "[contact]\non = \"bottom\"\ngap = 1e-3\nfriction = { law "
+                                       "= \"coulomb\", coefficient = 0.3 }\nnormal = " +
+                                       normal,
+                                   {route});
+      expect_equal_quantities(run.nodes(), alone.nodes(),
+                              {{"u_x", "u_y"}, {"potential"}, {"temperature"}}, 1e-9);
+      EXPECT_EQ(run.history().columns.at("open").back(), "9");
+    }
+}
+
+}  // namespace
+}  // namespace tourmaline::verified
