@@ -46,6 +46,7 @@ void ActiveSet<dim>::begin_step(double time, std::span<const double> before,
             model_.interface[i].point, time, p.admissible.tangent(), model_.interface[i].contact)),
         p.admissible.held_slip(at_node(before, i))};
     p.slip_before = p.admissible.directions.transpose() * at_node(before, i);
+    p.place = p.admissible.directions.transpose() * at_node(state, i);
     p.slip = p.admissible.directions.transpose() * (at_node(state, i) - at_node(before, i));
     p.slips =
         !p.is_held() && (!p.friction.has_kink(p.slip.size()) || (p.slips && p.slip.norm() > 0));
@@ -56,8 +57,8 @@ template <int dim>
 void ActiveSet<dim>::impose(std::span<double> state) const {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const Point &p = points_[i];
-    const Tangent slip = p.slips ? Tangent(p.slip_before + p.slip) : p.slip_before;
-    const Vector u = p.admissible.base + p.admissible.directions * slip;
+    const Vector u =
+        p.admissible.base + p.admissible.directions * (p.slips ? p.place : p.slip_before);
     std::copy(u.begin(), u.end(), &state[first_unknown(i)]);
   }
 }
@@ -68,7 +69,8 @@ void ActiveSet<dim>::read_slips(std::span<const double> state) {
     Point &p = points_[i];
     if (!p.slips)
       continue;
-    const Tangent slip = p.admissible.directions.transpose() * at_node(state, i) - p.slip_before;
+    p.place = p.admissible.directions.transpose() * at_node(state, i);
+    const Tangent slip = p.place - p.slip_before;
     if (p.friction.has_kink(slip.size()) && slip.dot(p.slip) <= 0)
       p.slips = false;
     p.slip = slip;
@@ -89,6 +91,7 @@ bool ActiveSet<dim>::change(std::span<const double> residual) {
       continue;
     p.slips = changed = true;
     p.slip = beyond * (weight / curvature(i));
+    p.place = p.slip_before + p.slip;
   }
   return changed;
 }
@@ -225,6 +228,7 @@ template <int dim>
 void ActiveSet<dim>::set_increments(const VectorXd &d) {
   for (Point &p : points_) {
     p.slip = d.segment(p.offset, p.size());
+    p.place = p.slip_before + p.slip;
     p.slips = !p.is_held() && p.friction.is_smooth_at(p.slip);
   }
 }

@@ -92,6 +92,7 @@ class ActiveSet {
     contact::Admissible<dim> admissible;
     contact::PointLaw friction;
     contact::Tangent slip_before;  // of the last step, D^T u [m]
+    contact::Tangent place;        // D^T u where it slips: D^T u_before + d would lose its digits
     contact::Tangent slip;         // d [m]
     bool slips = false;            // in the active set
     Eigen::Index offset = 0;       // of d among those of all points

@@ -320,7 +320,7 @@ VectorXd CondensedRoute<dim>::sharpen(double time, const VectorXd &s, CoupledSol
   }
   // Adding the increment to the very values of the last step keeps a sticking point in its place
   // exactly.
-  const VectorXd c = contact_->displacements(solution.interface.increment.head(n));
+  VectorXd c = contact_->displacements(solution.interface.increment.head(n));
   contact_->measure_from_stuck(solution);
   return c;
 }

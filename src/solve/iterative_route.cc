@@ -182,8 +182,7 @@ template class IterativeRoute<3>;
 
 template <int dim>
 std::unique_ptr<Route> iterative_route(const Model<dim> &model) {
-  // Only those know how to keep the digits of a body whose foundation slips far.
-  const bool decides = model.laws.has_normal_unknowns() || model.laws.has_moving_foundation() ||
+  const bool decides = model.laws.has_normal_unknowns() ||
                        model.laws.crosses_by_state(contact::Crossing::heat) ||
                        model.laws.crosses_by_state(contact::Crossing::charge);
   return decides ? contact_by_solutions(model) : active_set_route(model);

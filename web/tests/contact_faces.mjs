@@ -69,6 +69,7 @@ await inBrowser(desktop, async (context) => {
   await test('the table behind a face has the rows of contact.csv', async () => {
     const chart = tab.locator('#contact .chart', { has: tab.locator('figcaption:text-is("Normal traction on the body")') });
     await chart.locator('summary').click();
+    await chart.locator('tbody tr').nth(319).waitFor();  // the table is made as it is opened
     const said = await chart.locator('tbody tr').evaluateAll((trs) => trs.map((tr) => [...tr.children].map((td) => Number(td.dataset.value))));
     assert.equal(said.length, 320);
     said.forEach((values, i) => [last[i].x, last[i].y, last[i].z, last[i].normal_traction].forEach((wanted, k) =>
