@@ -119,5 +119,32 @@ boundary = [ { on = "left", displacement = [0, 0], potential = 0, temperature = 
     }
 }
 
+// Nothing presses it yet: round-off of where it would have to be to stick is no force.
+TEST(FarSlip, OfAnUnloadedBodyDoesNothing) {
+  const std::string text = R"toml(
+mesh.box = { min = [0, 0, 0], max = [0.02, 0.02, 0.01], cells = [3, 3, 2], cell = "hexahedron" }
+material.library = "BaTiO3-Liu2014"
+time = { end = 4, steps = 4 }
+boundary = [ { on = "top", displacement = [0, 0, "-1e-9*max(t - 2, 0)"], potential = 0, temperature = 0 } ]
+[contact]
+on = "bottom"
+foundation_displacement = ["1e-3*t", "5e-4*t", 0]
+friction = { law = "coulomb", coefficient = 0.3 }
+)toml";
+  for (const std::string &route : routes)
+    for (const char *law : {"contact.normal='unilateral'", "contact.normal='bilateral'",
+                            "contact.normal={law='compliance',coefficient=1e14}",
+                            "contact.normal={law='damped',coefficient=1e14}"}) {
+      SCOPED_TRACE(route + law);
+      const RunCase run = run_text(text, {route, law});
+      const Table history = run.history();
+      const std::vector<double> u = history.numbers("max_displacement");
+      EXPECT_EQ(u[0], 0);
+      EXPECT_EQ(u[1], 0);
+      EXPECT_GT(u[3], u[2]);
+      expect_closed_balances(history);
+    }
+}
+
 }  // namespace
 }  // namespace tourmaline::verified
