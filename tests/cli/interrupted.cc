@@ -297,6 +297,27 @@ TEST_F(Interrupted, ADampedFoundationGoesOn) {
   expect_to_go_on("damped.toml");
 }
 
+TEST_F(Interrupted, AFoundationThatSlipsFarGoesOn) {
+  std::ofstream(here() / "far.toml") << R"toml(
+mesh.box = { min = [0, 0], max = [0.02, 0.01], cells = [12, 6], cell = "quadrilateral" }
+material.library = "BaTiO3-Liu2014"
+time = { end = 2, steps = 200 }
+boundary = [ { on = "top", displacement = ["1e-9*sin(t)", "-1e-10*t"], temperature = 0, potential = 0 } ]
+[contact]
+on = "bottom"
+normal = "unilateral"
+gap = "1e-8*x"
+foundation_displacement = ["sin(9*t)", 0]
+friction = { law = "coulomb", coefficient = { static = 0.4, kinetic = 0.2, distance = 1 } }
+)toml";
+  for (const char *route : {"", " --set solver.body=iterative"}) {
+    SCOPED_TRACE(route);
+    expect_to_go_on(std::string("far.toml") + route);
+    fs::remove_all(here() / "one");
+    fs::remove_all(here() / "other");
+  }
+}
+
 // What the contact's linear systems are preconditioned with is part of what the next bytes depend
 // on.
 TEST_F(Interrupted, AContactOfAThousandNodesGoesOn) {

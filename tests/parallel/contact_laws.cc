@@ -96,6 +96,25 @@ TEST_P(Ranks, ARubbedBlockThatComesOffIsTheSame) {
   expect_same_rubbing(one_, several_, 3);
 }
 
+// By 1e7 times what the block deforms, below one half of it.
+TEST_P(Ranks, AFoundationThatSlipsFarIsTheSame) {
+  const std::string far = file_of(R"toml(
+mesh.box = { min = [0, 0, 0], max = [0.02, 0.02, 0.01], cells = [6, 4, 2], cell = "hexahedron" }
+material.library = "BaTiO3-Liu2014"
+time = { end = 2, steps = 2 }
+boundary = [ { on = "top", displacement = [0, 0, "-1e-10*t"], potential = 0, temperature = 0 } ]
+[contact]
+on = "bottom"
+normal = "unilateral"
+foundation_displacement = ["x > 0.009 ? 1e-3*t : 0", "2e-4*t*y", 0]
+friction = { law = "coulomb", coefficient = 0.3 }
+)toml");
+  for (const std::string body : {"direct", "iterative --set solver.linear_tolerance=1e-13"}) {
+    SCOPED_TRACE(body);
+    expect_same(far + " --set solver.body=" + body);
+  }
+}
+
 // Heat by friction, pressure and gap, charge that leaks.
 const char *const crossing =
     " --set contact.heat.pressure='{coefficient=3e4,reference=1e7,exponent=0.95}'"
