@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "body/backward_error.h"
+#include "krylov/block_smoothing.h"
 #include "krylov/node_rows.h"
 #include "krylov/petsc.h"
 #include "parallel/ranks.h"
@@ -37,6 +38,11 @@ struct BodySystem<dim>::Parts {
   static constexpr int n = Fields<dim>::count;
   using Block = typename body::Operator<dim>::Block;
 
+  struct ContactBlock {
+    PetscInt row, column;  // of nodes
+    Block without;         // contact
+  };
+
   Parts(const body::Operator<dim> &the_operator, double the_step);
   ~Parts();
   Parts(const Parts &) = delete;
@@ -48,7 +54,9 @@ struct BodySystem<dim>::Parts {
   void orthogonalise_twice();
   void attach_rigid_motions(IS displacements, const std::vector<Vector3> &points) const;
   Block projector(Node node) const;
+  bool at_contact(PetscInt row) const { return contact_index[rows.node(row)] >= 0; }
   void assemble();
+  void note_contact_blocks();
   void note_held_nodes();
   void project_own(PetscScalar *own) const;
   static PetscErrorCode multiply_free(Mat free, Vec x, Vec y);
@@ -56,18 +64,20 @@ struct BodySystem<dim>::Parts {
   void put_rows(std::span<const double> all, Vec scaled) const;
   void project(std::span<double> vector) const;
   void multiply_whole(Vec x, Vec y) const;
-  Block block_of(Node node) const;
+  Block block_of(PetscInt row, PetscInt column) const;
+  Block with_contact(const ContactBlock &of) const;
   void put_contact();
+  void put_contact_in(Mat displacements) const;
   void precondition();
 
   const body::Operator<dim> &op;
   double step;
   std::vector<bool> is_prescribed;
   std::vector<NodeTangent<dim>> contact, preconditioned;
-  std::vector<NodeCoupling<dim>> coupling;  // as `contact`, or empty
-  std::vector<Eigen::Vector2d> crossing;    // likewise
-  std::vector<int> contact_index;           // by node; -1: not at the contact
-  std::vector<Block> contact_blocks;  // diagonal blocks of this rank's contact nodes, without C
+  std::vector<NodeCoupling<dim>> coupling;   // as `contact`, or empty
+  std::vector<Eigen::Vector2d> crossing;     // likewise
+  std::vector<int> contact_index;            // by node; -1: not at the contact
+  std::vector<ContactBlock> contact_blocks;  // in this rank's rows
   NodeRows rows;
   std::vector<std::pair<PetscInt, Block>> held;  // own rows, from the first one on, where Q != 1
   std::array<double, n> scale;
@@ -81,6 +91,7 @@ struct BodySystem<dim>::Parts {
   };
   std::array<Field, 3> fields;  // u, phi, theta
   KSP solver = nullptr;
+  std::array<KSP, 3> of_field{};  // inside it
   double set_up_seconds = 0;
   int set_ups = 0;
 };
@@ -160,19 +171,29 @@ void BodySystem<dim>::Parts::split(const std::vector<Vector3> &points) {
   attach_rigid_motions(fields[0].own, points);
 }
 
-// Always a new one: what GAMG makes of a matrix differs in the last digits by what it has made of
-// others, and a run that goes on would not come to the same bytes.
+// Coarse spaces, and the preconditioners of phi and theta, are those of the body without its
+// contact: so they are made once, and no step depends on the contacts before it.
 template <int dim>
 void BodySystem<dim>::Parts::make_solver() {
-  check(KSPDestroy(&solver));
+  assemble();
   check(KSPCreate(PETSC_COMM_WORLD, &solver));
   check(KSPSetFromOptions(solver));
   PC preconditioner = nullptr;
   check(KSPGetPC(solver, &preconditioner));
   for (const Field &field : fields)
     check(PCFieldSplitSetIS(preconditioner, field.name, field.own));
-  if (cells != nullptr)
-    orthogonalise_twice();
+  check(KSPSetOperators(solver, free, matrix));
+  check(KSPSetUp(solver));
+  PetscInt n_fields = 0;
+  KSP *of_each = nullptr;
+  check(PCFieldSplitGetSubKSP(preconditioner, &n_fields, &of_each));
+  std::copy_n(of_each, fields.size(), of_field.begin());
+  check(PetscFree(of_each));
+  for (KSP one : of_field) {
+    check(KSPSetUp(one));
+    check(KSPSetReusePreconditioner(one, PETSC_TRUE));
+  }
+  check(KSPSetReusePreconditioner(solver, PETSC_TRUE));
 }
 
 // Stiff parts on soft ones take the basis its orthogonality: without this the iteration sees a
@@ -193,7 +214,7 @@ typename BodySystem<dim>::Parts::Block BodySystem<dim>::Parts::projector(Node no
   return q;
 }
 
-// Q K Q, and 1 on the diagonal of what is held, so that it stays zero.
+// Q K Q, and 1 on the diagonal of what is held, so that it stays zero; here of what is prescribed.
 template <int dim>
 void BodySystem<dim>::Parts::assemble() {
   const body::NodeGraph &graph = op.graph();
@@ -213,10 +234,24 @@ void BodySystem<dim>::Parts::assemble() {
     }
   }
   finish_assembly(matrix);
-  contact_blocks.clear();
-  for (const NodeTangent<dim> &at : contact)
-    if (rows.owns(at.node))
-      contact_blocks.push_back(block_of(at.node));
+}
+
+// With the columns that other ranks' cells add to a row.
+template <int dim>
+void BodySystem<dim>::Parts::note_contact_blocks() {
+  PetscInt first = 0, last = 0;
+  check(MatGetOwnershipRange(matrix, &first, &last));
+  for (PetscInt row = first / n; row < last / n; ++row) {
+    PetscInt count = 0;
+    const PetscInt *columns = nullptr;
+    check(MatGetRow(matrix, n * row, &count, &columns, nullptr));
+    for (PetscInt k = 0; k < count; k += n)
+      if (at_contact(row) || at_contact(columns[k] / n))
+        contact_blocks.push_back({row, columns[k] / n, Block::Zero()});
+    check(MatRestoreRow(matrix, n * row, &count, &columns, nullptr));
+  }
+  for (ContactBlock &at : contact_blocks)
+    at.without = block_of(at.row, at.column);
 }
 
 template <int dim>
@@ -313,39 +348,71 @@ void BodySystem<dim>::Parts::multiply_whole(Vec x, Vec y) const {
 }
 
 template <int dim>
-typename BodySystem<dim>::Parts::Block BodySystem<dim>::Parts::block_of(Node node) const {
-  std::array<PetscInt, n> own;
-  std::iota(own.begin(), own.end(), n * rows.of(node));
+typename BodySystem<dim>::Parts::Block BodySystem<dim>::Parts::block_of(PetscInt row,
+                                                                        PetscInt column) const {
+  std::array<PetscInt, n> of_row, of_column;
+  std::iota(of_row.begin(), of_row.end(), n * row);
+  std::iota(of_column.begin(), of_column.end(), n * column);
   Block block;
-  check(MatGetValues(matrix, n, own.data(), n, own.data(), block.data()));
+  check(MatGetValues(matrix, n, of_row.data(), n, of_column.data(), block.data()));
+  return block;
+}
+
+// Q (K + C) Q + 1 - Q of these nodes. The contact leaves nothing free that is prescribed.
+template <int dim>
+typename BodySystem<dim>::Parts::Block BodySystem<dim>::Parts::with_contact(
+    const ContactBlock &of) const {
+  const Node node = rows.node(of.row);
+  const Block q = projector(node);
+  Block block = q * of.without * projector(rows.node(of.column));
+  if (of.row != of.column)
+    return block;
+  block += Block::Identity() - q;
+  if (const int k = contact_index[node]; k >= 0) {
+    const NodeTangent<dim> &at = contact[k];
+    block.template topLeftCorner<dim, dim>() += scale[0] * scale[0] * at.stiffness;
+    for (int c = dim; c < n; ++c)
+      block(c, c) += scale[c] * scale[c] * at.crossing[c - dim];
+  }
   return block;
 }
 
 // Set, not added: what the matrix holds depends on this contact only, not on those before.
 template <int dim>
 void BodySystem<dim>::Parts::put_contact() {
-  auto without = contact_blocks.begin();
-  for (const NodeTangent<dim> &at : contact) {
-    if (!rows.owns(at.node))
-      continue;
-    Block block = *without++;
-    block.template topLeftCorner<dim, dim>() += scale[0] * scale[0] * at.stiffness;
-    for (int c = dim; c < n; ++c)
-      block(c, c) += scale[c] * scale[c] * at.crossing[c - dim];
-    const PetscInt row = rows.of(at.node);
-    check(MatSetValuesBlocked(matrix, 1, &row, 1, &row, block.data(), INSERT_VALUES));
+  for (const ContactBlock &at : contact_blocks) {
+    const Block block = with_contact(at);
+    check(MatSetValuesBlocked(matrix, 1, &at.row, 1, &at.column, block.data(), INSERT_VALUES));
   }
   finish_assembly(matrix);
 }
 
+// What the contact changes in the matrix of displacements.
+template <int dim>
+void BodySystem<dim>::Parts::put_contact_in(Mat displacements) const {
+  using BlockOfU = Eigen::Matrix<double, dim, dim, Eigen::RowMajor>;
+  for (const ContactBlock &at : contact_blocks) {
+    const BlockOfU block = with_contact(at).template topLeftCorner<dim, dim>();
+    check(
+        MatSetValuesBlocked(displacements, 1, &at.row, 1, &at.column, block.data(), INSERT_VALUES));
+  }
+  finish_assembly(displacements);
+}
+
+// Only the multigrid of u follows the contact.
 template <int dim>
 void BodySystem<dim>::Parts::precondition() {
-  make_solver();
-  check(KSPSetOperators(solver, free, matrix));
-  check(KSPSetReusePreconditioner(solver, PETSC_FALSE));
-  check(KSPSetUp(solver));
-  check(KSPSetUpOnBlocks(solver));
-  check(KSPSetReusePreconditioner(solver, PETSC_TRUE));
+  Mat of_u = nullptr;
+  check(KSPGetOperators(of_field[0], nullptr, &of_u));
+  put_contact_in(of_u);
+  check(KSPSetReusePreconditioner(of_field[0], PETSC_FALSE));
+  check(KSPSetOperators(of_field[0], of_u, of_u));
+  check(KSPSetUp(of_field[0]));
+  PC multigrid = nullptr;
+  check(KSPGetPC(of_field[0], &multigrid));
+  smooth_by_blocks(multigrid);
+  check(KSPSetUpOnBlocks(of_field[0]));
+  check(KSPSetReusePreconditioner(of_field[0], PETSC_TRUE));
   preconditioned = contact;
   ++set_ups;
 }
@@ -360,6 +427,7 @@ BodySystem<dim>::BodySystem(const body::Operator<dim> &op, double step,
   parts_->is_prescribed = body::mask_of(prescribed, op.graph().n_nodes() * Parts::n);
   parts_->preallocate();
   parts_->split(points);
+  parts_->make_solver();
   parts_->set_up_seconds = watch.lap();
 }
 
@@ -381,12 +449,13 @@ void BodySystem<dim>::set_contact(const std::vector<NodeTangent<dim>> &asked) {
       std::equal(contact.begin(), contact.end(), in.contact.begin(), in.contact.end(),
                  [](const auto &now, const auto &then) { return now.projector == then.projector; });
   in.contact = contact;
-  if (!as_free) {
+  if (is_first) {
     for (std::size_t i = 0; i < contact.size(); ++i)
       in.contact_index[contact[i].node] = static_cast<int>(i);
-    in.note_held_nodes();
-    in.assemble();
+    in.note_contact_blocks();
   }
+  if (!as_free)
+    in.note_held_nodes();
   in.put_contact();
   if (!as_free)
     in.precondition();

@@ -47,7 +47,8 @@ struct Solved {
 /// the contact's stiffness, by flexible GMRES (PETSc). The electric and heat rows change their sign
 /// back, so that the diagonal blocks are positive definite; the preconditioner solves by blocks, u,
 /// then phi, then theta: aggregation multigrid with the rigid motions for u (GAMG), BoomerAMG
-/// (hypre) for phi and theta. All vectors are SI and whole on every rank.
+/// (hypre) for phi and theta. Only the first follows the contact, in coarse spaces without it. All
+/// vectors are SI and whole on every rank.
 template <int dim>
 class BodySystem {
  public:

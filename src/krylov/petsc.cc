@@ -20,19 +20,29 @@ constexpr const char *options[][2] = {
     {"-pc_fieldsplit_type", "multiplicative"},
     {"-fieldsplit_u_ksp_type", "preonly"},
     {"-fieldsplit_u_pc_type", "gamg"},
-    {"-fieldsplit_u_pc_gamg_threshold", "0"},
+    {"-fieldsplit_u_pc_gamg_threshold", "-1"},
+    {"-fieldsplit_u_pc_gamg_aggressive_coarsening", "10"},
     {"-fieldsplit_u_pc_gamg_agg_nsmooths", "0"},
-    // Coarse spaces of an earlier matrix would also make a step depend on all steps before it.
-    {"-fieldsplit_u_pc_gamg_reuse_interpolation", "0"},
+    {"-fieldsplit_u_pc_gamg_reuse_interpolation", "1"},
     {"-fieldsplit_u_mg_levels_ksp_type", "chebyshev"},
     {"-fieldsplit_u_mg_levels_ksp_max_it", "4"},
+    // Found anew for each matrix, with its copy by blocks.
+    {"-fieldsplit_u_mg_levels_ksp_chebyshev_eigenvalues", "0.1,1"},
     {"-fieldsplit_u_mg_levels_pc_type", "jacobi"},
     {"-fieldsplit_phi_ksp_type", "preonly"},
     {"-fieldsplit_phi_pc_type", "hypre"},
     {"-fieldsplit_phi_pc_hypre_type", "boomeramg"},
+    {"-fieldsplit_phi_pc_hypre_boomeramg_strong_threshold", "0.5"},
+    {"-fieldsplit_phi_pc_hypre_boomeramg_coarsen_type", "HMIS"},
+    {"-fieldsplit_phi_pc_hypre_boomeramg_interp_type", "ext+i"},
+    {"-fieldsplit_phi_pc_hypre_boomeramg_P_max", "4"},
     {"-fieldsplit_theta_ksp_type", "preonly"},
     {"-fieldsplit_theta_pc_type", "hypre"},
     {"-fieldsplit_theta_pc_hypre_type", "boomeramg"},
+    {"-fieldsplit_theta_pc_hypre_boomeramg_strong_threshold", "0.5"},
+    {"-fieldsplit_theta_pc_hypre_boomeramg_coarsen_type", "HMIS"},
+    {"-fieldsplit_theta_pc_hypre_boomeramg_interp_type", "ext+i"},
+    {"-fieldsplit_theta_pc_hypre_boomeramg_P_max", "4"},
 };
 
 }  // namespace

@@ -43,7 +43,7 @@ double another_factorisation(const casefile::Case &asked) {
 }
 
 double iterative_memory(const casefile::Case &asked) {
-  return program + 5000 * nodes_of(asked.mesh) * (asked.dimension + 2);
+  return program + 6500 * nodes_of(asked.mesh) * (asked.dimension + 2);
 }
 
 bool solves_iteratively(const casefile::Case &asked) {

@@ -259,14 +259,14 @@ double FoundationCircuits<dim>::probe(const Lack &lack) const {
 template <int dim>
 void FoundationCircuits<dim>::require_contact(double time, const Lack &lack,
                                               const StepOutcome &outcome) const {
-  constexpr double nothing = 1e-12;
+  constexpr double nothing = 1e-12, left_behind = 1e-8;  // by steps that touched
   if (!search_.knows_slope())
     return;
   for (std::size_t f = 0; f < foundations_.size(); ++f) {
     const auto row = static_cast<Index>(f);
     if (touches(f, outcome) ||
         search_.slope().row(row).cwiseAbs().maxCoeff() > nothing * capacities_[row] ||
-        std::abs(lack.of[row]) <= nothing * lack.sizes[row])
+        std::abs(lack.of[row]) <= left_behind * lack.sizes[row])
       continue;
     throw SolveError(fmt::format(
         "nothing touches the foundation of contact \"{}\" at t = {:g} s, and its circuit asks for "

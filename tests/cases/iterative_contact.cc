@@ -127,10 +127,12 @@ INSTANTIATE_TEST_SUITE_P(
         Asked{"damped", {damped, "contact.friction={law='none'}"}, plane},
         Asked{"Coulomb on a bilateral foundation", {"contact.normal=bilateral"}, plane},
         Asked{"Coulomb on a damped foundation", {damped}, plane},
+        // Pressed all over: with cohesion a node that may open has two states of its own.
         Asked{"coefficient of time, cohesion and limit",
               {compliance,
                "contact.friction={law='coulomb',coefficient='0.3+0.2*sin(5*t)+x',cohesion=2e5,"
-               "limit=3e7}"},
+               "limit=3e7}",
+               "contact.gap='-3e-7+5e-8*sin(300*x)'"},
               plane},
         Asked{"slip-rate",
               {"contact.friction={law='coulomb',coefficient={static=0.4,kinetic=0.3,speed=1e-6}}"},
