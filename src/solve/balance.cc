@@ -31,9 +31,9 @@ template <int dim>
 Sum sum_of_energy(const BalanceStep<dim> &step, const EnergyWorks &works, double gained,
                   double lost) {
   Sum sum;
-  for (const double term :
-       {gained, lost, -works.load, -works.electric, -works.thermal, works.friction,
-        works.conduction, -works.foundation, step.normal.gained, step.normal.dissipated})
+  for (const double term : {gained, lost, -works.load, -works.electric, -works.thermal,
+                            works.contact.friction, works.conduction, -works.contact.foundation,
+                            works.contact.gained, works.contact.dissipated})
     sum.add(term);
   if (!step.rates.forces.empty())
     for (const double term : {step.rates.kinetic_gained, step.rates.dissipated})
@@ -48,7 +48,7 @@ template <int dim>
 std::array<std::vector<double>, 3> by_field(const BalanceStep<dim> &step,
                                             const EnergyWorks &works) {
   std::array<std::vector<double>, 3> of{
-      {{-works.load, works.friction, -works.foundation, step.normal.received},
+      {{-works.load, works.contact.friction, -works.contact.foundation, works.contact.received},
        {-works.electric},
        {-works.thermal, works.conduction}}};
   if (!step.rates.forces.empty())
@@ -201,7 +201,7 @@ void Balance<dim>::add_energy(const Step &step, Columns &columns) {
     lost_by_field = by_field(loss);
     lost = loss.sum();
   }
-  lost += step.normal.lost();
+  lost += works.contact.lost();
   put_energies(step, works, gain.sum(), lost, columns);
   const Sum imbalance = sum_of_energy(step, works, gain.sum(), lost);
   double round_off = 0;
@@ -226,7 +226,7 @@ void Balance<dim>::put_energies(const Step &step, const EnergyWorks &works, doub
                                  {"load_power", works.load / k},
                                  {"electric_power", works.electric / k},
                                  {"thermal_power", works.thermal / k},
-                                 {"friction_dissipation", works.friction / k},
+                                 {"friction_dissipation", works.contact.friction / k},
                                  {"conduction_loss", works.conduction / k},
                                  {"time_step_loss", lost / k}});
   if (step.is_dynamic())
@@ -235,10 +235,27 @@ void Balance<dim>::put_energies(const Step &step, const EnergyWorks &works, doub
   if (has_damping_columns())
     columns.emplace_back("viscous_dissipation", step.rates.dissipated / k);
   if (has_foundation_columns())
-    columns.emplace_back("foundation_power", works.foundation / k);
+    columns.emplace_back("foundation_power", works.contact.foundation / k);
   if (model_.laws.can_open())
-    columns.insert(columns.end(), {{"contact_energy", step.normal.stored},
-                                   {"contact_dissipation", step.normal.dissipated / k}});
+    columns.insert(columns.end(), {{"contact_energy", works.contact.stored},
+                                   {"contact_dissipation", works.contact.dissipated / k}});
+  if (works.contacts.size() > 1)
+    put_each_contact(works, columns);
+}
+
+template <int dim>
+void Balance<dim>::put_each_contact(const EnergyWorks &works, Columns &columns) const {
+  const double k = model_.step;
+  for (std::size_t i = 0; i < works.contacts.size(); ++i) {
+    const ContactWorks &contact = works.contacts[i];
+    const std::string name = "_" + model_.asked.contacts[i].called();
+    columns.emplace_back("friction_dissipation" + name, contact.friction / k);
+    if (has_foundation_columns())
+      columns.emplace_back("foundation_power" + name, contact.foundation / k);
+    if (model_.laws.can_open())
+      columns.insert(columns.end(), {{"contact_energy" + name, contact.stored},
+                                     {"contact_dissipation" + name, contact.dissipated / k}});
+  }
 }
 
 // Energy that does not change hides no lack, and neither does that of fields, such as a

@@ -85,6 +85,7 @@ class Balance {
   void add_energy(const Step &step, Columns &columns);
   void put_energies(const Step &step, const EnergyWorks &works, double gained, double lost,
                     Columns &columns) const;
+  void put_each_contact(const EnergyWorks &works, Columns &columns) const;
   // `works` are what each field takes from outside, with a minus, and gives.
   double lack_of_energy(const Step &step, double whole, const std::array<double, 3> &gained,
                         const std::array<double, 3> &lost,

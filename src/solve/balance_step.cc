@@ -123,40 +123,6 @@ std::vector<double> carried(const Model<dim> &model, double time,
   return moved;
 }
 
-// A rigid foundation that reaches into the body at the start gets out of it in the first step: it
-// presses the body by as much as the two have overlapped.
-template <int dim>
-NormalEnergy normal_energy(const Model<dim> &model, const BalanceStep<dim> &step) {
-  NormalEnergy energy;
-  if (!model.laws.can_open())
-    return energy;
-  const double earlier = model.time_before(step.time);
-  for (const contact::InterfaceNode<dim> &at : model.interface) {
-    if (!model.laws.of(at).can_open())
-      continue;
-    double received = 0, force = 0;
-    typename Model<dim>::Vector then, now;
-    for (int c = 0; c < dim; ++c) {
-      const std::size_t i = body::unknown<dim>(at.node, c);
-      then[c] = step.before.unknowns[i];
-      now[c] = step.now.unknowns[i];
-      const double pressing = step.working_contact(i) - step.working_friction(i);
-      received -= pressing * (step.change(i) - step.carried_by(i));
-      force -= pressing * at.normal[c];
-    }
-    const double before = then.dot(at.normal) - model.reach(at, earlier),
-                 after = now.dot(at.normal) - model.reach(at, step.time);
-    const auto law = model.laws.of(at).normal(at.point, before);
-    const double pressed_in = std::isinf(law->potential(before)) ? force * before : 0;
-    energy.pressed_in += pressed_in;
-    energy.received += received + pressed_in;
-    energy.stored += at.weight * law->stored(after);
-    energy.gained += at.weight * (law->stored(after) - law->stored(before));
-    energy.dissipated += at.weight * law->dissipated(after);
-  }
-  return energy;
-}
-
 // By field, the largest scaled unknown of all that it is coupled to.
 template <int dim>
 std::array<double, 3> coupled_sizes(const CoupledFields &coupled, const BalanceStep<dim> &step,
@@ -305,7 +271,6 @@ BalanceStep<dim> balance_step(const Model<dim> &model, const std::vector<bool> &
   step.contact = by_unknown(model, outcome.contact_forces);
   step.friction = by_unknown(model, outcome.friction_forces);
   step.carried = carried(model, time, step.before.unknowns);
-  step.normal = normal_energy(model, step);
   step.backward_error = outcome.backward_error;
   step.leaked = outcome.leaked_charge;
   add_capacitors(model, cell_by_cell, step);

@@ -29,19 +29,6 @@ struct BalanceRoundOff {
   std::array<double, 3> energy{};  ///< by field [J]
 };
 
-/// Of the response of a foundation that the body can leave [J].
-struct NormalEnergy {
-  double pressed_in =
-      0;                ///< what the foundation does as it takes away an interference at the start
-  double received = 0;  ///< from the body and by that in this step
-  double stored = 0;    ///< held at its end
-  double gained = 0;    ///< of it in this step
-  double dissipated = 0;  ///< in this step
-
-  /// What the step loses as the contact closes or is pressed, never negative.
-  double lost() const { return received - gained - dissipated; }
-};
-
 /// What acts on u at the end of a step, by unknown [N]: the next one's balance of energy knows the
 /// forces at both of its ends.
 struct EndForces {
@@ -73,7 +60,6 @@ struct BalanceStep {
   std::vector<double> carried;  ///< by unknown: how the foundation has moved [m]; empty: it rests
   RateRecord rates;             ///< what resists rates of u
   const EndForces *earlier = nullptr;  ///< of the step before, in the dynamic regime; else null
-  NormalEnergy normal;                 ///< of the foundation's response
   BalanceRoundOff round_off;
 
   /// What a potential's row would have without reaction and what crosses by the contact's state.

@@ -246,6 +246,14 @@ CoupledSolution CondensedRoute<dim>::solve_leaning(const InterfaceProgramme &pro
   return solution;
 }
 
+// Where nothing acts on the body, nothing moves: from elsewhere Newton's method would come there by
+// ever smaller steps, and end at forces that no balance can tell from real ones.
+VectorXd unless_unloaded(VectorXd start, const VectorXd &force) {
+  if (force.isZero(0))
+    start.head(force.size()).setZero();
+  return start;
+}
+
 // Of held exchanges each has a matrix of its own, of which nothing is kept.
 template <int dim>
 CoupledSolution CondensedRoute<dim>::solve_with_exchange(double time, const VectorXd &s,
@@ -267,13 +275,14 @@ CoupledSolution CondensedRoute<dim>::solve_with_exchange(double time, const Vect
   const auto solve_held = [&](const InterfaceProgramme &held, const VectorXd &from) {
     return solve_programme(held, from, settings(nullptr));
   };
+  const VectorXd from = unless_unloaded(start, force.head(n));
   CoupledSolution solution =
-      solve_exchanging(programme, start, settings(&whole_factor_), solve_held);
+      solve_exchanging(programme, from, settings(&whole_factor_), solve_held);
   // Newton's method on the whole may lose a body that only its contact holds; with what crosses
   // held, springs lead back.
   if (!left_to_contact_.empty() &&
       (!solution.interface.converged || is_carried_off(programme.whole, solution.interface)))
-    solution = solve_exchanging(programme, start, settings(&whole_factor_), solve_held, false);
+    solution = solve_exchanging(programme, from, settings(&whole_factor_), solve_held, false);
   require_solved(time, programme.whole, solution.interface);
   return solution;
 }
@@ -299,7 +308,8 @@ CoupledSolution CondensedRoute<dim>::solve_contact(double time, const VectorXd &
   const double scale = larger(s.cwiseAbs().maxCoeff<Eigen::PropagateNaN>(),
                               resisted.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
   const InterfaceProgramme programme{slip_stiffness_, force, contact_->points(), scale};
-  CoupledSolution solution = solve_programme(programme, start, settings(&factor_));
+  CoupledSolution solution =
+      solve_programme(programme, unless_unloaded(start, force), settings(&factor_));
   require_solved(time, programme, solution.interface);
   return solution;
 }

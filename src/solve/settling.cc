@@ -23,6 +23,9 @@ using Eigen::VectorXd;
 
 namespace {
 
+// Of the terms that a place or a force is summed from, what is round-off.
+constexpr double nothing = 1e-12;
+
 // By interface node: whether its contact keeps it where it is.
 template <int dim>
 std::vector<bool> touching(const Model<dim> &model, std::span<const double> state) {
@@ -30,7 +33,8 @@ std::vector<bool> touching(const Model<dim> &model, std::span<const double> stat
   for (const contact::InterfaceNode<dim> &at : model.interface) {
     const Eigen::Map<const typename Model<dim>::Vector> u(&state[unknown<dim>(at.node, 0)]);
     const double reach = model.reach(at, 0);
-    touches.push_back(!model.laws.of(at).can_open() || u.dot(at.normal) >= reach);
+    touches.push_back(!model.laws.of(at).can_open() ||
+                      u.dot(at.normal) >= reach - nothing * (u.norm() + std::abs(reach)));
   }
   return touches;
 }
@@ -203,23 +207,25 @@ class Settling {
 
   // What crosses by a state that has moved since, as nodes without mass went.
   bool crosses_otherwise() const {
-    constexpr double tolerance = 1e-12;
     const std::vector<double> left = this->left(), sizes = model_.op.sizes(0, state_);
     return std::any_of(sites_.begin(), sites_.end(), [&](const ExchangeSite &site) {
-      return std::abs(left[site.unknown]) > tolerance * sizes[site.unknown];
+      return std::abs(left[site.unknown]) > nothing * sizes[site.unknown];
     });
   }
 
   // What the foundation exerts on the node has to press.
   bool release_drawn() {
-    const std::vector<double> left = left_at_start(model_, state_);
+    using Vector = typename Model<dim>::Vector;
+    const std::vector<double> left = left_at_start(model_, state_),
+                              terms = model_.op.sizes(0, state_);
     bool released = false;
     for (std::size_t n = 0; n < touches_.size(); ++n) {
       const contact::InterfaceNode<dim> &at = model_.interface[n];
       if (!touches_[n] || !model_.laws.of(at).can_open())
         continue;
-      const Eigen::Map<const typename Model<dim>::Vector> force(&left[unknown<dim>(at.node, 0)]);
-      if (force.dot(at.normal) >= 0)
+      const auto force = Vector::Map(&left[unknown<dim>(at.node, 0)]),
+                 of_force = Vector::Map(&terms[unknown<dim>(at.node, 0)]);
+      if (force.dot(at.normal) >= -nothing * (of_force.norm() + force.norm()))
         continue;
       touches_[n] = false;
       released = true;

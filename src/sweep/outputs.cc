@@ -118,11 +118,18 @@ void add_contact_extremes(const casefile::Case &asked, List &list) {
   }
 }
 
-// Of several contacts what each has, as run/contact_sums.cc writes it.
+// Of several contacts what each has, as solve/balance.cc and run/contact_sums.cc write it.
 void add_each_contact(const casefile::Case &asked, List &list) {
   const contact::Contacts laws(asked.contacts, asked.time.end / asked.time.steps);
   for (std::size_t i = 0; asked.contacts.size() > 1 && i < asked.contacts.size(); ++i) {
     const std::string name = "_" + asked.contacts[i].called();
+    list.add(whole("W", asked), {"friction_dissipation" + name});
+    if (laws.has_moving_foundation() || laws.has_normal_unknowns())
+      list.add(whole("W", asked), {"foundation_power" + name});
+    if (laws.can_open()) {
+      list.add(whole("J", asked), {"contact_energy" + name});
+      list.add(whole("W", asked), {"contact_dissipation" + name});
+    }
     list.add("", {"stick" + name, "slip" + name, "open" + name});
     for (int c = 0; c < asked.dimension; ++c)
       list.add(whole("N", asked), {std::string("contact_force_") + axes[c] + name});

@@ -146,5 +146,61 @@ friction = { law = "coulomb", coefficient = 0.3 }
     }
 }
 
+// Nothing touches, so whatever the foundation does is nothing to the body and to what works on it.
+TEST(FarSlip, OfAFoundationThatNothingTouchesLeavesTheWorkOfLoadsAlone) {
+  const auto beside = [](const std::string &foundation, const std::string &route) {
+    return run_text(fmt::format(R"(
+mesh.box = {{ min = [0, 0], max = [0.02, 0.01], cells = [4, 2], cell = "quadrilateral" }}
+material.library = "steel"
+model = {{ thermal = false, electric = false }}
+time = {{ end = 2, steps = 2 }}
+boundary = [ {{ on = "top", displacement = ["t < 1.5 ? 0 : 1e-9", 0] }},
+             {{ on = "right", traction = ["1e3*t", 0] }} ]
+[contact]
+on = "bottom"
+gap = 1e-8
+normal = "unilateral"
+foundation_displacement = {}
+)",
+                                foundation),
+                    {route})
+        .history();
+  };
+  for (const std::string &route : routes) {
+    SCOPED_TRACE(route);
+    const std::vector<double> works = beside("[0, 0]", route).numbers("load_power");
+    for (const char *foundation : {"['t < 1.5 ? 0 : 1e-4', 0]", "['t', 0]", "['1e4*t', 0]"}) {
+      const Table history = beside(foundation, route);
+      expect_closed_balances(history);
+      for (std::size_t n = 0; n < works.size(); ++n)
+        EXPECT_NEAR(history.numbers("load_power")[n], works[n], 1e-10 * works.back()) << foundation;
+      EXPECT_EQ(history.numbers("foundation_power"), (std::vector<double>{0, 0}));
+    }
+  }
+}
+
+// Where it stops, the slip of the step before is no beginning for a step in which nothing acts.
+TEST(FarSlip, ToAndFroOfAnUnloadedBodyLeavesNoForces) {
+  for (const std::string &route : routes) {
+    SCOPED_TRACE(route);
+    const RunCase run = run_text(R"toml(
+mesh.box = { min = [0, 0], max = [0.01, 0.01], cells = [2, 1], cell = "quadrilateral" }
+material.library = "steel"
+model = { thermal = false, electric = false, plane = "stress" }
+time = { end = 100, steps = 9 }
+boundary = [ { on = "top", displacement = [0, 0] } ]
+[contact]
+on = "bottom"
+normal = { law = "damped", coefficient = 1e12 }
+friction = { law = "coulomb", coefficient = 0.6 }
+foundation_displacement = ["-4e-11*(sin(2*pi*t/100+0.1) > 0 ? 1 : -1)", 0]
+)toml",
+                                 {route});
+    EXPECT_EQ(run.history().n_rows(), 9u);
+    for (const char *force : {"contact_force_x", "contact_force_y"})
+      EXPECT_EQ(largest(run.history(), force), 0);
+  }
+}
+
 }  // namespace
 }  // namespace tourmaline::verified

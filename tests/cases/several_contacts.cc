@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <functional>
 #include <set>
 
@@ -384,6 +385,43 @@ TEST(SeveralContacts, OfDifferentLawsAreTheSameOnBothRoutes) {
                             normal = jaw.numbers("normal_traction");
   for (std::size_t i = 0; i < bound.size(); ++i)
     EXPECT_NEAR(bound[i], 0.15 * std::max(0., -normal[i]), 1e-9 * largest(bound));
+}
+
+// The jaw moves as one body, the wall rests; weights of squares are their sides' halves.
+TEST(SeveralContacts, EachHaveTheirOwnWorkAndFriction) {
+  const double side = 0.01 / 16;
+  for (const std::string solver : {"solver.method=condensed", "solver.method=monolithic"}) {
+    SCOPED_TRACE(solver);
+    const RunCase run("cases/clamped-block/block.toml", {solver});
+    const Table history = run.history(), contact = run.contact();
+    const std::vector<double> time = history.numbers("time"),
+                              force = history.numbers("contact_force_x_jaw"),
+                              of_jaw = history.numbers("foundation_power_jaw"),
+                              of_wall = history.numbers("foundation_power_wall"),
+                              of_all = history.numbers("foundation_power");
+    const auto moved = [](double t) { return -2e-7 * (1 - std::exp(-8 * t)); };
+    for (std::size_t i = 0; i < time.size(); ++i) {
+      const double k = 0.05, before = time[i] - k;
+      EXPECT_NEAR(of_jaw[i], force[i] * (moved(time[i]) - moved(before)) / k,
+                  1e-12 * largest(of_jaw));
+      EXPECT_EQ(of_wall[i], 0);
+      EXPECT_EQ(of_all[i], of_jaw[i] + of_wall[i]);
+    }
+    for (const std::string name : {"wall", "jaw"}) {
+      const Table rows = rows_with(rows_with(contact, "contact", name), "step", "20");
+      const std::vector<double> y = rows.numbers("y"),
+                                traction = rows.numbers("tangential_traction_y"),
+                                rate = rows.numbers("slip_rate");
+      double dissipated = 0;
+      for (std::size_t i = 0; i < y.size(); ++i)
+        dissipated +=
+            (y[i] < 1e-9 || y[i] > 0.01 - 1e-9 ? 0.5 : 1) * side * std::abs(traction[i]) * rate[i];
+      EXPECT_GT(dissipated, 0);
+      EXPECT_NEAR(history.numbers("friction_dissipation_" + name).back(), dissipated,
+                  1e-9 * dissipated);
+      EXPECT_EQ(history.numbers("contact_energy_" + name).back(), 0);
+    }
+  }
 }
 
 TEST(SeveralContacts, WithTrescasLawEachAreTheSameOnTheIterativeRoute) {
