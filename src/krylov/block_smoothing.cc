@@ -109,11 +109,10 @@ Mat by_blocks(Mat matrix) {
   MPI_Comm all = MPI_COMM_NULL;
   Mat shell = nullptr;
   check(PetscObjectGetComm(reinterpret_cast<PetscObject>(matrix), &all));
-  check(
-      MatCreateShell(all, rows, columns, PETSC_DETERMINE, PETSC_DETERMINE, context.get(), &shell));
+  check(MatCreateShell(all, rows, columns, PETSC_DETERMINE, PETSC_DETERMINE, nullptr, &shell));
   check(MatShellSetOperation(shell, MATOP_MULT, reinterpret_cast<void (*)()>(multiply)));
   check(MatShellSetOperation(shell, MATOP_DESTROY, reinterpret_cast<void (*)()>(destroy)));
-  context.release();
+  check(MatShellSetContext(shell, context.release()));
   return shell;
 }
 
