@@ -88,12 +88,12 @@ void BlockRows::put_row(Mat matrix, PetscInt row) {
   PetscInt n = 0;
   const PetscInt *columns = nullptr;
   const PetscScalar *values = nullptr;
-  const auto begin = static_cast<std::ptrdiff_t>(column_.size());
+  const std::ptrdiff_t begin = first_.back();
   for (PetscInt r = 0; r < size_; ++r) {
     check(MatGetRow(matrix, row + r, &n, &columns, nullptr));
     for (PetscInt k = 0; k < n; ++k)
-      if (const PetscInt column = columns[k] / size_; column_.empty() || column != column_.back())
-        column_.push_back(column);
+      if (k == 0 || columns[k] / size_ != column_.back())
+        column_.push_back(columns[k] / size_);
     check(MatRestoreRow(matrix, row + r, &n, &columns, nullptr));
   }
   std::sort(column_.begin() + begin, column_.end());
