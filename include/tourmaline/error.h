@@ -21,6 +21,11 @@ struct SolveError : Error {
   using Error::Error;
 };
 
+/// No state of the contact was found; a shorter step may lead to one.
+struct UnsettledStep : SolveError {
+  using SolveError::SolveError;
+};
+
 /// The machine failed (disk full, no permission, no memory): exit status 4.
 struct MachineError : Error {
   using Error::Error;

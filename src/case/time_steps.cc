@@ -83,4 +83,23 @@ void TimeSteps::append(double size, double end) {
   intervals_.push_back({last > 0 ? at(last) : 0, end, last + 1, last + 1, size});
 }
 
+void TimeSteps::halve(int n) {
+  const Interval whole = of(n);
+  const double begin = at(n - 1), end = at(n);
+  std::vector<Interval> parts;
+  if (whole.first < n)
+    parts.push_back({whole.begin, begin, whole.first, n - 1, whole.size});
+  parts.push_back({begin, end, n, n + 1, whole.size / 2});
+  if (n < whole.last)
+    parts.push_back({end, whole.end, n + 2, whole.last + 1, whole.size});
+  auto at_whole = std::partition_point(intervals_.begin(), intervals_.end(),
+                                       [n](const Interval &interval) { return interval.last < n; });
+  at_whole = intervals_.erase(at_whole);
+  for (auto later = at_whole; later != intervals_.end(); ++later) {
+    ++later->first;
+    ++later->last;
+  }
+  intervals_.insert(at_whole, parts.begin(), parts.end());
+}
+
 }  // namespace tourmaline::casefile

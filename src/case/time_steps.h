@@ -31,6 +31,8 @@ class TimeSteps {
   /// them, of that size, which ends at `end`.
   void keep(int n);
   void append(double size, double end);
+  /// Step n is taken in two of half its size; those behind it have higher numbers then.
+  void halve(int n);
 
  private:
   struct Interval {

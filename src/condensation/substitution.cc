@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "condensation/trapezoid.h"
+#include "for_each_processor.h"
 
 // A substitution reads each number of the factor once, so memory bounds it, which is read fastest
 // as one stream: forwards in one substitution, backwards in the other. Columns are 100 numbers long
@@ -11,14 +12,6 @@
 // gives half or a third (docs/measurements.md). Where columns are long it gives the same, and a
 // strip reads or writes the vector, which no longer stays in the smallest cache, once for all
 // eight.
-
-// What has this is compiled for each kind of processor; the sanitizers' start comes too late for
-// it.
-#if defined(__x86_64__) && !defined(TOURMALINE_SANITIZED)
-#define FOR_EACH_PROCESSOR [[gnu::target_clones("default", "avx2", "avx512f")]]
-#else
-#define FOR_EACH_PROCESSOR
-#endif
 
 namespace tourmaline::condensation {
 

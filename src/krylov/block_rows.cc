@@ -3,15 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "for_each_processor.h"
 #include "krylov/petsc.h"
-
-// What has this is compiled for each kind of processor; the sanitizers' start comes too late for
-// it.
-#if defined(__x86_64__) && !defined(TOURMALINE_SANITIZED)
-#define FOR_EACH_PROCESSOR [[gnu::target_clones("default", "avx2", "avx512f")]]
-#else
-#define FOR_EACH_PROCESSOR
-#endif
 
 namespace tourmaline::krylov {
 

@@ -27,6 +27,8 @@ class Progress {
   /// Names the work that goes on until the next call ("mesh", "factorise"); drawn at once.
   void stage(const std::string &what);
 
+  /// There are so many steps after all.
+  void expect(int steps) { steps_ = steps; }
   /// Reports a finished step; drawn at most ten times a second.
   void step(const HistoryRow &row);
 

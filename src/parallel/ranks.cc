@@ -42,7 +42,7 @@ std::vector<Number> gathered(const std::vector<Number> &mine, MPI_Datatype type,
 
 // What went wrong on a rank, in a form that can be sent.
 struct Failure {
-  enum Kind { none, wrong_case, solve, machine, other } kind = none;
+  enum Kind { none, wrong_case, solve, unsettled_step, machine, other } kind = none;
   std::string text;
 };
 
@@ -52,6 +52,8 @@ Failure failure_of(const std::function<void()> &work) {
     return {};
   } catch (const CaseError &error) {
     return {Failure::wrong_case, error.what()};
+  } catch (const UnsettledStep &error) {
+    return {Failure::unsettled_step, error.what()};
   } catch (const SolveError &error) {
     return {Failure::solve, error.what()};
   } catch (const MachineError &error) {
@@ -69,6 +71,8 @@ Failure failure_of(const std::function<void()> &work) {
       throw CaseError(failure.text);
     case Failure::solve:
       throw SolveError(failure.text);
+    case Failure::unsettled_step:
+      throw UnsettledStep(failure.text);
     case Failure::machine:
       throw MachineError(failure.text);
     default:

@@ -75,8 +75,11 @@ TimeLoop<dim>::TimeLoop(const casefile::Case &asked, const std::filesystem::path
   }
   open_folder(directory, std::move(lock));
   recorder_.emplace(model_, *folder_);
+  const output::SavedNumbers *numbers = checkpoint_ ? &checkpoint_->numbers : nullptr;
   if (asked.time.tolerance)
-    chosen_.emplace(model_, evolution_).plan(checkpoint_ ? &checkpoint_->numbers : nullptr);
+    chosen_.emplace(model_, evolution_).plan(numbers);
+  else
+    given_.emplace(model_, evolution_, numbers);
   evolution_.make_ready(iterative_, progress_,
                         checkpoint_ ? static_cast<int>(checkpoint_->step) + 1 : 1);
 }
@@ -122,6 +125,7 @@ void TimeLoop<dim>::book(TakenStep step) {
   highlights_.see(row);
   most_strained_.step(row, step.state);
   temperature_.step(row);
+  progress_.expect(chosen_ ? 0 : model_.steps.count());
   progress_.step(row);
   std::swap(state_, step.state);
   done_ = step.n;
@@ -139,7 +143,7 @@ output::HistoryRow TimeLoop<dim>::record(const TakenStep &step) {
 
 template <int dim>
 bool TimeLoop<dim>::is_at_end() const {
-  return chosen_ ? chosen_->is_at_end() : done_ == model_.asked.time.steps;
+  return chosen_ ? chosen_->is_at_end() : given_->is_at_end(done_);
 }
 
 // Checkpoints stand behind whole pairs.
@@ -151,7 +155,7 @@ void TimeLoop<dim>::march(Schedule &schedule) {
       for (TakenStep &step : chosen_->next(done_))
         book(std::move(step));
     else
-      book(evolution_.take(first));
+      book(given_->take(first));
     if (!is_at_end())
       pause(schedule.after(first, done_));
   }
@@ -174,7 +178,7 @@ template <int dim>
 std::string TimeLoop<dim>::of_all() const {
   return chosen_
              ? fmt::format(" at t = {:.4g} of {:.4g} s", model_.time(done_), model_.asked.time.end)
-             : fmt::format(" of {}", model_.asked.time.steps);
+             : fmt::format(" of {}", model_.steps.count());
 }
 
 template <int dim>
@@ -279,6 +283,8 @@ void TimeLoop<dim>::save() {
     evolution_.save(numbers);
     if (chosen_)
       chosen_->save(numbers);
+    else
+      given_->save(numbers);
     account_.save(numbers);
     adrift_.save(numbers);
     recorder_->save(numbers);
@@ -345,8 +351,10 @@ output::Summary TimeLoop<dim>::summary() const {
                    {"factor_flops", static_cast<std::int64_t>(report.factor_flops)},
                    {"steps", done_},
                    {"ranks", parallel::n_ranks()}};
-  if (!model_.asked.time.intervals.empty() || chosen_)
+  if (!model_.asked.time.intervals.empty() || chosen_ || given_->count() > 0)
     summary.sizes["step_sizes"] = sizes;
+  if (given_ && given_->count() > 0)
+    summary.sizes["halved_steps"] = given_->count();
   if (chosen_) {
     summary.sizes["rejected_steps"] = chosen_->rejected();
     summary.sizes["computed_steps"] = chosen_->computed();
@@ -371,8 +379,7 @@ std::vector<std::string> TimeLoop<dim>::warnings() const {
   };
   for (const std::string &warning : evolution_.route().warnings())
     add(warning);
-  if (chosen_)
-    add(chosen_->warning());
+  add(chosen_ ? chosen_->warning() : given_->warning());
   if (most_strained_.step() > 0)
     add(locking_warning(model_, most_strained_.state()));
   add(account_.jump_warning(model_.asked.time.is_dynamic()));

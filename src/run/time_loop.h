@@ -16,6 +16,7 @@
 #include "run/adrift.h"
 #include "run/ending.h"
 #include "run/evolution.h"
+#include "run/halved_steps.h"
 #include "run/most_strained.h"
 #include "run/recorder.h"
 #include "run/schedule.h"
@@ -73,6 +74,7 @@ class TimeLoop {
   solve::Model<dim> model_;
   Evolution<dim> evolution_;
   std::optional<StepDoubling<dim>> chosen_;  // steps, where the program chooses them
+  std::optional<HalvedSteps<dim>> given_;    // where the case does
   std::optional<output::ResultFolder> folder_;
   std::optional<Recorder<dim>> recorder_;
   std::vector<double> state_;  // of the last step that is written

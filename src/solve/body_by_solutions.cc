@@ -188,7 +188,10 @@ template <int dim>
 bool BodyBySolutions<dim>::newton_step(const ContactTangent &tangent, std::vector<double> residual,
                                        double reduction) {
   const NodeSystem<dim> system(contact_, model_, with_springs(tangent));
-  ++iterations_;
+  if (iterations_++ == 0) {
+    body_.system().set_contact(system.tangents);
+    body_.system().refresh();
+  }
   if (!correct(system, system.known, system.force, std::move(residual), reduction))
     return false;
   const VectorXd moved = contact_.directions().transpose() * at_contact(body_.increment());

@@ -371,7 +371,7 @@ void CondensedRoute<dim>::give_up(double time, const InterfaceSolution &solution
                                       first_places(unsettled.size(), [&](std::size_t i) {
                                         return model_.interface[unsettled[i]].point;
                                       }));
-  throw SolveError(fmt::format(
+  throw UnsettledStep(fmt::format(
       "the contact iteration did not converge at t = {:g} s: residual {:.3g} of the largest force "
       "after {} iterations, wanted {:.3g}; {}; raise solver.max_iterations or solver.tolerance, or "
       "take smaller time steps{}",

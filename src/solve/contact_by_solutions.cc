@@ -2,13 +2,9 @@
 
 #include <algorithm>
 #include <limits>
-#include <string>
+#include <optional>
+#include <utility>
 
-#include "solve/body_by_solutions.h"
-#include "solve/contact_nodes.h"
-#include "solve/coupled_programme.h"
-#include "solve/held_exchanges.h"
-#include "solve/iterative_route.h"
 #include "solve/leaning.h"
 #include "solve/natural_map.h"
 
@@ -36,70 +32,38 @@ class Progress {
   int last_gain_ = 0;
 };
 
+}  // namespace
+
 template <int dim>
-class ContactBySolutions : public IterativeRoute<dim> {
- public:
-  explicit ContactBySolutions(const Model<dim> &model)
-      : IterativeRoute<dim>(model),
-        contact_(model, this->is_prescribed_),
-        exchange_(model),
-        seen_(model, this->is_prescribed_, body_, contact_, !left_to_contact_.empty()) {}
+ContactBySolutions<dim>::ContactBySolutions(const Model<dim> &model,
+                                            const std::vector<bool> &is_prescribed,
+                                            BodyEquations<dim> &body, RouteReport &count,
+                                            bool is_leaning, double tolerance)
+    : model_(model),
+      body_(body),
+      count_(count),
+      is_leaning_(is_leaning),
+      tolerance_(tolerance),
+      contact_(model, is_prescribed),
+      exchange_(model),
+      seen_(model, is_prescribed, body, contact_, is_leaning) {
+  count_.safe_steps = 0;
+}
 
-  VectorXd accumulated_slip() const override { return contact_.accumulated_slip(); }
+template <int dim>
+void ContactBySolutions<dim>::begin_step(double time, std::span<const double> before,
+                                         std::span<double> state) {
+  time_ = time;
+  state_ = state;
+  contact_.begin_step(time, before, state);
+  exchange_.begin_step(time, state);
+  seen_.begin_step(time, state, tolerance_);
+}
 
- private:
-  using IterativeRoute<dim>::model_;
-  using IterativeRoute<dim>::body_;
-  using IterativeRoute<dim>::time_;
-  using IterativeRoute<dim>::state_;
-  using IterativeRoute<dim>::iterations_;
-  using IterativeRoute<dim>::so_far_;
-  using IterativeRoute<dim>::left_to_contact_;
-  using IterativeRoute<dim>::contact_tolerance;
-
-  void begin_contact(std::span<const double> before) override {
-    contact_.begin_step(time_, before, state_);
-    exchange_.begin_step(time_, state_);
-    seen_.begin_step(time_, state_, contact_tolerance());
-  }
-  void settle() override;
-  void settle_contact();
-  void find();
-  std::vector<double> freed(std::vector<double> residual) const override {
-    return seen_.freed(std::move(residual));
-  }
-  void set_contact() override { body_.system().set_contact(seen_.held()); }
-  StepOutcome outcome() override;
-  void take_contact_back() override {
-    contact_.take_back();
-    exchange_.take_back();
-  }
-  std::string unheld() const override {
-    return unheld_motions(model_, contact_, solution_.interface.status);
-  }
-  void save_contact(output::SavedNumbers &numbers) const override {
-    contact_.save(numbers);
-    exchange_.save(numbers);
-  }
-  void restore_contact(const output::SavedNumbers &numbers) override {
-    contact_.restore(numbers);
-    exchange_.restore(numbers);
-  }
-
-  StateAtNode states() const {
-    return [this](std::size_t node) { return contact_.state_for_exchange(node, solution_); };
-  }
-  CoupledContact coupled() { return {seen_, contact_.points(), contact_.couplings()}; }
-  bool find_fast();
-  bool newton_step(const ContactTangent &tangent, std::vector<double> residual);
-  CoupledSolution solve_from(const VectorXd &start);
-  void find_safely(const VectorXd &start);
-
-  ContactNodes<dim> contact_;
-  HeldExchanges<dim> exchange_;
-  BodyBySolutions<dim> seen_;  // by the contact
-  CoupledSolution solution_;   // of the step at hand
-};
+template <int dim>
+std::string ContactBySolutions<dim>::unheld() const {
+  return unheld_motions(model_, contact_, solution_.interface.status);
+}
 
 // False where friction is too stiff for the linear iteration.
 template <int dim>
@@ -107,16 +71,17 @@ bool ContactBySolutions<dim>::newton_step(const ContactTangent &tangent,
                                           std::vector<double> residual) {
   constexpr double reduction = 1e-2;     // what is left, the next iteration takes
   constexpr std::size_t tiresome = 100;  // linear iterations
-  const std::size_t before = so_far_.krylov_iterations;
+  const std::size_t before = count_.krylov_iterations;
   return seen_.newton_step(tangent, std::move(residual), reduction) &&
-         so_far_.krylov_iterations - before <= tiresome;
+         (is_without_points() || count_.krylov_iterations - before <= tiresome);
 }
 
 // Newton's method on all unknowns at once, in which body and contact settle together. It may cycle;
 // false when it has gained nothing in a while.
 template <int dim>
 bool ContactBySolutions<dim>::find_fast() {
-  constexpr int patience = 10, most = 30;
+  constexpr int patience = 10;
+  const int most = std::min(30, model_.asked.solver.max_iterations);
   const NaturalMap map(coupled(), 1);
   Progress progress;
   for (int k = 0; k <= most && k - progress.last_gain() < patience; ++k) {
@@ -124,7 +89,7 @@ bool ContactBySolutions<dim>::find_fast() {
     const ContactTangent tangent = map.tangent(x);
     std::vector<double> residual = freed(body_.residual());
     const double worst = map.residual(x);
-    const bool contact_is_solved = worst <= contact_tolerance();
+    const bool contact_is_solved = worst <= tolerance_;
     if (k > 0 && contact_is_solved && body_.is_solved(residual)) {
       if (tangent.known.isZero(0)) {
         solution_ = map.solution(x);
@@ -143,8 +108,7 @@ bool ContactBySolutions<dim>::find_fast() {
 template <int dim>
 CoupledSolution ContactBySolutions<dim>::solve_from(const VectorXd &start) {
   seen_.begin_anew();
-  const InterfaceSettings settings{contact_tolerance(), model_.asked.solver.max_iterations,
-                                   left_to_contact_.empty()};
+  const InterfaceSettings settings{tolerance_, model_.asked.solver.max_iterations, !is_leaning_};
   return solve_coupled(coupled(), start, settings);
 }
 
@@ -152,11 +116,11 @@ CoupledSolution ContactBySolutions<dim>::solve_from(const VectorXd &start) {
 // springs between contact and foundation lead to where the contact holds.
 template <int dim>
 void ContactBySolutions<dim>::find_safely(const VectorXd &start) {
-  ++so_far_.safe_steps;
+  count_.safe_steps += !is_without_points();  // without them there is only the body to go on with
   solution_ = solve_from(start);
   VectorXd sprung = start;
   for (const double weak : {1e-2, 1e-4, 1e-6}) {
-    if (solution_.interface.converged || left_to_contact_.empty())
+    if (solution_.interface.converged || !is_leaning_)
       break;
     seen_.set_springs(weak);
     sprung = solve_from(sprung).interface.increment;
@@ -167,50 +131,51 @@ void ContactBySolutions<dim>::find_safely(const VectorXd &start) {
 
 // What crosses the contact by its state is held, the step solved, and so on.
 template <int dim>
-void ContactBySolutions<dim>::settle() {
+bool ContactBySolutions<dim>::settle() {
   seen_.forget_iterations();
   do {
     body_.hold(exchange_);
-    settle_contact();
-  } while (!exchange_.is_empty() &&
-           !exchange_.settle(time_, state_, states(), contact_tolerance()));
+    if (!settle_contact())
+      return false;
+  } while (!exchange_.is_empty() && !exchange_.settle(time_, state_, states(), tolerance_));
   if (!exchange_.is_empty())
     solution_.stage = ContactStage::fixed_point;
+  return true;
 }
 
 // Where the displacements are the small difference of larger ones, once more with points that slip
 // or are open measured from where they were.
 template <int dim>
-void ContactBySolutions<dim>::settle_contact() {
-  find();
+bool ContactBySolutions<dim>::settle_contact() {
+  if (!find())
+    return false;
   if (!contact_.loses_digits(solution_))
-    return;
+    return true;
   const ContactStage stage = solution_.stage;
   contact_.measure_from_before(solution_);
   seen_.put(solution_.interface.increment);
-  find();
+  if (!find())
+    return false;
   contact_.measure_from_stuck(solution_);
   seen_.take(solution_.interface.increment);
   solution_.stage = stage;
+  return true;
 }
 
 // Both stages begin with the state that is predicted.
 template <int dim>
-void ContactBySolutions<dim>::find() {
+bool ContactBySolutions<dim>::find() {
   const VectorXd start = seen_.unknowns();
   const std::vector<double> state(state_.begin(), state_.end());
-  const bool is_found = find_fast();
-  if (!is_found) {
+  if (!find_fast()) {
     std::copy(state.begin(), state.end(), state_.begin());
     find_safely(start);
+    if (!solution_.interface.converged)
+      return false;
   }
-  iterations_ = seen_.iterations();
-  if (!is_found && !solution_.interface.converged)
-    this->give_up_contact(solution_.interface, [&](std::size_t point) {
-      return model_.interface[contact_.node_of(point)].point;
-    });
   if (!contact_.is_coupled())
     solution_.stage = ContactStage::convex;
+  return true;
 }
 
 template <int dim>
@@ -224,20 +189,31 @@ StepOutcome ContactBySolutions<dim>::outcome() {
     outcome.friction_bound = VectorXd::Zero(n);
   if (model_.laws.remembers_slip())
     outcome.accumulated_slip = VectorXd::Zero(n);
-  solution_.interface.iterations = iterations_;
+  solution_.interface.iterations = iterations();
   contact_.end_step(solution_, outcome);
   exchange_.end_step(state_, states(), outcome);
   return outcome;
 }
 
-}  // namespace
-
 template <int dim>
-std::unique_ptr<Route> contact_by_solutions(const Model<dim> &model) {
-  return std::make_unique<ContactBySolutions<dim>>(model);
+void ContactBySolutions<dim>::take_back() {
+  contact_.take_back();
+  exchange_.take_back();
 }
 
-template std::unique_ptr<Route> contact_by_solutions<2>(const Model<2> &);
-template std::unique_ptr<Route> contact_by_solutions<3>(const Model<3> &);
+template <int dim>
+void ContactBySolutions<dim>::save(output::SavedNumbers &numbers) const {
+  contact_.save(numbers);
+  exchange_.save(numbers);
+}
+
+template <int dim>
+void ContactBySolutions<dim>::restore(const output::SavedNumbers &numbers) {
+  contact_.restore(numbers);
+  exchange_.restore(numbers);
+}
+
+template class ContactBySolutions<2>;
+template class ContactBySolutions<3>;
 
 }  // namespace tourmaline::solve

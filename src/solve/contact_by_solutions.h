@@ -1,16 +1,82 @@
 #pragma once
 
-#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "output/checkpoint.h"
+#include "solve/body_by_solutions.h"
+#include "solve/body_equations.h"
+#include "solve/contact_nodes.h"
+#include "solve/coupled_programme.h"
+#include "solve/held_exchanges.h"
 #include "solve/model.h"
 #include "solve/route.h"
 
 namespace tourmaline::solve {
 
-/// The iterative route where what happens along the normal decides something: contact that may
-/// open, friction that depends on the pressure, heat and charge that cross by the state. The matrix
-/// of the contact's unknowns is known by solutions of the body's equations (`ContactBody`).
+/// The contact of a step of the iterative route, and with it the state: Newton's method on all
+/// unknowns at once and, where that gains nothing, a safe stage that asks the body for its answers.
 template <int dim>
-std::unique_ptr<Route> contact_by_solutions(const Model<dim> &model);
+class ContactBySolutions {
+ public:
+  /// What is referred to outlives this. `count`: where safe stages are counted. `is_leaning`: only
+  /// the contact keeps the body from some rigid motion. `tolerance`: the residual of the contact,
+  /// over the size of the forces, that counts as none.
+  ContactBySolutions(const Model<dim> &model, const std::vector<bool> &is_prescribed,
+                     BodyEquations<dim> &body, RouteReport &count, bool is_leaning,
+                     double tolerance);
+
+  /// A step from `before` to a state that is predicted. The body's equations have begun theirs.
+  void begin_step(double time, std::span<const double> before, std::span<double> state);
+  /// Solves the step from where the state is. False where the contact did not settle.
+  bool settle();
+
+  /// How far the contact came.
+  const InterfaceSolution &solution() const { return solution_.interface; }
+  int iterations() const { return seen_.iterations(); }
+  Vector3 place(std::size_t point) const { return model_.interface[contact_.node_of(point)].point; }
+  /// As of `unheld_motions`, by the contact as it was found.
+  std::string unheld() const;
+  /// b - K x, or the same cell by cell, in what is free when the step is solved.
+  std::vector<double> freed(std::vector<double> residual) const {
+    return seen_.freed(std::move(residual));
+  }
+  /// Sets the body's matrix to that of the contact as it was found.
+  void set_contact() { body_.system().set_contact(seen_.held()); }
+  StepOutcome outcome();
+  void take_back();
+
+  Eigen::VectorXd accumulated_slip() const { return contact_.accumulated_slip(); }
+  void save(output::SavedNumbers &numbers) const;
+  void restore(const output::SavedNumbers &numbers);
+
+ private:
+  bool settle_contact();
+  bool find();
+  StateAtNode states() const {
+    return [this](std::size_t node) { return contact_.state_for_exchange(node, solution_); };
+  }
+  CoupledContact coupled() { return {seen_, contact_.points(), contact_.couplings()}; }
+  bool find_fast();
+  bool newton_step(const ContactTangent &tangent, std::vector<double> residual);
+  CoupledSolution solve_from(const Eigen::VectorXd &start);
+  void find_safely(const Eigen::VectorXd &start);
+  bool is_without_points() const { return contact_.points().empty(); }
+
+  const Model<dim> &model_;
+  BodyEquations<dim> &body_;
+  RouteReport &count_;
+  const bool is_leaning_;
+  const double tolerance_;
+  ContactNodes<dim> contact_;
+  HeldExchanges<dim> exchange_;
+  BodyBySolutions<dim> seen_;  // by the contact
+  // Of the step at hand:
+  std::span<double> state_;
+  double time_ = 0;
+  CoupledSolution solution_;
+};
 
 }  // namespace tourmaline::solve

@@ -13,7 +13,7 @@ using Eigen::VectorXd;
 
 template <int dim>
 ContactNodes<dim>::ContactNodes(const Model<dim> &model, const std::vector<bool> &is_prescribed)
-    : model_(model), is_prescribed_(is_prescribed), nodes_(model.interface.size()) {
+    : model_(model), is_prescribed_(is_prescribed), step_(model), nodes_(model.interface.size()) {
   const std::vector<double> zero(model.n_unknowns(), 0.);
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
@@ -24,7 +24,6 @@ ContactNodes<dim>::ContactNodes(const Model<dim> &model, const std::vector<bool>
   }
   directions_.resize(dim * static_cast<Index>(nodes_.size()), n_);
   directions_.setFromTriplets(entries.begin(), entries.end());
-  slipped_ = slipped_before_ = VectorXd::Zero(static_cast<Index>(nodes_.size()));
 }
 
 // A bilateral point that is held by supports along its normal has its pressure from them, though
@@ -77,15 +76,10 @@ std::vector<Index> ContactNodes<dim>::movable() const {
 }
 
 template <int dim>
-typename ContactNodes<dim>::Vector ContactNodes<dim>::displacement(std::span<const double> state,
-                                                                   std::size_t i) const {
-  return Vector::Map(&state[body::unknown<dim>(model_.interface[i].node, 0)]);
-}
-
-template <int dim>
 void ContactNodes<dim>::begin_step(double time, std::span<const double> before,
                                    std::span<const double> state) {
   const std::span<const double> carried = model_.carried(before, time, carried_);
+  step_.begin(time, before);
   from_.reset();  // of a step that failed
   for (ContactPoint &p : points_)
     p.start = Tangent(0);
@@ -98,15 +92,14 @@ void ContactNodes<dim>::begin_step(double time, std::span<const double> before,
     node.admissible.set_base(contact::prescribed_at(at, is_prescribed_, state),
                              model_.reach(at, time));
     held_.segment<dim>(dim * static_cast<Index>(i)) = node.admissible.base;
-    c.segment<dim>(dim * static_cast<Index>(i)) = displacement(carried, i);
-    last_.segment<dim>(dim * static_cast<Index>(i)) = displacement(before, i);
+    c.segment<dim>(dim * static_cast<Index>(i)) = step_.displacement(carried, i);
+    last_.segment<dim>(dim * static_cast<Index>(i)) = step_.displacement(before, i);
     if (node.normal != none)
-      points_[node.normal].law =
-          contact::NormalPoint(model_.laws.of(at).normal(at.point, penetration(i, time, before)));
-    node.penetration = node.admissible.base.dot(at.normal) - model_.reach(at, time);
-    set_friction(i, time, displacement(carried, i));
+      points_[node.normal].law = contact::NormalPoint(step_.normal(i));
+    node.penetration = step_.penetration(i, node.admissible.base);
+    set_friction(i, step_.displacement(carried, i));
     if (is_moved_along_normal(i))
-      know_pressure(i, time, before);
+      know_pressure(i);
   }
   stuck_ = directions_.transpose() * c;
   start_ = directions_.transpose() * (last_ - c);
@@ -171,35 +164,21 @@ void ContactNodes<dim>::measure_from_stuck(CoupledSolution &solution) {
   from_.reset();
 }
 
-// At the end of the last step.
 template <int dim>
-double ContactNodes<dim>::penetration(std::size_t i, double time,
-                                      std::span<const double> before) const {
-  const contact::InterfaceNode<dim> &at = model_.interface[i];
-  return displacement(before, i).dot(at.normal) - model_.reach(at, model_.time_before(time));
-}
-
-template <int dim>
-void ContactNodes<dim>::set_friction(std::size_t i, double time, const Vector &carried) {
+void ContactNodes<dim>::set_friction(std::size_t i, const Vector &carried) {
   const contact::InterfaceNode<dim> &at = model_.interface[i];
   const Node &node = nodes_[i];
-  points_[node.slip].law =
-      contact::PointLaw{model_.friction(contact::contact_place(
-                            at.point, time, node.admissible.tangent(), at.contact)),
-                        node.admissible.held_slip(carried)};
+  points_[node.slip].law = step_.friction(at.point, at.contact, node.admissible.tangent(),
+                                          node.admissible.held_slip(carried));
   if (node.coupling != none)
-    couplings_[node.coupling].bound =
-        model_.laws.of(at).bound(at.point, time, slipped_[static_cast<Index>(i)]);
+    couplings_[node.coupling].bound = step_.bound(i);
 }
 
 template <int dim>
-void ContactNodes<dim>::know_pressure(std::size_t i, double time, std::span<const double> before) {
-  const contact::InterfaceNode<dim> &at = model_.interface[i];
+void ContactNodes<dim>::know_pressure(std::size_t i) {
   Node &node = nodes_[i];
-  const double then = penetration(i, time, before);
-  const contact::ContactLaws &laws = model_.laws.of(at);
-  node.pressure = laws.pressure_under_supports(at.point, then, node.penetration);
-  node.is_closed = laws.is_closed_under_supports(at.point, then, node.penetration);
+  node.pressure = step_.pressure_under_supports(i, node.penetration);
+  node.is_closed = step_.is_closed_under_supports(i, node.penetration);
   if (node.coupling == none)
     return;
   couplings_[node.coupling].pressure = node.pressure;
@@ -263,7 +242,7 @@ void ContactNodes<dim>::share_force(std::size_t i, const CoupledSolution &soluti
 
 template <int dim>
 void ContactNodes<dim>::end_step(const CoupledSolution &solution, StepOutcome &outcome) {
-  slipped_before_ = slipped_;
+  step_.end();
   outcome.stage = solution.stage;
   outcome.newton_iterations = solution.interface.iterations;
   outcome.residual = solution.interface.residual;
@@ -274,26 +253,14 @@ void ContactNodes<dim>::end_step(const CoupledSolution &solution, StepOutcome &o
     outcome.status[i] = status(i, solution);
     const ContactPoint &p = points_[nodes_[i].slip];
     if (outcome.status[i] != ContactStatus::open)
-      slipped_[static_cast<Index>(i)] += std::hypot(
-          solution.interface.increment.segment(p.offset, p.size).norm(), p.law.held().norm());
+      step_.add_slip(i, std::hypot(solution.interface.increment.segment(p.offset, p.size).norm(),
+                                   p.law.held().norm()));
   }
   for (std::size_t i = 0; is_coupled() && i < nodes_.size(); ++i)
     outcome.friction_bound[static_cast<Index>(i)] =
         friction(nodes_[i], solution).bound().value_or(0);
   if (model_.laws.remembers_slip())
-    outcome.accumulated_slip = slipped_;
-}
-
-template <int dim>
-void ContactNodes<dim>::save(output::SavedNumbers &numbers) const {
-  if (model_.laws.remembers_slip())
-    numbers.put("accumulated slip", slipped_);
-}
-
-template <int dim>
-void ContactNodes<dim>::restore(const output::SavedNumbers &numbers) {
-  if (model_.laws.remembers_slip())
-    numbers.fill("accumulated slip", slipped_);
+    outcome.accumulated_slip = step_.accumulated_slip();
 }
 
 template class ContactNodes<2>;

@@ -8,6 +8,7 @@
 
 #include "contact/bilateral.h"
 #include "output/checkpoint.h"
+#include "solve/contact_step.h"
 #include "solve/coupled_programme.h"
 #include "solve/exchange_point.h"
 #include "solve/model.h"
@@ -68,17 +69,13 @@ class ContactNodes {
   /// Of the nodal forces that hold the contact, `outcome.contact_forces`, takes away what supports
   /// bear, and says which part is friction; and the statuses of the nodes.
   void end_step(const CoupledSolution &solution, StepOutcome &outcome);
-  /// The step that has ended is to be taken again: its slip is forgotten.
-  void take_back() { slipped_ = slipped_before_; }
+  /// As of `ContactStep`.
+  void take_back() { step_.take_back(); }
+  Eigen::VectorXd accumulated_slip() const { return step_.accumulated_slip(); }
+  void set_accumulated_slip(const Eigen::VectorXd &slip) { step_.set_accumulated_slip(slip); }
 
-  /// At the end of the last step [m], by node; empty where no law depends on it.
-  Eigen::VectorXd accumulated_slip() const {
-    return model_.laws.remembers_slip() ? slipped_ : Eigen::VectorXd();
-  }
-  void set_accumulated_slip(const Eigen::VectorXd &slip) { slipped_ = slipped_before_ = slip; }
-
-  void save(output::SavedNumbers &numbers) const;
-  void restore(const output::SavedNumbers &numbers);
+  void save(output::SavedNumbers &numbers) const { step_.save(numbers); }
+  void restore(const output::SavedNumbers &numbers) { step_.restore(numbers); }
 
  private:
   using Vector = Eigen::Matrix<double, dim, 1>;
@@ -100,16 +97,15 @@ class ContactNodes {
   bool is_free(std::size_t i, const CoupledSolution &solution) const;
   void add_normal(std::size_t i, std::vector<Eigen::Triplet<double>> &entries);
   void add_slip(std::size_t i, std::vector<Eigen::Triplet<double>> &entries);
-  void set_friction(std::size_t i, double time, const Vector &carried);
-  void know_pressure(std::size_t i, double time, std::span<const double> before);
+  void set_friction(std::size_t i, const Vector &carried);
+  void know_pressure(std::size_t i);
   void share_force(std::size_t i, const CoupledSolution &solution, StepOutcome &outcome) const;
   const contact::PointLaw &friction(const Node &node, const CoupledSolution &solution) const;
   ContactStatus status(std::size_t i, const CoupledSolution &solution) const;
-  double penetration(std::size_t i, double time, std::span<const double> before) const;
-  Vector displacement(std::span<const double> state, std::size_t i) const;
 
   const Model<dim> &model_;
   const std::vector<bool> &is_prescribed_;
+  ContactStep<dim> step_;
   std::vector<Node> nodes_;
   std::vector<ContactPoint> points_;
   std::vector<FrictionCoupling> couplings_;
@@ -121,7 +117,6 @@ class ContactNodes {
   Eigen::VectorXd start_;  // z with which all points would be there
   std::optional<Eigen::VectorXd>
       from_;  // where points are with z = 0, if it is not where they stick
-  Eigen::VectorXd slipped_, slipped_before_;  // accumulated slip by node, and a step ago [m]
   std::vector<double> carried_;
 };
 

@@ -105,7 +105,7 @@ void ElectrodeSearch<dim>::require_answer(const Lack &lack, double time) const {
         "electrode see a given voltage through the body or its circuit?");
   if (rounds_ < most && lack.of.allFinite())
     return;
-  throw SolveError(fmt::format(
+  throw UnsettledStep(fmt::format(
       "the voltages of the electrodes at t = {:g} s were not found in {} solutions of the step: "
       "their charges lack {:.3g} of what the circuit asks for; take smaller time steps, or "
       "solver.method = \"condensed\" with solver.body = \"direct\", which needs no search",

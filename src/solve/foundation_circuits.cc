@@ -223,7 +223,7 @@ bool FoundationCircuits<dim>::settle(double time, std::span<const double> state,
   search_.see(potentials_, lack.of, probe(lack));
   require_contact(time, lack, outcome);
   if (++rounds_ == most || !lack.of.allFinite())
-    throw SolveError(fmt::format(
+    throw UnsettledStep(fmt::format(
         "the potential of the foundation at t = {:g} s was not found in {} solutions of the step: "
         "its charge lacks {:.3g} of what its circuit asks for; take smaller time steps, or let the "
         "conductance fade over a longer ramp",

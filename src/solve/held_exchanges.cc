@@ -92,7 +92,7 @@ bool HeldExchanges<dim>::settle(double time, std::span<const double> state,
   if (lacks <= tolerance || stall_.see(lacks))
     return true;
   if (++rounds_ == most)
-    throw SolveError(fmt::format(
+    throw UnsettledStep(fmt::format(
         "heat and charge that cross the contact by its state did not settle at t = {:g} s in {} "
         "rounds: {:.3g} of the flows is left, wanted {:.3g}; take smaller time steps, let "
         "conductances fade over a longer ramp, or take solver.method = \"condensed\" with "

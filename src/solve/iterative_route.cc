@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "case/holding.h"
 #include "larger.h"
-#include "solve/active_set_route.h"
+#include "solve/body_equations.h"
 #include "solve/contact_by_solutions.h"
 #include "solve/first_places.h"
 #include "solve/leaning.h"
@@ -18,30 +21,68 @@ namespace tourmaline::solve {
 
 namespace {
 
+using Eigen::VectorXd;
+
 // Forward errors above it are worth refinement.
 constexpr double worth_refined_solutions = 1e-7;
 
-}  // namespace
+template <int dim>
+class IterativeRoute : public Route {
+ public:
+  explicit IterativeRoute(const Model<dim> &model);
+
+  StepOutcome advance(double time, std::span<const double> right_side,
+                      std::span<const double> before, std::span<double> state) override;
+  void take_back() override;
+  Accuracy accuracy(std::span<const double>, std::span<const double>,
+                    const StepOutcome &) override {
+    return accuracy_so_far();
+  }
+  bool is_refined() const override { return body_.is_refined(); }
+  VectorXd accumulated_slip() const override { return contact_.accumulated_slip(); }
+
+ private:
+  typename Model<dim>::Vector carried_to(double time) const;
+  void predict(std::span<const double> before);
+  void settle();
+  void check_held() const;
+  void measure();
+  double forward_error();
+  [[noreturn]] void give_up_contact() const;
+  void describe(RouteReport &report) const override;
+  void refine_again() override { body_.refine(); }
+  void save_memory(output::SavedNumbers &numbers) const override;
+  void restore_memory(const output::SavedNumbers &numbers) override;
+
+  const Model<dim> &model_;
+  const std::vector<bool> is_prescribed_;
+  const std::string left_to_contact_;  // rigid motions
+  const double contact_tolerance_;
+  BodyEquations<dim> body_;
+  ContactBySolutions<dim> contact_;
+  std::vector<double> two_before_;
+  bool is_predicted_ = false;  // the state that the next step is taken from
+  // Of the step at hand:
+  double time_ = 0;
+  std::span<double> state_;
+};
 
 template <int dim>
 IterativeRoute<dim>::IterativeRoute(const Model<dim> &model)
     : model_(model),
       is_prescribed_(body::mask_of(model.prescribed, model.n_unknowns())),
       left_to_contact_(casefile::left_to_contact(model.asked)),
-      body_(model, is_prescribed_, so_far_) {
-  so_far_.safe_steps = 0;
-}
-
-template <int dim>
-double IterativeRoute<dim>::contact_tolerance() const {
-  return 10 * std::max(model_.asked.solver.tolerance, model_.asked.solver.linear_tolerance);
-}
+      contact_tolerance_(
+          10 * std::max(model.asked.solver.tolerance, model.asked.solver.linear_tolerance)),
+      body_(model, is_prescribed_, so_far_),
+      contact_(model, is_prescribed_, body_, so_far_, !left_to_contact_.empty(),
+               contact_tolerance_) {}
 
 // The state at hand is near what is looked for.
 template <int dim>
 void IterativeRoute<dim>::take_back() {
   is_predicted_ = true;
-  take_contact_back();
+  contact_.take_back();
 }
 
 // How the foundation carries a body that only contact holds along in the step to that time, on
@@ -87,25 +128,32 @@ void IterativeRoute<dim>::check_held() const {
   if (!(round_off > counts * larger(largest, body_.first_nodal_forces().largest)))
     return;
   // Without any load round-off is all that the forces of a body are that its foundation carries.
-  if (const std::string motions = unheld(); !motions.empty())
+  if (const std::string motions = contact_.unheld(); !motions.empty())
     let_go(time_, motions);
+}
+
+template <int dim>
+void IterativeRoute<dim>::settle() {
+  if (!contact_.settle())
+    give_up_contact();
+}
+
+template <int dim>
+double IterativeRoute<dim>::forward_error() {
+  Stopwatch watch;
+  contact_.set_contact();
+  const double error = body_.forward_error(contact_.freed(body_.residual_by_cells()));
+  so_far_.estimate_seconds += watch.lap();
+  return error;
 }
 
 // A step that moves a field as never before tells whether refinement helps, and goes on with it if
 // so.
 template <int dim>
 void IterativeRoute<dim>::measure() {
-  const auto forward_error = [&] {
-    Stopwatch watch;
-    set_contact();
-    const double error = body_.forward_error(freed(body_.residual_by_cells()));
-    so_far_.estimate_seconds += watch.lap();
-    return error;
-  };
   double error = is_refined() ? body_.last_correction() : forward_error();
   if (!is_refined() && error > worth_refined_solutions) {
     body_.refine();
-    iterations_ = 0;
     body_.update_residual();
     settle();
     error = body_.last_correction();
@@ -118,16 +166,15 @@ StepOutcome IterativeRoute<dim>::advance(double time, std::span<const double> ri
                                          std::span<const double> before, std::span<double> state) {
   time_ = time;
   state_ = state;
-  iterations_ = 0;
   predict(before);
   body_.begin_step(right_side, state);
-  begin_contact(before);
+  contact_.begin_step(time, before, state);
   settle();
   check_held();
   if (is_refined() || this->template outgrew_measured<dim>(state))
     measure();
-  see_backward_error(body_.backward_error(freed(body_.residual())));
-  StepOutcome done = outcome();
+  see_backward_error(body_.backward_error(contact_.freed(body_.residual())));
+  StepOutcome done = contact_.outcome();
   done.backward_error = this->accuracy_so_far().backward_error;
   return done;
 }
@@ -146,7 +193,7 @@ void IterativeRoute<dim>::describe(RouteReport &report) const {
 template <int dim>
 void IterativeRoute<dim>::save_memory(output::SavedNumbers &numbers) const {
   body_.system().save(numbers);
-  save_contact(numbers);
+  contact_.save(numbers);
   numbers.put("state before", two_before_);
 }
 
@@ -155,37 +202,33 @@ void IterativeRoute<dim>::restore_memory(const output::SavedNumbers &numbers) {
   two_before_.resize(numbers.size("state before"));
   numbers.fill("state before", two_before_);
   is_predicted_ = false;
-  restore_contact(numbers);
+  contact_.restore(numbers);
   if (!two_before_.empty())  // of a step, whose contact the preconditioner has
     body_.system().restore(numbers, model_.interface.size());
 }
 
 template <int dim>
-void IterativeRoute<dim>::give_up_contact(const InterfaceSolution &solution,
-                                          const std::function<Vector3(std::size_t)> &place) const {
+void IterativeRoute<dim>::give_up_contact() const {
+  const InterfaceSolution &solution = contact_.solution();
   if (!left_to_contact_.empty()) {
     check_held();
     give_up_leaning(time_, solution, left_to_contact_);
   }
   const std::vector<std::size_t> &unsettled = solution.unsettled;
-  throw SolveError(fmt::format(
+  throw UnsettledStep(fmt::format(
       "the contact iteration did not converge at t = {:g} s: residual {:.3g} of the largest force "
       "after {} Newton iterations, wanted {:.3g}; {} points are unsettled, among them{}; raise "
       "solver.max_iterations or solver.linear_tolerance, take smaller time steps, or take "
       "solver.body = \"direct\"",
-      time_, solution.residual, iterations_, contact_tolerance(), unsettled.size(),
-      first_places(unsettled.size(), [&](std::size_t i) { return place(unsettled[i]); })));
+      time_, solution.residual, contact_.iterations(), contact_tolerance_, unsettled.size(),
+      first_places(unsettled.size(), [&](std::size_t i) { return contact_.place(unsettled[i]); })));
 }
 
-template class IterativeRoute<2>;
-template class IterativeRoute<3>;
+}  // namespace
 
 template <int dim>
 std::unique_ptr<Route> iterative_route(const Model<dim> &model) {
-  const bool decides = model.laws.has_normal_unknowns() ||
-                       model.laws.crosses_by_state(contact::Crossing::heat) ||
-                       model.laws.crosses_by_state(contact::Crossing::charge);
-  return decides ? contact_by_solutions(model) : active_set_route(model);
+  return std::make_unique<IterativeRoute<dim>>(model);
 }
 
 template std::unique_ptr<Route> iterative_route<2>(const Model<2> &);

@@ -72,7 +72,7 @@ void let_go(double time, const std::string &motions) {
 
 void give_up_leaning(double time, const InterfaceSolution &solution,
                      const std::string &left_to_contact) {
-  throw SolveError(fmt::format(
+  throw UnsettledStep(fmt::format(
       "the contact problem at t = {:g} s has no solution that was found: residual {:.3g} of the "
       "largest force after {} iterations. Nothing but the contact keeps the body from {}: where "
       "these loads do not press it to the foundation it moves rigidly, and needs further "

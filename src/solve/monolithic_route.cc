@@ -348,7 +348,7 @@ void MonolithicRoute<dim>::find_with_bounds(double time, const StepData &data,
       return;
     }
   }
-  throw SolveError(fmt::format(
+  throw UnsettledStep(fmt::format(
       "the friction bounds, which follow the pressure, did not settle at t = {:g} s in {} rounds; "
       "take smaller time steps, or solver.method = \"condensed\"",
       time, most));
@@ -399,7 +399,7 @@ void MonolithicRoute<dim>::give_up(double time, const SaddleNewton<dim> &newton)
     places =
         fmt::format("; {} contact points are unsettled, among them{}", unsettled.size(),
                     first_places(unsettled.size(), [&](std::size_t i) { return unsettled[i]; }));
-  throw SolveError(fmt::format(
+  throw UnsettledStep(fmt::format(
       "Newton's method did not converge at t = {:g} s: after {} iterations {} is left with a "
       "residual of {:.3g} of its own size, wanted {:.3g}{}; raise solver.max_iterations or "
       "solver.tolerance, take smaller time steps, leave solver.r_normal and solver.r_tangential "

@@ -55,6 +55,8 @@ void NodeSystem<dim>::add(const ContactTangent::Point &at, const ContactTangent 
       known.segment(p.offset, p.size) += v.dot(right_side) / v.dot(at.of_own * v) * v;
     }
   }
+  if ((modes.values.array() > vertical).all())
+    free.setIdentity();  // without round-off, which would make it another projector every time
   const Directions d = directions(at.point);
   const TangentMatrix own = -inverse * at.of_own * free;
   const auto [stiffness, along] = dense::spectrum(TangentMatrix((own + own.transpose()) / 2));

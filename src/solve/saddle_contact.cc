@@ -17,10 +17,7 @@ using Eigen::VectorXd;
 
 template <int dim>
 SaddleContact<dim>::SaddleContact(const Model<dim> &model, const SaddleSystem<dim> &system)
-    : model_(model),
-      system_(system),
-      slipped_(VectorXd::Zero(static_cast<Index>(model.interface.size()))),
-      slipped_before_(slipped_) {
+    : model_(model), system_(system), step_(model) {
   for (const Point &point : system_.points())
     area_ += point.weight;
   if (!model_.laws.has_normal_unknowns())
@@ -60,10 +57,9 @@ std::vector<AugmentedLagrangian> SaddleContact<dim>::laws(std::span<const double
     law.r_normal = solver.r_normal.value_or(r);
     law.r_slip = solver.r_tangential ? *solver.r_tangential / model_.step : r;
     if (point.has_normal && model_.laws[point.contact].can_open())
-      law.normal = model_.laws[point.contact].normal(point.place, penetration(p));
-    law.friction = {
-        model_.friction(contact::contact_place(point.place, time_, point.tangent(), point.contact)),
-        point.held_slip(state, before, rest)};
+      law.normal = step_.normal(p);
+    law.friction = step_.friction(point.place, point.contact, point.tangent(),
+                                  point.held_slip(state, before, rest));
   }
   return laws;
 }
@@ -71,11 +67,8 @@ std::vector<AugmentedLagrangian> SaddleContact<dim>::laws(std::span<const double
 template <int dim>
 std::vector<std::shared_ptr<const contact::FrictionBound>> SaddleContact<dim>::bounds() const {
   std::vector<std::shared_ptr<const contact::FrictionBound>> bounds;
-  for (std::size_t p = 0; p < system_.points().size(); ++p) {
-    const Point &point = system_.points()[p];
-    bounds.push_back(
-        model_.laws[point.contact].bound(point.place, time_, slipped_[static_cast<Index>(p)]));
-  }
+  for (std::size_t p = 0; p < system_.points().size(); ++p)
+    bounds.push_back(step_.bound(p));
   return bounds;
 }
 
@@ -128,7 +121,7 @@ std::vector<contact::ContactState> SaddleContact<dim>::states_for_exchange(
     contact::Tangent slip = y.tail(y.size() - system_.points()[p].has_normal);
     if (found[p].slip == 0)
       slip.setZero();
-    all.push_back({found[p].pressure, closing(x, p), law.friction.dissipation(slip)});
+    all.push_back({found[p].pressure, penetration(x, p), law.friction.dissipation(slip)});
   }
   return all;
 }
@@ -156,8 +149,7 @@ bool SaddleContact<dim>::touches(const StepData &data, const SaddlePoint &x, std
     return true;
   if (system_.points()[p].has_normal)
     return data.laws[p].is_closed(system_.displacement(p, x, data), system_.multiplier(p, x));
-  const contact::InterfaceNode<dim> &at = model_.interface[p];
-  return model_.laws.of(at).is_closed_under_supports(at.point, penetration(p), closing(x, p));
+  return step_.is_closed_under_supports(p, penetration(x, p));
 }
 
 // Of a node that supports hold along its normal.
@@ -167,26 +159,7 @@ double SaddleContact<dim>::supported_pressure(const SaddlePoint &x, std::size_t 
   const contact::InterfaceNode<dim> &at = model_.interface[p];
   if (!model_.laws.of(at).can_open())
     return -holding.template segment<dim>(dim * static_cast<Index>(p)).dot(at.normal) / at.weight;
-  return model_.laws.of(at).pressure_under_supports(at.point, penetration(p), closing(x, p));
-}
-
-template <int dim>
-double SaddleContact<dim>::closing(const SaddlePoint &x, std::size_t node) const {
-  const contact::InterfaceNode<dim> &at = model_.interface[node];
-  return displacement(x.body, node).dot(at.normal) - model_.reach(at, time_);
-}
-
-// At the end of the last step.
-template <int dim>
-double SaddleContact<dim>::penetration(std::size_t node) const {
-  const contact::InterfaceNode<dim> &at = model_.interface[node];
-  return displacement(before_, node).dot(at.normal) - model_.reach(at, model_.time_before(time_));
-}
-
-template <int dim>
-typename SaddleContact<dim>::Vector SaddleContact<dim>::displacement(std::span<const double> state,
-                                                                     std::size_t node) const {
-  return Vector::Map(&state[body::unknown<dim>(model_.interface[node].node, 0)]);
+  return step_.pressure_under_supports(p, penetration(x, p));
 }
 
 // A node that the law or a condition holds is put exactly there, not where the round-off of the
@@ -293,17 +266,16 @@ void SaddleContact<dim>::end_step(const StepData &data, const SaddlePoint &x,
                                   StepOutcome &outcome) {
   if (!model_.laws.has_normal_unknowns())
     return;
-  slipped_before_ = slipped_;
+  step_.end();
   for (std::size_t p = 0; p < data.laws.size(); ++p) {
     if (outcome.status[p] != ContactStatus::slip)
       continue;
     const Local y = system_.displacement(p, x, data);
-    slipped_[static_cast<Index>(p)] +=
-        std::hypot(y.tail(y.size() - system_.points()[p].has_normal).norm(),
-                   data.laws[p].friction.held().norm());
+    step_.add_slip(p, std::hypot(y.tail(y.size() - system_.points()[p].has_normal).norm(),
+                                 data.laws[p].friction.held().norm()));
   }
   if (model_.laws.remembers_slip())
-    outcome.accumulated_slip = slipped_;
+    outcome.accumulated_slip = step_.accumulated_slip();
 }
 
 template <int dim>
@@ -312,18 +284,6 @@ std::size_t SaddleContact<dim>::interface_index(body::Node node) const {
       std::lower_bound(model_.interface.begin(), model_.interface.end(), node,
                        [](const auto &at, body::Node wanted) { return at.node < wanted; });
   return found - model_.interface.begin();
-}
-
-template <int dim>
-void SaddleContact<dim>::save(output::SavedNumbers &numbers) const {
-  if (model_.laws.remembers_slip())
-    numbers.put("accumulated slip", slipped_);
-}
-
-template <int dim>
-void SaddleContact<dim>::restore(const output::SavedNumbers &numbers) {
-  if (model_.laws.remembers_slip())
-    numbers.fill("accumulated slip", slipped_);
 }
 
 template class SaddleContact<2>;

@@ -6,6 +6,7 @@
 
 #include "contact/friction_bound.h"
 #include "output/checkpoint.h"
+#include "solve/contact_step.h"
 #include "solve/held_bounds.h"
 #include "solve/model.h"
 #include "solve/route.h"
@@ -26,7 +27,7 @@ class SaddleContact {
   /// A step from the state `before`, which outlives it.
   void begin_step(double time, std::span<const double> before) {
     time_ = time;
-    before_ = before;
+    step_.begin(time, before);
   }
   /// A state in which the contact nodes just touch the foundation.
   std::vector<double> rest() const;
@@ -57,21 +58,20 @@ class SaddleContact {
   /// Keeps what the next step's friction depends on.
   void end_step(const StepData &data, const SaddlePoint &x, StepOutcome &outcome);
   /// The step that has ended is to be taken again.
-  void take_back() { slipped_ = slipped_before_; }
+  void take_back() { step_.take_back(); }
 
-  void save(output::SavedNumbers &numbers) const;
-  void restore(const output::SavedNumbers &numbers);
+  void save(output::SavedNumbers &numbers) const { step_.save(numbers); }
+  void restore(const output::SavedNumbers &numbers) { step_.restore(numbers); }
 
  private:
   using Point = contact::MultiplierPoint<dim>;
-  using Vector = Eigen::Matrix<double, dim, 1>;
 
   bool touches(const StepData &data, const SaddlePoint &x, std::size_t p) const;
   double supported_pressure(const SaddlePoint &x, std::size_t p,
                             const Eigen::VectorXd &holding) const;
-  double penetration(std::size_t node) const;
-  double closing(const SaddlePoint &x, std::size_t node) const;
-  Vector displacement(std::span<const double> state, std::size_t node) const;
+  double penetration(const SaddlePoint &x, std::size_t node) const {
+    return step_.penetration(node, step_.displacement(x.body, node));
+  }
   contact::Tangent whole_friction(const StepData &data, const SaddlePoint &x, std::size_t p,
                                   const Eigen::VectorXd &holding) const;
   Eigen::VectorXd holding_forces(const StepData &data, const SaddlePoint &x) const;
@@ -79,11 +79,10 @@ class SaddleContact {
 
   const Model<dim> &model_;
   const SaddleSystem<dim> &system_;
-  double area_ = 0;                           // of the contact boundary [m^(dim-1)]
-  Eigen::VectorXd slipped_, slipped_before_;  // accumulated slip by node, and a step ago [m]
+  double area_ = 0;  // of the contact boundary [m^(dim-1)]
+  ContactStep<dim> step_;
   // Of the step at hand:
   double time_ = 0;
-  std::span<const double> before_;
   std::vector<bool> just_touches_;
 };
 

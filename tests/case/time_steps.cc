@@ -53,5 +53,32 @@ TEST(TimeSteps, WhoseSizesDifferByRoundOffHaveOneSize) {
   EXPECT_EQ(steps.size(130), steps.size(1));
 }
 
+TEST(TimeSteps, OneIsTakenInTwoHalvesAndTheOthersEndWhereTheyDid) {
+  const TimeSteps whole(with({{0.3, 3}, {1, 7}}));
+  for (int n = 1; n <= whole.count(); ++n) {
+    TimeSteps steps = whole;
+    steps.halve(n);
+    EXPECT_EQ(steps.count(), whole.count() + 1);
+    for (int m = 1; m <= whole.count(); ++m)
+      EXPECT_DOUBLE_EQ(steps.at(m < n ? m : m + 1), whole.at(m)) << n << ' ' << m;
+    EXPECT_DOUBLE_EQ(steps.at(n), (whole.at(n - 1) + whole.at(n)) / 2);
+    for (int m = 1; m <= steps.count(); ++m) {
+      EXPECT_EQ(steps.number(steps.at(m)), m);
+      EXPECT_EQ(steps.size(m), m == n || m == n + 1 ? whole.size(n) / 2 : whole.size(m - (m > n)));
+    }
+  }
+}
+
+TEST(TimeSteps, AHalfIsHalvedAgain) {
+  TimeSteps steps(with({{1, 2}}));
+  steps.halve(2);
+  steps.halve(2);
+  EXPECT_EQ(steps.count(), 4);
+  EXPECT_DOUBLE_EQ(steps.at(2), 0.625);
+  EXPECT_EQ(steps.size(3), 0.125);
+  EXPECT_EQ(steps.size(4), 0.25);
+  EXPECT_EQ(steps.sizes(4), 3);
+}
+
 }  // namespace
 }  // namespace tourmaline::casefile

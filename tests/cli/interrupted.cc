@@ -266,6 +266,20 @@ TEST_F(Interrupted, StepsThatTheProgramChoosesGoOn) {
   }
 }
 
+TEST_F(Interrupted, StepsThatAreHalvedGoOn) {
+  std::ofstream(here() / "hurried.toml") << R"toml(
+material.library = "BaTiO3-Liu2014"
+time = { end = 4, steps = 40 }
+output.every = 70
+mesh.box = { min = [0, 0], max = [0.1, 0.1], cells = [14, 14] }
+boundary = [ { on = "top", displacement = ["2e-6*sin(9*t)", "-1e-6*t"], potential = 0, temperature = 0 } ]
+contact = { on = "bottom", normal = "unilateral", friction = { law = "coulomb", coefficient = 0.9 } }
+solver = { method = "monolithic", max_iterations = 3 }
+)toml";
+  expect_to_go_on("hurried.toml", "8steps");
+  EXPECT_THAT(warnings_, HasSubstr("two steps of half the size were taken"));
+}
+
 TEST_F(Interrupted, FrictionThatRemembersItsSlipGoesOnIteratively) {
   std::ofstream(here() / "weakening.toml") << weakening;
   expect_to_go_on("weakening.toml --set solver.body=iterative");

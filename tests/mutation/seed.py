@@ -155,8 +155,9 @@ class Found:
 def rooms_to_ask(fault):
     """Rooms, and of each which of its tests."""
     room = fault["file"].split("/")[0]
-    behind = ROOMS[ROOMS.index(room) :] if room in ROOMS else [room]
     begin = fault.get("begin", room).split()
+    first = room if room in ROOMS else begin[0]  # which has none of its own
+    behind = ROOMS[ROOMS.index(first) :] if first in ROOMS else [first]
     return [(begin[0], begin[1] if len(begin) > 1 else "*"), *((room, "*") for room in behind)]
 
 

@@ -149,6 +149,9 @@ INSTANTIATE_TEST_SUITE_P(
         Variant{"QuadraticQuadrilaterals", plane, {"mesh.box.cell=quadrilateral", "mesh.degree=2"}},
         Variant{"EndHeldAlongTheContact", plane, {bottom_only, bottom_moves_along}},
         Variant{"EndHeldAcrossTheContact", plane, {bottom_only, bottom_moves_across}},
+        Variant{"EndHeldAcrossAndLoadedThere",
+                plane,
+                {bottom_only, bottom_moves_across, "load.force=['1e4*t', 0]"}},
         Variant{"Tetrahedra", block, {}}, Variant{"Hexahedra", block, {"mesh.box.cell=hexahedron"}},
         Variant{"PlaneBetweenRollers", verified::plane_between_rollers, {}},
         Variant{"QuarterBlock", verified::quarter_block, {}},
@@ -183,6 +186,14 @@ TEST(Monolithic, WhereNewtonAloneCyclesTheMethodOfMultipliersLeadsToTheAnswer) {
     const Overrides start = {"output.fields=false", "time.end=0.03", "time.steps=3"};
     expect_equal_runs(verified::RunCase(casefile::read_file(file, with(start, monolithic))),
                       verified::RunCase(casefile::read_file(file, start)));
+  }
+}
+
+TEST(Monolithic, WhatSticksIsExactlyWhereItWas) {
+  for (const char *text : {plane, block}) {
+    const verified::RunCase run(asked(text, with(monolithic, {"contact.friction.bound=1e6"})));
+    EXPECT_EQ(slip_size(run.contact()), 0);
+    EXPECT_EQ(verified::largest(run.contact(), "normal_displacement"), 0);
   }
 }
 
