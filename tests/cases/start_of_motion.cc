@@ -170,5 +170,27 @@ TEST(MovingSupport, IsAskedOnlyInsideTheRun) {
     EXPECT_NO_THROW(moved_bar("'1e-3*sqrt(0.2 - t)'", steps)) << steps;
 }
 
+// Charges inside the body, from the first moment on, are no charge of the electrode that they
+// raise.
+TEST(StartOfMotion, AnElectrodeBesideChargesInsideHasNoneBeforeItsFirstCurrent) {
+  for (const char *route :
+       {"solver.method=condensed", "solver.method=monolithic", "solver.body=iterative"}) {
+    SCOPED_TRACE(route);
+    const RunCase run = run_text(R"toml(
+material.library = "BaTiO3-Liu2014"
+mesh.box = { min = [0, 0], max = [0.01, 0.01], cells = [4, 4] }
+time = { regime = "dynamic", end = 1e-6, steps = 4 }
+load.charge = 1e-2
+boundary = [ { on = "bottom", displacement = [0, 0], temperature = 0 } ]
+electrode = [ { name = "ground", on = "bottom", voltage = 0 }, { name = "plate", on = "top", resistor = 1e6 } ]
+)toml",
+                                 {route});
+    const double charge = run.history().numbers("electrode_plate_charge").front(),
+                 current = run.history().numbers("electrode_plate_current").front();
+    EXPECT_LT(current, 0);
+    EXPECT_NEAR(charge, current * 2.5e-7, 1e-9 * std::abs(charge));
+  }
+}
+
 }  // namespace
 }  // namespace tourmaline::verified
