@@ -46,9 +46,9 @@ template <int dim>
 Tangent MultiplierPoint<dim>::held_slip(std::span<const double> state,
                                         std::span<const double> before,
                                         std::span<const double> rest) const {
-  const Vector now = mean_of(state), then = mean_of(before);
-  const Tangent slip = held_now.transpose() * (now - mean_of(rest)) - held.transpose() * then;
-  return beyond_round_off(slip, std::max(now.norm(), then.norm()));
+  const Vector now = mean_of(state), then = mean_of(before), at_rest = mean_of(rest);
+  const Tangent slip = held_now.transpose() * (now - at_rest) - held.transpose() * then;
+  return beyond_round_off(slip, std::max({now.norm(), then.norm(), at_rest.norm()}));
 }
 
 template <int dim>

@@ -62,16 +62,19 @@ bool BodyMatrix<dim>::set_contact(std::vector<NodeTangent<dim>> contact) {
 template <int dim>
 void BodyMatrix<dim>::preallocate() {
   const body::NodeGraph &graph = op_.graph();
-  std::vector<double> length(graph.n_nodes());
+  std::vector<double> near(graph.n_nodes()),
+      far(near);  // blocks with nodes of the same rank, of others
   for (Node i = 0; i < graph.n_nodes(); ++i)
-    length[i] = static_cast<double>(graph.row[i + std::size_t{1}] - graph.row[i]);
-  parallel::sum(length);
+    for (std::size_t e = graph.row[i]; e < graph.row[i + std::size_t{1}]; ++e)
+      ++(rows_.rank_of(graph.column[e]) == rows_.rank_of(i) ? near : far)[i];
+  parallel::sum(near);
+  parallel::sum(far);
   std::vector<PetscInt> inside, outside;
   const auto all = static_cast<PetscInt>(graph.n_nodes()), own = rows_.n_own();
   for (PetscInt row = 0; row < own; ++row) {
-    const auto blocks = static_cast<PetscInt>(length[rows_.own_node(row)]);
-    inside.push_back(std::min(blocks, own));
-    outside.push_back(std::min(blocks, all - own));
+    const Node node = rows_.own_node(row);
+    inside.push_back(std::min(static_cast<PetscInt>(near[node]), own));
+    outside.push_back(std::min(static_cast<PetscInt>(far[node]), all - own));
   }
   check(MatCreate(PETSC_COMM_WORLD, &matrix_));
   check(MatSetSizes(matrix_, n * own, n * own, n * all, n * all));

@@ -10,7 +10,7 @@ namespace tourmaline::krylov {
 using body::Node;
 
 NodeRows::NodeRows(const body::NodeGraph &graph)
-    : row_of_(graph.n_nodes()), node_of_(graph.n_nodes()) {
+    : row_of_(graph.n_nodes()), rank_of_(graph.n_nodes()), node_of_(graph.n_nodes()) {
   std::vector<double> closeness(graph.n_nodes(), -parallel::n_ranks());  // the largest wins
   for (Node i = 0; i < graph.n_nodes(); ++i)
     if (graph.row[i] != graph.row[i + std::size_t{1}])
@@ -21,6 +21,7 @@ NodeRows::NodeRows(const body::NodeGraph &graph)
                    [&](Node a, Node b) { return closeness[a] > closeness[b]; });
   for (std::size_t row = 0; row < node_of_.size(); ++row) {
     row_of_[node_of_[row]] = static_cast<PetscInt>(row);
+    rank_of_[node_of_[row]] = static_cast<int>(-closeness[node_of_[row]]);
     begin_ += closeness[node_of_[row]] > -parallel::rank();
     end_ += closeness[node_of_[row]] >= -parallel::rank();
   }

@@ -21,6 +21,7 @@ class NodeRows {
   PetscInt n_own() const { return end_ - begin_; }  ///< nodes of this rank
   /// `row`: of this rank's blocks, from 0.
   body::Node own_node(PetscInt row) const { return node_of_[begin_ + row]; }
+  int rank_of(body::Node node) const { return rank_of_[node]; }
   bool owns(body::Node node) const { return begin_ <= row_of_[node] && row_of_[node] < end_; }
 
   /// Rows of `count` unknowns from `first` on, of this rank's nodes, `n_unknowns` each. To be
@@ -29,6 +30,7 @@ class NodeRows {
 
  private:
   std::vector<PetscInt> row_of_;     // by node
+  std::vector<int> rank_of_;         // likewise
   std::vector<body::Node> node_of_;  // by row
   PetscInt begin_ = 0, end_ = 0;     // of this rank
 };

@@ -1,12 +1,15 @@
 #pragma once
 
+#include <functional>
+
 #include "mesh/mesh.h"
 
 namespace tourmaline::mesh {
 
-/// Shares the cells of a mesh, which every rank holds as a whole, out to the ranks (METIS); each
-/// keeps its own and a layer around them. On one rank nothing changes.
+/// The mesh that `make` makes, its cells shared out to the ranks (METIS): each keeps its own and a
+/// layer around them. One rank of a group makes it, and no other ever holds it as a whole. An error
+/// of `make` is thrown on all ranks. Collective.
 template <int dim>
-void distribute(Mesh<dim> &mesh);
+Mesh<dim> shared_out(const std::function<Mesh<dim>()> &make);
 
 }  // namespace tourmaline::mesh

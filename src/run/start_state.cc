@@ -80,9 +80,8 @@ body::Discretisation<dim> mesh_of(const InitialCase &initial, const RecordedStat
   try {
     const casefile::Case other =
         casefile::read_file(fs::path(*initial.from) / "resolved.toml", {}, mesh::read_mesh_file);
-    mesh::Mesh<dim> mesh = mesh::build<dim>(other);
-    mesh::distribute(mesh);
-    body::Discretisation<dim> body(std::move(mesh), other.mesh.degree, body::geometry_of(other));
+    body::Discretisation<dim> body(mesh::shared_out<dim>([&] { return mesh::build<dim>(other); }),
+                                   other.mesh.degree, body::geometry_of(other));
     if (are_nodes_of<dim>(from, body.points()))
       return body;
   } catch (const CaseError &error) {

@@ -319,6 +319,32 @@ void add_exchanges(const Model<dim> &model, double watt, std::vector<double> &di
   add(contact::Crossing::heat, Fields<dim>::temperature, watt);
 }
 
+// Of the rows of a field.
+template <int dim>
+double norm(int field, std::span<const double> vector) {
+  double squares = 0;
+  for (std::size_t i = 0; i < vector.size(); ++i)
+    squares += field_of<dim>(i) == field ? vector[i] * vector[i] : 0;
+  return std::sqrt(squares);
+}
+
+// Solutions by iteration leave residuals of `linear_tolerance` times what each field contributes to
+// the rows of a field, and energies what these do along the unknowns: of both states that a step
+// compares.
+template <int dim>
+void add_work_of_residuals(const Model<dim> &model, const BalanceStep<dim> &step,
+                           BalanceRoundOff &sums) {
+  const bool is_by_iteration = step.backward_error > 0;
+  for (const BalancedState<dim> *state : {&step.before, &step.now})
+    for (int f = 0; is_by_iteration && f < 3; ++f) {
+      double contributed = 0;
+      for (const std::vector<double> &product : state->products.of)
+        contributed = larger(contributed, norm<dim>(f, product));
+      sums.energy[f] +=
+          model.asked.solver.linear_tolerance * contributed * norm<dim>(f, state->unknowns);
+    }
+}
+
 }  // namespace
 
 // Of the diagonal some neighbours' share of the row in its own field. Couplings to other fields do
@@ -354,6 +380,7 @@ BalanceRoundOff round_off_of(const Model<dim> &model, const CoupledFields &coupl
   for (int f = 0; f < 3; ++f)
     sums.energy[f] += work[f] + several * eps * (std::abs(now[f]) + std::abs(before[f]));
   sums.energy[0] += several * eps * step.rates.kinetic_energy;
+  add_work_of_residuals(model, step, sums);
   excuse_leaks(size, sums);
   return sums;
 }

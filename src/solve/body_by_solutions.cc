@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -145,7 +146,12 @@ template <int dim>
 NaturalMap::Place BodyBySolutions<dim>::look() {
   body_.update_residual();
   size_ = size_at_state();
-  return {d_, contact_.directions().transpose() * at_contact(body_.residual()), {}};
+  return place(body_.residual());
+}
+
+template <int dim>
+NaturalMap::Place BodyBySolutions<dim>::place(std::span<const double> residual) const {
+  return {d_, contact_.directions().transpose() * at_contact(residual), {}};
 }
 
 template <int dim>
@@ -153,15 +159,14 @@ bool BodyBySolutions<dim>::is_within(const VectorXd &, double residual, double t
   return relative_to(residual, size_) <= tolerance;
 }
 
-// Adds to the state the `known` increments of the contact and what follows from them, from nodal
-// `force` [N] in its free directions, and from what the free unknowns beside it leave of their
-// equations, `residual`.
+// The linear system of Newton's method, and the right side of what is left when the contact has
+// `moved`: from nodal `force` [N] in its free directions, and from what the free unknowns beside it
+// leave of their equations, `residual`.
 template <int dim>
-bool BodyBySolutions<dim>::correct(const NodeSystem<dim> &system, const VectorXd &known,
-                                   const VectorXd &force, std::vector<double> residual,
-                                   double reduction) {
-  std::vector<double> moved(state_.size(), 0.);
-  add_at_contact(contact_.directions() * known, moved);
+std::vector<double> BodyBySolutions<dim>::set_system(const NodeSystem<dim> &system,
+                                                     std::span<const double> moved,
+                                                     const VectorXd &force,
+                                                     std::vector<double> residual) {
   const std::vector<double> resisted = product(moved);
   for (std::size_t i = 0; i < residual.size(); ++i)
     residual[i] -= resisted[i];
@@ -177,11 +182,33 @@ bool BodyBySolutions<dim>::correct(const NodeSystem<dim> &system, const VectorXd
   if (system.is_coupled())
     body_.system().set_coupling(system.couplings);
   body_.system().project(residual);
-  const bool solved = body_.correct(residual, reduction);
+  return residual;
+}
+
+// Adds to the state the `known` increments of the contact and what follows from them and the rest.
+template <int dim>
+bool BodyBySolutions<dim>::correct(const NodeSystem<dim> &system, const VectorXd &known,
+                                   const VectorXd &force, std::vector<double> residual,
+                                   double reduction) {
+  std::vector<double> moved(state_.size(), 0.);
+  add_at_contact(contact_.directions() * known, moved);
+  const bool solved =
+      body_.correct(set_system(system, moved, force, std::move(residual)), reduction);
   body_.system().set_coupling({});
   for (std::size_t i = 0; i < state_.size(); ++i)
     state_[i] += moved[i];
   return solved;
+}
+
+template <int dim>
+double BodyBySolutions<dim>::forward_error(const ContactTangent &tangent,
+                                           std::vector<double> residual) {
+  const NodeSystem<dim> system(contact_, model_, with_springs(tangent));
+  const std::vector<double> nothing(state_.size(), 0.);
+  const double error =
+      body_.forward_error(set_system(system, nothing, system.force, freed(std::move(residual))));
+  body_.system().set_coupling({});
+  return error;
 }
 
 template <int dim>
@@ -214,12 +241,13 @@ std::optional<ContactBody::Moved> BodyBySolutions<dim>::response(const NodeSyste
                                                                  const VectorXd &known,
                                                                  const VectorXd &force,
                                                                  double reduction) {
-  const std::vector<double> state(state_.begin(), state_.end());
-  const bool solved =
-      correct(system, known, force, std::vector<double>(state.size(), 0.), reduction);
-  for (std::size_t i = 0; i < state.size(); ++i)
-    moved_[i] = state_[i] - state[i];
-  std::copy(state.begin(), state.end(), state_.begin());
+  moved_.assign(state_.size(), 0.);
+  add_at_contact(contact_.directions() * known, moved_);
+  const bool solved = body_.solve(
+      set_system(system, moved_, force, std::vector<double>(state_.size(), 0.)), reduction);
+  body_.system().set_coupling({});
+  std::transform(moved_.begin(), moved_.end(), body_.increment().begin(), moved_.begin(),
+                 std::plus<>());
   if (!solved)
     return std::nullopt;
   const auto transposed = contact_.directions().transpose();

@@ -35,6 +35,8 @@ class BodyBySolutions : public ContactBody, private SlipResponse {
   const Eigen::VectorXd &unknowns() const { return d_; }  ///< as the state has them
   /// Where the body is with the state as it is, its residual taken anew.
   NaturalMap::Place look();
+  /// The same of another residual of the body.
+  NaturalMap::Place place(std::span<const double> residual) const;
   /// What contact and prescribed unknowns leave free of a residual of the body.
   std::vector<double> freed(std::vector<double> residual) const;
   /// Conditions that hold the contact nodes.
@@ -49,6 +51,10 @@ class BodyBySolutions : public ContactBody, private SlipResponse {
   /// Newton's step for contact and body at once. False where the linear system could not be solved,
   /// its residual taken down by `reduction`. `residual`: what is left free of the body's.
   bool newton_step(const ContactTangent &tangent, std::vector<double> residual, double reduction);
+
+  /// An estimate of the state's forward error: the size of what the linear system of Newton's
+  /// method answers to what is left of contact and body, by this residual of the body.
+  double forward_error(const ContactTangent &tangent, std::vector<double> residual);
 
   /// Springs from contact to foundation, over the stiffness of the contact's points: a means to
   /// find a start.
@@ -84,6 +90,8 @@ class BodyBySolutions : public ContactBody, private SlipResponse {
   std::vector<double> product(std::span<const double> x) const {
     return model_.product(x, body_.is_refined());
   }
+  std::vector<double> set_system(const NodeSystem<dim> &system, std::span<const double> moved,
+                                 const Eigen::VectorXd &force, std::vector<double> residual);
   bool correct(const NodeSystem<dim> &system, const Eigen::VectorXd &known,
                const Eigen::VectorXd &force, std::vector<double> residual, double reduction);
   ContactTangent with_springs(ContactTangent tangent) const;

@@ -160,7 +160,7 @@ bool BodyEquations<dim>::is_solved(std::span<const double> free_residual) {
 }
 
 template <int dim>
-bool BodyEquations<dim>::correct(std::span<const double> free_residual, double reduction) {
+bool BodyEquations<dim>::solve(std::span<const double> free_residual, double reduction) {
   Stopwatch watch;
   if (is_refined())
     reduction = of_a_correction;
@@ -168,14 +168,20 @@ bool BodyEquations<dim>::correct(std::span<const double> free_residual, double r
   count_.krylov_iterations += solved.iterations;
   count_.krylov_largest = std::max(count_.krylov_largest, solved.iterations);
   count_.substitution_seconds += watch.lap();
+  return solved.converged;
+}
+
+template <int dim>
+bool BodyEquations<dim>::correct(std::span<const double> free_residual, double reduction) {
+  const bool is_solved = solve(free_residual, reduction);
   for (std::size_t i = 0; i < state_.size(); ++i)
     state_[i] += increment_[i];
   if (is_refined()) {
     const double before = correction_;
     correction_ = system_.relative_size(increment_, state_);
-    corrections_fall_ = !solved.converged || correction_ < before / 2;
+    corrections_fall_ = !is_solved || correction_ < before / 2;
   }
-  return solved.converged;
+  return is_solved;
 }
 
 template <int dim>

@@ -60,14 +60,16 @@ class BodyEquations {
   double lack() const { return lack_; }
   void forget_lack() { lack_ = std::numeric_limits<double>::infinity(); }
 
-  /// Adds the solution of the linear system, its residual taken down by `reduction`, to the state.
-  /// False where the iteration did not come as far.
+  /// Solves the linear system, its residual taken down by `reduction`. False where the iteration
+  /// did not come as far.
+  bool solve(std::span<const double> free_residual, double reduction);
+  /// What it has found.
+  const std::vector<double> &increment() const { return increment_; }
+  /// The same, and adds it to the state.
   bool correct(std::span<const double> free_residual, double reduction);
   /// Corrects the state until all that is free beside the contact, which is `held`, is solved;
   /// throws SolveError where that does not succeed.
   void solve_held(double time, const std::vector<krylov::NodeTangent<dim>> &held);
-  /// The last correction.
-  const std::vector<double> &increment() const { return increment_; }
   void forget_increment();
 
   /// Goes on with products cell by cell.

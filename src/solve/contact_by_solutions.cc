@@ -69,8 +69,9 @@ std::string ContactBySolutions<dim>::unheld() const {
 template <int dim>
 bool ContactBySolutions<dim>::newton_step(const ContactTangent &tangent,
                                           std::vector<double> residual) {
-  constexpr double reduction = 1e-2;     // what is left, the next iteration takes
-  constexpr std::size_t tiresome = 100;  // linear iterations
+  constexpr double reduction = 1e-2;  // what is left, the next iteration takes
+  // Linear iterations; refined, each solve takes its residual down further by powers of ten.
+  const std::size_t tiresome = body_.is_refined() ? 300 : 100;
   const std::size_t before = count_.krylov_iterations;
   return seen_.newton_step(tangent, std::move(residual), reduction) &&
          (is_without_points() || count_.krylov_iterations - before <= tiresome);
@@ -167,7 +168,8 @@ template <int dim>
 bool ContactBySolutions<dim>::find() {
   const VectorXd start = seen_.unknowns();
   const std::vector<double> state(state_.begin(), state_.end());
-  if (!find_fast()) {
+  is_found_safely_ = !find_fast();
+  if (is_found_safely_) {
     std::copy(state.begin(), state.end(), state_.begin());
     find_safely(start);
     if (!solution_.interface.converged)
@@ -176,6 +178,21 @@ bool ContactBySolutions<dim>::find() {
   if (!contact_.is_coupled())
     solution_.stage = ContactStage::convex;
   return true;
+}
+
+// Of contact and body at once; refined, the last correction was so, unless the safe stage has made
+// it, of the body alone. Points that carry a share of their law are not what Newton's method
+// on all unknowns sees in them: then of the body alone.
+template <int dim>
+double ContactBySolutions<dim>::forward_error() {
+  if (body_.is_refined() && !is_found_safely_)
+    return body_.last_correction();
+  const NaturalMap map(coupled(), 1);
+  std::vector<double> residual = body_.residual_by_cells();
+  if (map.residual(seen_.place(body_.residual())) <= tolerance_)
+    return seen_.forward_error(map.tangent(seen_.place(residual)), std::move(residual));
+  body_.system().set_contact(seen_.held());
+  return body_.forward_error(freed(std::move(residual)));
 }
 
 template <int dim>

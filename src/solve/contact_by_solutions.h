@@ -43,8 +43,8 @@ class ContactBySolutions {
   std::vector<double> freed(std::vector<double> residual) const {
     return seen_.freed(std::move(residual));
   }
-  /// Sets the body's matrix to that of the contact as it was found.
-  void set_contact() { body_.system().set_contact(seen_.held()); }
+  /// An estimate of the error of what was found, over the size of the state.
+  double forward_error();
   StepOutcome outcome();
   void take_back();
 
@@ -77,6 +77,7 @@ class ContactBySolutions {
   std::span<double> state_;
   double time_ = 0;
   CoupledSolution solution_;
+  bool is_found_safely_ = false;
 };
 
 }  // namespace tourmaline::solve

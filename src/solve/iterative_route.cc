@@ -141,8 +141,7 @@ void IterativeRoute<dim>::settle() {
 template <int dim>
 double IterativeRoute<dim>::forward_error() {
   Stopwatch watch;
-  contact_.set_contact();
-  const double error = body_.forward_error(contact_.freed(body_.residual_by_cells()));
+  const double error = contact_.forward_error();
   so_far_.estimate_seconds += watch.lap();
   return error;
 }
@@ -151,12 +150,12 @@ double IterativeRoute<dim>::forward_error() {
 // so.
 template <int dim>
 void IterativeRoute<dim>::measure() {
-  double error = is_refined() ? body_.last_correction() : forward_error();
+  double error = forward_error();
   if (!is_refined() && error > worth_refined_solutions) {
     body_.refine();
     body_.update_residual();
     settle();
-    error = body_.last_correction();
+    error = forward_error();
   }
   see_forward_error(error);
 }

@@ -11,12 +11,6 @@ namespace tourmaline::solve {
 
 namespace {
 
-template <int dim>
-mesh::Mesh<dim> shared_out(mesh::Mesh<dim> mesh) {
-  mesh::distribute(mesh);
-  return mesh;
-}
-
 std::vector<std::shared_ptr<double>> places_of_potentials(
     const std::vector<casefile::ContactCase> &contacts) {
   std::vector<std::shared_ptr<double>> places;
@@ -53,7 +47,7 @@ template <int dim>
 struct Model<dim>::Built {
   Built(const casefile::Case &asked, const std::function<mesh::Mesh<dim>()> &make_mesh)
       : composition(asked),
-        body(shared_out(make_mesh()), asked.mesh.degree, body::geometry_of(asked)),
+        body(mesh::shared_out<dim>(make_mesh), asked.mesh.degree, body::geometry_of(asked)),
         mesh_seconds(watch.lap()) {}
 
   Stopwatch watch;

@@ -32,7 +32,7 @@ TEST_P(EachRoute, SolvesAFoilOneCellThickAtAContact) {
 contact = { on = "left", friction = { law = "tresca", bound = )" +
            std::to_string(bound) + " } }\n";
   };
-  for (const char *cells : {"[1, 1]", "[1, 8]"}) {
+  for (const char *cells : {"[1, 1]", "[1, 8]", "[1, 400]"}) {
     const RunCase slips(foil(cells, conditions(15), GetParam()));
     const double stiffness = 43e9 / 0.1;  // of pure shear, all along the foil
     for (const double traction : slips.contact().numbers("tangential_traction_y"))

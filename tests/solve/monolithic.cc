@@ -137,6 +137,17 @@ const std::string bottom_moves_across = "boundary[1].displacement=['1e-10*t','fr
 const std::string bottom_only = "boundary[1].on='bottom'";
 const std::string insulated = "contact.heat={law='insulated'}";
 
+// Nodes of the bore that the top holds at rest stand off their foundation by the gap.
+constexpr const char *sleeve_with_gap = R"toml(
+mesh.annulus = { inner = 0.5, outer = 1, height = 0.8, cells = [3, 12, 2], cell = "hexahedron" }
+model = { thermal = false, electric = false }
+material.library = "steel"
+time = { end = 1, steps = 1 }
+boundary = [ { on = "outer", traction = [1e9, 0, 0] }, { on = "top", displacement = [0, 0, 0] } ]
+contact = { on = "inner", gap = 1e-6, friction = { law = "tresca", bound = 1e6 } }
+output = { fields = false, report = false }
+)toml";
+
 const std::string without_contact = std::regex_replace(plane, std::regex("\ncontact = [^\n]*"), "");
 
 INSTANTIATE_TEST_SUITE_P(
@@ -155,7 +166,7 @@ INSTANTIATE_TEST_SUITE_P(
         Variant{"Tetrahedra", block, {}}, Variant{"Hexahedra", block, {"mesh.box.cell=hexahedron"}},
         Variant{"PlaneBetweenRollers", verified::plane_between_rollers, {}},
         Variant{"QuarterBlock", verified::quarter_block, {}},
-        Variant{"Rollers", verified::rollers, {}},
+        Variant{"Rollers", verified::rollers, {}}, Variant{"SleeveWithGap", sleeve_with_gap, {}},
         Variant{"SleeveWithRims", verified::rimmed_sleeve, {}}, Variant{"Ring", ring, {}},
         Variant{"RingOfQuadraticQuadrilaterals",
                 ring,
