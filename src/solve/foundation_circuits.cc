@@ -178,12 +178,13 @@ double FoundationCircuits<dim>::crossed(std::size_t f, std::span<const double> s
   return of.accumulates ? sum - charges_[row] : sum;
 }
 
-// What a sum of charges is made of, by which its round-off is measured.
+// What a sum of charges is made of, by which its round-off is measured; where the step comes from
+// counts, too, as all may be zero where it leads.
 template <int dim>
 double FoundationCircuits<dim>::size(std::size_t f, std::span<const double> state) const {
   const Foundation &of = foundations_[f];
   const auto row = static_cast<Index>(f);
-  double size = capacities_[row] * std::abs(potentials_[row]);
+  double size = capacities_[row] * larger(std::abs(potentials_[row]), std::abs(before_[row]));
   for (const auto &[node, weight] : of.weights)
     size += weight * std::abs(state[unknown<dim>(node, Fields<dim>::potential)]);
   return size;

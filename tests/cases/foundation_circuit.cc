@@ -295,6 +295,28 @@ TEST(FoundationCircuit, BehindACapacitorASourceIsSwitchedOnAtTheStart) {
   }
 }
 
+// From 100 V to nothing, and on to 1000 V.
+TEST(FoundationCircuit, ThatComesToZeroIsFoundOnEveryRoute) {
+  for (const char *route :
+       {"solver.method=condensed", "solver.method=monolithic", "solver.body=iterative"}) {
+    SCOPED_TRACE(route);
+    const Table history = run_text(R"toml(
+mesh.box = { min = [0, 0], max = [100, 40], cells = [5, 4] }
+model.thermal = false
+material = { symmetry = "isotropic", young = 2.8e10, poisson = 0.3, density = 7570, eps11 = 715 }
+time = { end = 0.01, steps = 2, regime = "dynamic" }
+boundary = [ { on = "left", potential = "(t > 0.005 ? 1000 : 0)" },
+             { on = "bottom", displacement = [0, "100*t^2*(1 + x/100)"], potential = "100 - 2e4*t" } ]
+contact = { on = "top", friction = { law = "tresca", bound = "3e5*(1 + sin(600*t))" }, electric = { law = "exchange", coefficient = 3e-9, circuit = {} } }
+)toml",
+                                   {route})
+                              .history();
+    EXPECT_NEAR(history.numbers("foundation_voltage").front(), 0, 1e-9);
+    EXPECT_NEAR(history.numbers("foundation_voltage").back(), 632.7588909799, 1e-6);
+    EXPECT_LT(largest(history, "energy_imbalance"), 1e-10);
+  }
+}
+
 TEST(FoundationCircuit, ThatContradictsItselfIsRefused) {
   const std::string law = "{law='exchange',coefficient=1e-7,";
   expect_refused(law + "circuit={},foundation_potential=1}",
