@@ -189,8 +189,10 @@ double ContactBySolutions<dim>::forward_error() {
     return body_.last_correction();
   const NaturalMap map(coupled(), 1);
   std::vector<double> residual = body_.residual_by_cells();
-  if (map.residual(seen_.place(body_.residual())) <= tolerance_)
-    return seen_.forward_error(map.tangent(seen_.place(residual)), std::move(residual));
+  if (map.residual(seen_.place(body_.residual())) <= tolerance_) {
+    const ContactTangent tangent = map.tangent(seen_.place(residual));
+    return seen_.forward_error(tangent, std::move(residual));
+  }
   body_.system().set_contact(seen_.held());
   return body_.forward_error(freed(std::move(residual)));
 }
