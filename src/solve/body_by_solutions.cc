@@ -215,7 +215,7 @@ template <int dim>
 bool BodyBySolutions<dim>::newton_step(const ContactTangent &tangent, std::vector<double> residual,
                                        double reduction) {
   const NodeSystem<dim> system(contact_, model_, with_springs(tangent));
-  if (iterations_++ == 0) {
+  if (iterations_++ == 0) {  // a step begins with the preconditioner of its own contact
     body_.system().set_contact(system.tangents);
     body_.system().refresh();
   }
@@ -227,7 +227,7 @@ bool BodyBySolutions<dim>::newton_step(const ContactTangent &tangent, std::vecto
     const ContactPoint &p = contact_.points()[at.point];
     const auto own = Eigen::seqN(p.offset, p.size);
     next(own) += moved(own);
-    // a slip that turns is caught
+    // A slip that turns is caught.
     if (p.law.normal() == nullptr && p.law.held().isZero(0) && p.slip(next).dot(p.slip(d_)) < 0)
       p.hold(next);
   }
@@ -235,7 +235,7 @@ bool BodyBySolutions<dim>::newton_step(const ContactTangent &tangent, std::vecto
   return true;
 }
 
-// The same without changing the state.
+// What the linear system answers; the state stays as it is.
 template <int dim>
 std::optional<ContactBody::Moved> BodyBySolutions<dim>::response(const NodeSystem<dim> &system,
                                                                  const VectorXd &known,
