@@ -72,15 +72,17 @@ BlockRows::BlockRows(Mat matrix, PetscInt block_size)
   PetscInt n_rows = 0;
   check(MatGetLocalSize(matrix, &n_rows, nullptr));
   for (PetscInt row = 0; row < n_rows; row += size_)
-    put_row(matrix, row);
-  entries_.resize(entries_.size() + most_lanes);
+    put_columns(matrix, row);
+  column_.shrink_to_fit();
+  entries_.resize(column_.size() * size_ * size_ + most_lanes);
+  for (PetscInt row = 0; row < n_rows; row += size_)
+    put_entries(matrix, row);
 }
 
-// Of blocks, from this row of the matrix on. Their columns first, which the rows may share in part.
-void BlockRows::put_row(Mat matrix, PetscInt row) {
+// Of the row of blocks that begins with this one of the matrix, whose rows may share them in part.
+void BlockRows::put_columns(Mat matrix, PetscInt row) {
   PetscInt n = 0;
   const PetscInt *columns = nullptr;
-  const PetscScalar *values = nullptr;
   const std::ptrdiff_t begin = first_.back();
   for (PetscInt r = 0; r < size_; ++r) {
     check(MatGetRow(matrix, row + r, &n, &columns, nullptr));
@@ -92,11 +94,16 @@ void BlockRows::put_row(Mat matrix, PetscInt row) {
   std::sort(column_.begin() + begin, column_.end());
   column_.erase(std::unique(column_.begin() + begin, column_.end()), column_.end());
   first_.push_back(static_cast<PetscInt>(column_.size()));
+}
+
+void BlockRows::put_entries(Mat matrix, PetscInt row) {
+  PetscInt n = 0;
+  const PetscInt *columns = nullptr;
+  const PetscScalar *values = nullptr;
   const std::size_t of_a_block = std::size_t(size_) * size_;
-  entries_.resize(column_.size() * of_a_block);
   for (PetscInt r = 0; r < size_; ++r) {
     check(MatGetRow(matrix, row + r, &n, &columns, &values));
-    auto at = column_.begin() + begin;
+    auto at = column_.begin() + first_[row / size_];
     for (PetscInt k = 0; k < n; ++k) {
       at = std::find(at, column_.end(), columns[k] / size_);
       const auto block = static_cast<std::size_t>(at - column_.begin());

@@ -17,7 +17,8 @@ class BlockRows {
   void add_product(const double *x, double *y) const;
 
  private:
-  void put_row(Mat matrix, PetscInt row);
+  void put_columns(Mat matrix, PetscInt row);
+  void put_entries(Mat matrix, PetscInt row);
 
   int size_;                              // of a block
   std::vector<PetscInt> first_, column_;  // in blocks

@@ -6,6 +6,7 @@
 
 #include "body/backward_error.h"
 #include "krylov/block_smoothing.h"
+#include "krylov/block_triangle.h"
 #include "krylov/body_matrix.h"
 #include "krylov/petsc.h"
 #include "stopwatch.h"
@@ -29,8 +30,8 @@ struct BodySystem<dim>::Parts {
   Parts(const Parts &) = delete;
   Parts &operator=(const Parts &) = delete;
 
-  void split(const std::vector<Vector3> &points);
-  void attach_rigid_motions(IS displacements, const std::vector<Vector3> &points) const;
+  std::array<BlockTriangle::Block, 3> fields() const;
+  void attach_rigid_motions(const std::vector<Vector3> &points);
   void make_solver();
   void orthogonalise_twice();
   void precondition();
@@ -41,13 +42,8 @@ struct BodySystem<dim>::Parts {
   std::vector<NodeTangent<dim>> preconditioned;  // contact
   std::vector<Eigen::Vector2d> crossing;         // as the contact, or empty
   Vec right_side = nullptr, solution = nullptr;
-  struct Field {
-    const char *name = nullptr;
-    IS own = nullptr;
-  };
-  std::array<Field, 3> fields;  // u, phi, theta
+  BlockTriangle preconditioner;  // u, phi, theta
   KSP solver = nullptr;
-  std::array<KSP, 3> of_field{};  // inside it
   double set_up_seconds = 0;
   int set_ups = 0;
 };
@@ -56,24 +52,33 @@ template <int dim>
 BodySystem<dim>::Parts::Parts(const body::Operator<dim> &the_operator, double the_step,
                               const std::vector<Vector3> &points,
                               const std::vector<body::Prescribed> &prescribed)
-    : matrices(the_operator, the_step, prescribed), op(the_operator), step(the_step) {
+    : matrices(the_operator, the_step, prescribed),
+      op(the_operator),
+      step(the_step),
+      preconditioner(matrices.matrix(), fields()) {
   check(MatCreateVecs(matrices.matrix(), &solution, &right_side));
-  split(points);
+  attach_rigid_motions(points);
   make_solver();
 }
 
 template <int dim>
 BodySystem<dim>::Parts::~Parts() {
   KSPDestroy(&solver);
-  for (Field &field : fields)
-    ISDestroy(&field.own);
   VecDestroy(&solution);
   VecDestroy(&right_side);
 }
 
 template <int dim>
-void BodySystem<dim>::Parts::attach_rigid_motions(IS displacements,
-                                                  const std::vector<Vector3> &points) const {
+std::array<BlockTriangle::Block, 3> BodySystem<dim>::Parts::fields() const {
+  const NodeRows &rows = matrices.rows();
+  constexpr int n = Fields<dim>::count;
+  return {{{"u", rows.own(n, 0, dim)},
+           {"phi", rows.own(n, Fields<dim>::potential, 1)},
+           {"theta", rows.own(n, Fields<dim>::temperature, 1)}}};
+}
+
+template <int dim>
+void BodySystem<dim>::Parts::attach_rigid_motions(const std::vector<Vector3> &points) {
   const NodeRows &rows = matrices.rows();
   Vec places = nullptr;
   check(VecCreate(PETSC_COMM_WORLD, &places));
@@ -87,20 +92,9 @@ void BodySystem<dim>::Parts::attach_rigid_motions(IS displacements,
   check(VecRestoreArray(places, &values));
   MatNullSpace motions = nullptr;
   check(MatNullSpaceCreateRigidBody(places, &motions));
-  check(PetscObjectCompose(reinterpret_cast<PetscObject>(displacements), "nearnullspace",
-                           reinterpret_cast<PetscObject>(motions)));
+  check(MatSetNearNullSpace(preconditioner.diagonal(0), motions));
   check(MatNullSpaceDestroy(&motions));
   check(VecDestroy(&places));
-}
-
-template <int dim>
-void BodySystem<dim>::Parts::split(const std::vector<Vector3> &points) {
-  const NodeRows &rows = matrices.rows();
-  constexpr int n = Fields<dim>::count;
-  fields = {{{"u", rows.own(n, 0, dim)},
-             {"phi", rows.own(n, Fields<dim>::potential, 1)},
-             {"theta", rows.own(n, Fields<dim>::temperature, 1)}}};
-  attach_rigid_motions(fields[0].own, points);
 }
 
 // Coarse spaces, and the preconditioners of phi and theta, are those of the body without its
@@ -109,22 +103,13 @@ template <int dim>
 void BodySystem<dim>::Parts::make_solver() {
   check(KSPCreate(PETSC_COMM_WORLD, &solver));
   check(KSPSetFromOptions(solver));
-  PC preconditioner = nullptr;
-  check(KSPGetPC(solver, &preconditioner));
-  for (const Field &field : fields)
-    check(PCFieldSplitSetIS(preconditioner, field.name, field.own));
   check(KSPSetOperators(solver, matrices.free(), matrices.matrix()));
+  preconditioner.attach_to(solver);
   check(KSPSetUp(solver));
-  PetscInt n_fields = 0;
-  KSP *of_each = nullptr;
-  check(PCFieldSplitGetSubKSP(preconditioner, &n_fields, &of_each));
-  std::copy_n(of_each, fields.size(), of_field.begin());
-  check(PetscFree(of_each));
-  for (KSP one : of_field) {
-    check(KSPSetUp(one));
-    check(KSPSetReusePreconditioner(one, PETSC_TRUE));
+  for (int field = 0; field < BlockTriangle::n_blocks; ++field) {
+    check(KSPSetUp(preconditioner.solver(field)));
+    check(KSPSetReusePreconditioner(preconditioner.solver(field), PETSC_TRUE));
   }
-  check(KSPSetReusePreconditioner(solver, PETSC_TRUE));
 }
 
 // Stiff parts on soft ones take the basis its orthogonality: without this the iteration sees a
@@ -137,17 +122,17 @@ void BodySystem<dim>::Parts::orthogonalise_twice() {
 // Only the multigrid of u follows the contact.
 template <int dim>
 void BodySystem<dim>::Parts::precondition() {
-  Mat of_u = nullptr;
-  check(KSPGetOperators(of_field[0], nullptr, &of_u));
+  const Mat of_u = preconditioner.diagonal(0);
+  const KSP solver_of_u = preconditioner.solver(0);
   matrices.put_contact_in(of_u);
-  check(KSPSetReusePreconditioner(of_field[0], PETSC_FALSE));
-  check(KSPSetOperators(of_field[0], of_u, of_u));
-  check(KSPSetUp(of_field[0]));
+  check(KSPSetReusePreconditioner(solver_of_u, PETSC_FALSE));
+  check(KSPSetOperators(solver_of_u, of_u, of_u));
+  check(KSPSetUp(solver_of_u));
   PC multigrid = nullptr;
-  check(KSPGetPC(of_field[0], &multigrid));
+  check(KSPGetPC(solver_of_u, &multigrid));
   smooth_by_blocks(multigrid);
-  check(KSPSetUpOnBlocks(of_field[0]));
-  check(KSPSetReusePreconditioner(of_field[0], PETSC_TRUE));
+  check(KSPSetUpOnBlocks(solver_of_u));
+  check(KSPSetReusePreconditioner(solver_of_u, PETSC_TRUE));
   preconditioned = matrices.contact();
   ++set_ups;
 }

@@ -12,7 +12,8 @@ namespace tourmaline::run {
 double factorised_memory(const casefile::Case &asked);
 /// Of them what a further factorisation takes, for steps of another size.
 double another_factorisation(const casefile::Case &asked);
-/// The same of a run that solves the body's equations iteratively: growing as N.
+/// The same of a run that solves the body's equations iteratively: growing as N, by the number of
+/// nodes that a node shares cells with.
 double iterative_memory(const casefile::Case &asked);
 
 /// Whether the body's equations are solved iteratively: because the case says so, or, where it says
