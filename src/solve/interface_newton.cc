@@ -39,7 +39,10 @@ class Iteration {
   void sweep(bool backwards);
   /// Solves one linear system; true when points came to stick on the way, so that the step after it
   /// is another one.
-  bool newton_step(bool ahead = false, double left = KeptFactor::for_the_next);
+  bool newton_step(bool ahead, double left);
+  bool newton_step(bool ahead = false) {
+    return newton_step(ahead, is_settling_ ? KeptFactor::for_the_same : KeptFactor::for_the_next);
+  }
   void update_residual_force() {
     force_ = programme_.force;
     subtract_product(programme_.stiffness, d_, force_);
@@ -104,6 +107,7 @@ class Iteration {
   bool may_yield_;  // a normal law has no kink, but a bend where the body begins to touch
   bool is_definite_ = true;
   bool is_settling_ = false;  // the last Newton step was a whole one that no point turned in
+  double left_ = 1;           // by the last Newton step, of the largest residual
   int rests_ = 7;  // times that no sweep went before the Newton step; the first time one does
   KeptFactor &factor_;
   std::optional<KeptFactor::Solved> last_solved_;  // the last direction, of a large system
@@ -140,11 +144,14 @@ void Iteration::sweep(bool backwards) {
 }
 
 // Where the contact is large a sweep costs as much as a product with A, and Newton's method hardly
-// more: one is enough, and none of every second time that Newton's method needs no help. On a
-// foundation that yields Newton's method with an exact search gets on by itself, and sweeps may
-// take it back to where it has been: they come every eighth time.
+// more: one is enough, none of every second time that Newton's method needs no help, and none while
+// it converges fast. On a foundation that yields Newton's method with an exact search gets on by
+// itself, and sweeps may take it back to where it has been: they come every eighth time.
 void Iteration::sweeps() {
+  constexpr double fast = 0.03;
   const bool large = is_large(d_.size());
+  if (large && is_settling_ && left_ < fast)
+    return;
   const int rests = may_yield_ ? 7 : large && is_settling_ ? 1 : 0;
   if (rests_ < rests) {
     ++rests_;
@@ -316,7 +323,9 @@ bool Iteration::newton_step(bool ahead, double left) {
   if (!descends(next) && !shorten(*found, next))
     return false;  // round-off is all that is left of the step
   const bool is_whole = next == d_ + *found;
+  const double before = largest_residual();
   go_to(next);
+  left_ = largest_residual() / before;
   const std::size_t still_smooth = smooth_points().size();
   is_settling_ = is_whole && still_smooth == smooth.size();
   return still_smooth < smooth.size();

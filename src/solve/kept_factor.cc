@@ -15,6 +15,7 @@ namespace {
 
 constexpr int most_products = 30;
 constexpr std::ptrdiff_t most_kept = 12;
+constexpr Index few = 700;  // unknowns: of so many a system is factorised in no more time
 
 // How many of the unknowns, which come first, are columns of A.
 Index n_of_a(const InterfaceSystem &system, const MatrixXd &a) {
@@ -259,7 +260,7 @@ void subtract_product(const MatrixXd &a, const VectorXd &v, VectorXd &from) {
 std::optional<KeptFactor::Solved> KeptFactor::solve_large(const InterfaceSystem &system,
                                                           const MatrixXd &a, const VectorXd &b,
                                                           double left) {
-  if (!is_large(system.size()))
+  if (!is_large(a.rows()) || system.size() <= few)
     return std::nullopt;
   if (!inverse_)
     inverse_.emplace(a);

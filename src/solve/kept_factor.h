@@ -69,9 +69,9 @@ class KeptFactor {
     Eigen::VectorXd x;         ///< spread among zeros to the entries of B's columns
     Eigen::VectorXd resisted;  ///< A x
   };
-  /// How much of the right side a large system may leave: the next Newton iteration takes it, or
-  /// there is none.
-  static constexpr double for_the_next = 0.3, for_none = 0.01;
+  /// How much of the right side a large system may leave: the next Newton iteration takes it, which
+  /// will find the same points slipping, or there is none.
+  static constexpr double for_the_next = 0.3, for_the_same = 0.05, for_none = 0.01;
   /// Exactly, or of large ones until such a part of the right side is left. Nothing where the
   /// system cannot be solved.
   std::optional<Solved> solve(const InterfaceSystem &system, const Eigen::MatrixXd &a,
