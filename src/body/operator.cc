@@ -147,6 +147,7 @@ template <int dim>
 void Operator<dim>::add_capacitors(const Discretisation<dim> &body,
                                    const std::vector<std::string> &boundaries,
                                    const casefile::Formula &coefficient, double factor) {
+  has_capacitors_ = true;
   capacitors_.resize(graph_.column.size(), 0.);
   add_facets(body, boundaries, coefficient, factor, "charge exchange", capacitors_);
 }
@@ -306,7 +307,7 @@ std::vector<double> Operator<dim>::conducted(std::span<const double> x) const {
 
 template <int dim>
 std::vector<double> Operator<dim>::held_by_capacitors(std::span<const double> x) const {
-  if (capacitors_.empty())
+  if (!has_capacitors_)
     return {};
   return times(capacitors_, Fields<dim>::potential, x);
 }

@@ -71,7 +71,10 @@ class Operator {
   void add_capacitors(const Discretisation<dim> &body, const std::vector<std::string> &boundaries,
                       const casefile::Formula &coefficient, double factor = 1);
   /// Before those of another factor are added.
-  void clear_capacitors() { capacitors_.clear(); }
+  void clear_capacitors() {
+    capacitors_.clear();
+    has_capacitors_ = false;
+  }
 
   /// What resists rates of u, from now on.
   void set_rate_forces(RateForces<dim> forces) { rates_ = std::move(forces); }
@@ -142,7 +145,8 @@ class Operator {
   NodeGraph graph_;
   std::vector<Block, Eigen::aligned_allocator<Block>> storage_;
   std::vector<double> conduction_;
-  std::vector<double> capacitors_;     // empty: there are none
+  std::vector<double> capacitors_;     // empty: there are none here
+  bool has_capacitors_ = false;        // the same on all ranks
   std::vector<CellModes<dim>> modes_;  // of this rank's cells
   std::optional<RateForces<dim>> rates_;
   double reference_temperature_;

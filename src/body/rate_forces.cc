@@ -188,8 +188,10 @@ RateForces<dim>::RateForces(const Discretisation<dim> &body,
   parallel::sum(diagonal_);
   // Whether there is any damping is known to all ranks, whoever's cells are damped.
   for (std::vector<Block> *blocks : {&damping_, &backward_damping_})
-    if (parallel::sum(blocks->empty() ? 0. : 1.) > 0)
+    if (parallel::sum(blocks->empty() ? 0. : 1.) > 0) {
       blocks->resize(assembly.graph.column.size(), Block::Zero());
+      is_damped_ = true;
+    }
 }
 
 // In a corner of the contact a cell may have no other nodes: the nodes with mass of the cells

@@ -51,10 +51,11 @@ class RateForces {
   void drop_damping() {
     damping_.clear();
     backward_damping_.clear();
+    is_damped_ = false;
   }
 
   bool is_dynamic() const { return is_dynamic_; }
-  bool is_damped() const { return !damping_.empty() || !backward_damping_.empty(); }
+  bool is_damped() const { return is_damped_; }
   bool is_massless(Node node) const { return massless_[node]; }
   /// Of the step at place `entry` of the graph.
   Block step_block(std::size_t entry, double step) const;
@@ -72,10 +73,10 @@ class RateForces {
   struct Assembly;
   void add_stranded(const Discretisation<dim> &body, Assembly &assembly);
 
-  bool is_dynamic_;
+  bool is_dynamic_, is_damped_ = false;  // the same on all ranks
   std::vector<bool> massless_;
   std::vector<double> mass_;                       // by entry of the graph, as the others
-  std::vector<Block> damping_, backward_damping_;  // empty: none
+  std::vector<Block> damping_, backward_damping_;  // empty: none here
   std::vector<double> node_masses_, diagonal_;
 };
 

@@ -288,8 +288,14 @@ Interface<dim> interface_of(const body::Discretisation<dim> &body,
                      joined.first_at(node)});
   }
   parallel::together([&] {
-    for (std::size_t contact = 0; contact < contacts.size(); ++contact)
-      check_normals(body, contacts[contact], of_contact(nodes, contact));
+    for (std::size_t contact = 0; contact < contacts.size(); ++contact) {
+      const std::vector<InterfaceNode<dim>> own = of_contact(nodes, contact);
+      if (own.empty())
+        throw CaseError("[contact] on \"" + contacts[contact].front() +
+                        "\": contacts before it have all of its nodes, where they meet it; take "
+                        "finer cells, or leave it out");
+      check_normals(body, contacts[contact], own);
+    }
   });
   return interface;
 }

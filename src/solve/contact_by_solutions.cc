@@ -99,7 +99,8 @@ bool ContactBySolutions<dim>::find_fast() {
       seen_.put(x.d + tangent.known);  // held points exactly where they are held
       continue;
     }
-    progress.see(k, worst, contact_is_solved ? std::optional(body_.lack()) : std::nullopt);
+    if (k > 0)  // before the first solve a contact without forces is solved by itself
+      progress.see(k, worst, contact_is_solved ? std::optional(body_.lack()) : std::nullopt);
     if (!newton_step(tangent, std::move(residual)))
       return false;
   }
