@@ -362,6 +362,23 @@ contact = [ {{ on = "left", heat = {{ law = "exchange", coefficient = {}, founda
   }
 }
 
+// A node where contacts meet is the first one's.
+TEST(SeveralContacts, OfWhichOneHasNoNodeOfItsOwnAreRefused) {
+  const auto run = [] {
+    run_text(R"toml(
+mesh.box = { min = [0, 0], max = [1, 1], cells = [1, 1], cell = "quadrilateral" }
+material.library = "steel"
+model = { thermal = false, electric = false }
+time = { end = 1, steps = 1 }
+boundary = [ { on = "top", displacement = ["free", 1e-6] } ]
+contact = [ { on = ["left", "right"] }, { name = "sole", on = "bottom", normal = "unilateral" } ]
+)toml",
+             {});
+  };
+  EXPECT_THAT(run, ::testing::ThrowsMessage<CaseError>(::testing::HasSubstr(
+                       "[contact] on \"bottom\": contacts before it have all of its nodes")));
+}
+
 // 5. Laws of different kinds.
 
 // The wall is bilateral with Tresca's law, the jaw opens and rubs by its pressure.

@@ -125,5 +125,29 @@ contact = { on = "left", friction = { law = "tresca", bound = 15 } }
                       read_table(folder / "on4" / "nodes.csv"));
 }
 
+// Whether there is damping, or charge that crosses, ranks without cells do not see from theirs.
+TEST(MoreRanksThanCells, AgreeOnWhatTheOnlyCellHas) {
+  const output::TemporaryFolder folder;
+  const fs::path file = folder / "case.toml";
+  std::ofstream(file) << R"(
+mesh.box = { min = [0, 0], max = [1, 1], cells = [1, 1], cell = "quadrilateral" }
+material = { library = "BaTiO3-Liu2014", stiffness_damping = 0.1 }
+model.thermal = false
+time = { end = 1, steps = 2 }
+boundary = [ { on = "left", displacement = [0, 0], potential = 0 },
+             { on = "right", traction = [0, "1e3*t"] } ]
+contact = { on = "bottom", electric = { law = "exchange", coefficient = 1e-9, foundation_potential = 1 } }
+output = { fields = false, report = false }
+)";
+  for (const std::string body : {"direct", "iterative"}) {
+    for (const int ranks : {1, 2}) {
+      const Outcome outcome = run_on(ranks, "'" + file.string() + "' --set solver.body=" + body,
+                                     folder / (body + std::to_string(ranks)));
+      EXPECT_EQ(outcome.status, 0) << outcome.said;
+    }
+    expect_equal_results(results_in(folder / (body + "1")), results_in(folder / (body + "2")));
+  }
+}
+
 }  // namespace
 }  // namespace tourmaline::verified
