@@ -99,7 +99,9 @@ bool ContactBySolutions<dim>::find_fast() {
       seen_.put(x.d + tangent.known);  // held points exactly where they are held
       continue;
     }
-    if (k > 0)  // before the first solve a contact without forces is solved by itself
+    // Before the first solve a contact without forces is solved by itself, and no later one is more
+    // so. Where only the contact holds the body, which Newton's method may carry off, that counts.
+    if (k > 0 || is_leaning_)
       progress.see(k, worst, contact_is_solved ? std::optional(body_.lack()) : std::nullopt);
     if (!newton_step(tangent, std::move(residual)))
       return false;
