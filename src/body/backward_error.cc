@@ -22,16 +22,20 @@ double backward_error(const Operator<dim> &op, double step, const std::vector<do
     largest_b = larger(largest_b, std::abs(right_side[i]) * scale[i]);
     largest_x = larger(largest_x, std::abs(state[i]) / scale[i]);
   }
-  return relative_to(largest_r, norm * largest_x + largest_b);
+  std::array<double, 4> all{norm, largest_r, largest_b, largest_x};
+  op.sharing().largest(all);
+  return relative_to(all[1], all[0] * all[3] + all[2]);
 }
 
 template <int dim>
-FieldSizes field_sizes(std::span<const double> state, std::span<const double> scale) {
+FieldSizes field_sizes(const NodeSharing &sharing, std::span<const double> state,
+                       std::span<const double> scale) {
   FieldSizes sizes{};
   for (std::size_t i = 0; i < state.size(); ++i) {
     double &size = sizes[field_of<dim>(i)];
     size = larger(size, std::abs(state[i]) / scale[i % Fields<dim>::count]);
   }
+  sharing.largest(sizes);
   return sizes;
 }
 
@@ -44,8 +48,10 @@ double relative_size(const FieldSizes &change, const FieldSizes &whole) {
   return std::isnan(worst) ? std::numeric_limits<double>::infinity() : worst;
 }
 
-template FieldSizes field_sizes<2>(std::span<const double>, std::span<const double>);
-template FieldSizes field_sizes<3>(std::span<const double>, std::span<const double>);
+template FieldSizes field_sizes<2>(const NodeSharing &, std::span<const double>,
+                                   std::span<const double>);
+template FieldSizes field_sizes<3>(const NodeSharing &, std::span<const double>,
+                                   std::span<const double>);
 template double backward_error(const Operator<2> &, double, const std::vector<double> &,
                                std::span<const double>, std::span<const double>,
                                std::span<const double>);

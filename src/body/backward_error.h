@@ -19,18 +19,20 @@ double backward_error(const Operator<dim> &op, double step, const std::vector<do
 /// The largest scaled entries by field: u, phi, theta.
 using FieldSizes = std::array<double, 3>;
 
-/// `scale` holds a factor for each component of a node.
+/// `scale` holds a factor for each component of a node. All ranks together.
 template <int dim>
-FieldSizes field_sizes(std::span<const double> state, std::span<const double> scale);
+FieldSizes field_sizes(const NodeSharing &sharing, std::span<const double> state,
+                       std::span<const double> scale);
 
 /// Size of a change over that of what changed, the worst field's. A field of which there is next
 /// to nothing (a millionth of the largest, so 1e-12 of its energy) is measured by that millionth.
 /// Infinite where a number is not one.
 double relative_size(const FieldSizes &change, const FieldSizes &whole);
 template <int dim>
-double relative_size(std::span<const double> change, std::span<const double> state,
-                     std::span<const double> scale) {
-  return relative_size(field_sizes<dim>(change, scale), field_sizes<dim>(state, scale));
+double relative_size(const NodeSharing &sharing, std::span<const double> change,
+                     std::span<const double> state, std::span<const double> scale) {
+  return relative_size(field_sizes<dim>(sharing, change, scale),
+                       field_sizes<dim>(sharing, state, scale));
 }
 
 }  // namespace tourmaline::body

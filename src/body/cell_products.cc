@@ -304,14 +304,14 @@ void CellProducts<dim>::multiply_by_field(std::span<const double> x,
                                           FieldProducts &products) const {
   parallel::together([&] { storage(x, products); });
   for (std::vector<double> &product : products.of)
-    parallel::sum(product);
+    body_.sharing().add_up(product);
 }
 
 template <int dim>
 std::vector<double> CellProducts<dim>::conducted(std::span<const double> x) const {
   std::vector<double> taken(body_.n_nodes(), 0.);
   parallel::together([&] { conduction(x, taken); });
-  parallel::sum(taken);
+  body_.sharing().add_up(taken);
   return taken;
 }
 
@@ -321,7 +321,7 @@ std::vector<double> CellProducts<dim>::held_by_capacitors(std::span<const double
     return {};
   std::vector<double> held(body_.n_nodes(), 0.);
   parallel::together([&] { exchange(capacitors_, Fields<dim>::potential, x, held); });
-  parallel::sum(held);
+  body_.sharing().add_up(held);
   return held;
 }
 
@@ -363,7 +363,7 @@ void CellProducts<dim>::multiply(double step, std::span<const double> x,
     y[unknown<dim>(node, Fields<dim>::potential)] -= held[node];
   if (with_rates_)
     with_rates_->add_rate_share(step, x, y);
-  parallel::sum(y);
+  body_.sharing().add_up(y);
 }
 
 template class CellProducts<2>;

@@ -33,7 +33,7 @@ class Pieces {
   std::vector<Node> parent_;
 };
 
-// The piece of every node that belongs to a conductor.
+// The piece of every node that belongs to a conductor, by numbers in the whole body.
 template <int dim>
 std::map<Node, Node> conductors(const Discretisation<dim> &body,
                                 const material::Composition<dim> &composition) {
@@ -46,12 +46,14 @@ std::map<Node, Node> conductors(const Discretisation<dim> &body,
         conducts[node] = true;
       }
   });
-  std::vector<Node> pairs;  // (node, piece), which pieces of other ranks continue
+  // (node, piece), which pieces of other ranks continue, by numbers in the whole body
+  std::vector<Node> pairs;
+  const NodeSharing &sharing = body.sharing();
   for (Node node = 0; node < body.n_nodes(); ++node)
     if (conducts[node])
-      pairs.insert(pairs.end(), {node, own.of(node)});
+      pairs.insert(pairs.end(), {sharing.number(node), sharing.number(own.of(node))});
   pairs = parallel::joined(pairs);
-  Pieces all(body.n_nodes());
+  Pieces all(sharing.n_all());
   for (std::size_t i = 0; i < pairs.size(); i += 2)
     all.join(pairs[i], pairs[i + 1]);
   std::map<Node, Node> piece;
@@ -133,11 +135,14 @@ void check_conductors(const Discretisation<dim> &body,
     return;
   const std::map<Node, Node> piece = conductors(body, composition);
   Givers givers(asked);
-  for (const Prescribed &p : prescribed)
-    if (p.unknown % Fields<dim>::count == Fields<dim>::potential)
-      if (const auto found = piece.find(static_cast<Node>(p.unknown / Fields<dim>::count));
-          found != piece.end())
-        givers.add(found->second, p);
+  parallel::together([&] {
+    for (const Prescribed &p : prescribed)
+      if (p.unknown % Fields<dim>::count == Fields<dim>::potential)
+        if (const auto found = piece.find(
+                body.sharing().number(static_cast<Node>(p.unknown / Fields<dim>::count)));
+            found != piece.end())
+          givers.add(found->second, p);
+  });
 }
 
 template void check_conductors<2>(const Discretisation<2> &, const material::Composition<2> &,

@@ -95,6 +95,7 @@ Discretisation<dim>::Parts::Parts(mesh::Mesh<dim> given, int degree, Geometry as
       cells.push_back(cell);
   number_nodes();
   list_nodes_of_cells();
+  sharing = NodeSharing(touched());
   if (geometry == Geometry::revolved)
     find_axis();
 }
@@ -149,12 +150,62 @@ void Discretisation<dim>::Parts::number_nodes() {
   std::vector<Vector3> unsorted(dofs.n_dofs(), Vector3{});
   for (std::size_t i = 0; i < places.size(); ++i)
     unsorted[i / dim][i % dim] = places[i];
-  node_of.resize(unsorted.size());
+  nodes_by_dof.resize(unsorted.size());
   points.reserve(unsorted.size());
   for (const std::size_t dof : output::sorted_by_place(unsorted)) {
-    node_of[dof] = static_cast<Node>(points.size());
+    nodes_by_dof[dof] = static_cast<Node>(points.size());
     points.push_back(unsorted[dof]);
   }
+  bounds.fill(points.front());
+  for (const Vector3 &point : points)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      bounds[0][axis] = std::min(bounds[0][axis], point[axis]);
+      bounds[1][axis] = std::max(bounds[1][axis], point[axis]);
+    }
+}
+
+template <int dim>
+Node Discretisation<dim>::Parts::node_of(dealii::types::global_dof_index dof) const {
+  if (dofs_here.empty())
+    return nodes_by_dof[dof];
+  const auto at = std::lower_bound(dofs_here.begin(), dofs_here.end(), dof);
+  return nodes_by_dof[static_cast<std::size_t>(at - dofs_here.begin())];
+}
+
+// By node, whether it is one of this rank's cells.
+template <int dim>
+std::vector<bool> Discretisation<dim>::Parts::touched() const {
+  std::vector<bool> touched(points.size(), false);
+  for (const Node node : connectivity)
+    touched[node] = true;
+  return touched;
+}
+
+template <int dim>
+void Discretisation<dim>::Parts::share_nodes(const std::vector<Node> &known) {
+  sharing = NodeSharing(sharing, touched(), known);
+  std::vector<Vector3> here;
+  for (Node node = 0; node < sharing.n_nodes(); ++node)
+    here.push_back(points[sharing.number(node)]);
+  points = std::move(here);
+  for (Node &node : connectivity)
+    node = *sharing.node(node);
+  find_dofs_here();
+}
+
+template <int dim>
+void Discretisation<dim>::Parts::find_dofs_here() {
+  Dofs of_cell(element->n_dofs_per_cell());
+  for (const auto &cell : cells) {
+    cell->get_dof_indices(of_cell);
+    dofs_here.insert(dofs_here.end(), of_cell.begin(), of_cell.end());
+  }
+  std::sort(dofs_here.begin(), dofs_here.end());
+  dofs_here.erase(std::unique(dofs_here.begin(), dofs_here.end()), dofs_here.end());
+  std::vector<Node> nodes;
+  for (const auto dof : dofs_here)
+    nodes.push_back(*sharing.node(nodes_by_dof[dof]));
+  nodes_by_dof = std::move(nodes);
 }
 
 template <int dim>
@@ -164,7 +215,7 @@ void Discretisation<dim>::Parts::list_nodes_of_cells() {
   for (const auto &cell : cells) {
     cell->get_dof_indices(of_cell);
     for (const auto dof : of_cell)
-      connectivity.push_back(node_of[dof]);
+      connectivity.push_back(nodes_by_dof[dof]);
   }
 }
 
@@ -201,6 +252,21 @@ template <int dim>
 Discretisation<dim>::~Discretisation() = default;
 template <int dim>
 Discretisation<dim>::Discretisation(Discretisation &&) noexcept = default;
+
+template <int dim>
+void Discretisation<dim>::share_nodes(const std::vector<Node> &known) {
+  parts_->share_nodes(known);
+}
+
+template <int dim>
+const NodeSharing &Discretisation<dim>::sharing() const {
+  return parts_->sharing;
+}
+
+template <int dim>
+const std::array<Vector3, 2> &Discretisation<dim>::bounds() const {
+  return parts_->bounds;
+}
 
 template <int dim>
 std::size_t Discretisation<dim>::n_nodes() const {
@@ -474,13 +540,13 @@ std::vector<Node> Discretisation<dim>::nodes_of_facets(const IsAsked &is_asked) 
         of_face.resize(parts_->element->n_dofs_per_face(f));
         cell->face(f)->get_dof_indices(of_face);
         for (const auto dof : of_face)
-          nodes.push_back(parts_->node_of[dof]);
+          nodes.push_back(parts_->sharing.number(parts_->node_of(dof)));
       }
   });
   nodes = parallel::joined(nodes);
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  return nodes;
+  return parts_->sharing.nodes(nodes);
 }
 
 template <int dim>

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "body/node_sharing.h"
 #include "tourmaline/vector.h"
 
 namespace tourmaline::mesh {
@@ -23,8 +24,6 @@ struct NamedBoundary;
 }  // namespace tourmaline::output
 
 namespace tourmaline::body {
-
-using Node = unsigned int;
 
 /// What a linear quadrilateral or hexahedron has beside its nodes' shape functions.
 enum class Modes { none, incompatible };
@@ -86,9 +85,10 @@ struct NodeGraph {
 
 /// One Lagrange space of degree 1 or 2 (28)-(30), shared by all components of u, by phi and by
 /// theta: a node carries dim + 2 unknowns. Nodes are numbered by x, then y, then z, whatever the
-/// mesh's own order is and however many ranks share it, so every table lists them alike. Nodes and
-/// their places are whole on every rank, cells are shared out. This is the only place that asks
-/// deal.II for shape functions; the rest of the body sees plain numbers.
+/// mesh's own order is and however many ranks share it, so every table lists them alike. Cells are
+/// shared out, and nodes with their places are whole on every rank, unless they are shared out as
+/// well (`NodeSharing`). This is the only place that asks deal.II for shape functions; the rest of
+/// the body sees plain numbers.
 template <int dim>
 class Discretisation {
  public:
@@ -97,7 +97,12 @@ class Discretisation {
   ~Discretisation();
   Discretisation(Discretisation &&) noexcept;
 
-  std::size_t n_nodes() const;
+  /// From now on a rank has the nodes of its cells and these alone, which are known to all ranks,
+  /// and numbers them anew. All ranks together.
+  void share_nodes(const std::vector<Node> &known);
+  const NodeSharing &sharing() const;
+
+  std::size_t n_nodes() const;  ///< that this rank has
   std::size_t n_cells() const;
   bool has_simplices() const;
   int degree() const;
@@ -106,6 +111,8 @@ class Discretisation {
   bool is_on_axis(Node node) const;
   /// Places of the nodes [m]; z = 0 in 2D.
   const std::vector<Vector3> &points() const;
+  /// The box around all nodes, whoever has them: its least and its greatest corner [m].
+  const std::array<Vector3, 2> &bounds() const;
   NodeGraph graph() const;
 
   /// Calls `visit` for every cell of this rank, with a quadrature exact for the mass matrix on
@@ -126,14 +133,15 @@ class Discretisation {
                               const std::function<void(const Quadrature<dim> &)> &visit) const;
   /// Whether facets of that name are on the boundary; else they are inside.
   bool is_boundary(const std::string &name) const;
-  /// Nodes on the closure of the named boundaries, or of facets inside that have a name, ascending,
-  /// of all ranks. Facets on the axis of a revolved body have no area and count for nothing.
+  /// Nodes on the closure of the named boundaries, or of facets inside that have a name, ascending:
+  /// of all ranks' facets those that this rank has. Facets on the axis of a revolved body have no
+  /// area and count for nothing.
   std::vector<Node> nodes_on(const std::vector<std::string> &boundaries) const;
   /// The same of the facets between cells at all of whose corners `belongs` says so.
   std::vector<Node> nodes_inside(const std::function<bool(const Vector3 &)> &belongs) const;
 
-  /// All named boundaries, and names of facets inside, with the facets of all ranks, on the first
-  /// rank; without facets on the others.
+  /// All named boundaries, and names of facets inside, with the facets of all ranks by their nodes'
+  /// numbers in the whole body, on the first rank; without facets on the others.
   std::vector<output::NamedBoundary> boundaries() const;
 
   /// The first nodes of a cell are its corners; entry (a, v) is the share of corner v in node a,
@@ -146,7 +154,7 @@ class Discretisation {
   /// The same in every cell.
   ReferenceShapes<dim> shapes_at(const std::array<double, dim> &reference) const;
 
-  /// The grid as the output wants it: all nodes, and this rank's cells in the order of
+  /// The grid as the output wants it: the nodes that this rank has, and its cells in the order of
   /// `for_each_cell`.
   output::Grid grid() const;
 

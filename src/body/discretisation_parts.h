@@ -5,6 +5,7 @@
 #include <deal.II/fe/fe.h>
 #include <deal.II/fe/mapping.h>
 
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -24,6 +25,10 @@ struct Discretisation<dim>::Parts {
   std::vector<double> own_places() const;
   void number_nodes();
   void list_nodes_of_cells();
+  std::vector<bool> touched() const;
+  void share_nodes(const std::vector<Node> &known);
+  void find_dofs_here();
+  Node node_of(dealii::types::global_dof_index dof) const;
   void find_axis();
   using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
   std::span<const Node> nodes_of(std::size_t cell) const;
@@ -40,8 +45,13 @@ struct Discretisation<dim>::Parts {
   dealii::Quadrature<dim> cell_rule, sampling_rule;
   dealii::Quadrature<dim - 1> facet_rule;
   dealii::DoFHandler<dim> dofs;
-  std::vector<Node> node_of;       // by deal.II's global number, which depends on the ranks
-  std::vector<Vector3> points;     // by node
+  // By deal.II's global number, which depends on the ranks; shared out, by the place of that number
+  // in `dofs_here`, ascending.
+  std::vector<Node> nodes_by_dof;
+  Dofs dofs_here;
+  NodeSharing sharing;
+  std::vector<Vector3> points;  // by node
+  std::array<Vector3, 2> bounds{};
   std::vector<Cell> cells;         // of this rank
   std::vector<Node> connectivity;  // cell by cell
 };

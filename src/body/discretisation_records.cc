@@ -69,7 +69,7 @@ std::vector<output::NamedBoundary> Discretisation<dim>::boundaries() const {
         const auto dofs = facet_dofs<dim>(*cell->face(f), parts_->element->degree);
         facets.push_back(static_cast<Node>(dofs.size()));
         for (const auto dof : dofs)
-          facets.push_back(parts_->node_of[dof]);
+          facets.push_back(parts_->sharing.number(parts_->node_of(dof)));
       }
     all.push_back({name, separated(parallel::joined_on_first(facets)), inside});
   };

@@ -163,21 +163,17 @@ class Cell {
   Vector<dim> low_, high_;
 };
 
-/// The axis along which points are farthest apart, and by how much [m].
+/// The axis along which nodes are farthest apart, and by how much [m].
 struct Extent {
   std::size_t axis = 0;
   double length = 0;
 };
 
-Extent extent(const std::vector<Vector3> &points) {
+Extent extent(const std::array<Vector3, 2> &bounds) {
   Extent most;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto [low, high] =
-        std::minmax_element(points.begin(), points.end(),
-                            [axis](const auto &a, const auto &b) { return a[axis] < b[axis]; });
-    if (const double length = (*high)[axis] - (*low)[axis]; length > most.length)
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (const double length = bounds[1][axis] - bounds[0][axis]; length > most.length)
       most = {axis, length};
-  }
   return most;
 }
 
@@ -242,7 +238,7 @@ template <int dim>
 std::vector<Interpolation> on_this_rank(const Discretisation<dim> &body,
                                         const std::vector<Vector3> &places, bool inside) {
   const std::size_t n_corners = body.has_simplices() ? dim + 1 : std::size_t{1} << dim;
-  const Extent size = extent(body.points());
+  const Extent size = extent(body.bounds());
   const double tolerance = 1e-9 * size.length;
   const Along sorted(places, size.axis);
   constexpr double nowhere = std::numeric_limits<double>::infinity();
@@ -288,13 +284,15 @@ Interpolation unpacked(std::span<const double> numbers) {
   return one;
 }
 
-// Of several ranks that have a place the first one's cell counts.
+// Of several ranks that have a place the first one's cell counts. Only that rank has the nodes of
+// its cell, where these are shared out.
 template <int dim>
 std::vector<Interpolation> on_all_ranks(const Discretisation<dim> &body,
                                         const std::vector<Vector3> &places, bool inside) {
   const std::size_t n_nodes = body.shapes_at({}).values.size(), size = 5 + 2 * n_nodes;
   const std::vector<double> all =
       parallel::joined(packed(on_this_rank(body, places, inside), n_nodes));
+  const auto rank = static_cast<std::size_t>(parallel::rank());
   std::vector<Interpolation> best(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
     std::size_t nearest = i;
@@ -302,6 +300,8 @@ std::vector<Interpolation> on_all_ranks(const Discretisation<dim> &body,
       if (all[other * size] < all[nearest * size])
         nearest = other;
     best[i] = unpacked(std::span(all).subspan(nearest * size, size));
+    if (!body.sharing().is_whole() && nearest / places.size() != rank)
+      best[i].nodes.clear();
   }
   return best;
 }

@@ -8,7 +8,8 @@
 namespace tourmaline::body {
 
 /// A place of the body, where a field is the sum of its values at `nodes` times `weights`: the
-/// shape functions of the cell that the place lies in.
+/// shape functions of the cell that the place lies in. Where nodes are shared out to the ranks only
+/// one rank has them; its value is the sum over the ranks.
 struct Interpolation {
   Vector3 place{};  ///< [m]
   std::vector<Node> nodes;
@@ -25,7 +26,7 @@ struct Interpolation {
   }
 };
 
-/// The places of the body that are nearest to these [m], whole on every rank. Within 1e-9 of the
+/// The places of the body that are nearest to these [m]. Within 1e-9 of the
 /// body's size a place is on its boundary; the nearest place of one that lies farther outside has
 /// no nodes.
 template <int dim>

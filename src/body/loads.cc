@@ -26,14 +26,16 @@ void Load::add(Share share) {
       if (uniform_.size() <= share.nodes[a])
         uniform_.resize(share.nodes[a] + std::size_t{1}, 0.);
       uniform_[share.nodes[a]] += factor_ * density * share.weights[a];
+      sum_ += factor_ * density * share.weights[a];
     }
 }
 
-void Load::sum_over_ranks(std::size_t n_nodes) {
+void Load::sum_over_ranks(const NodeSharing &sharing) {
   if (parallel::n_ranks() == 1)
     return;
-  uniform_.resize(n_nodes, 0.);
-  parallel::sum(uniform_);
+  uniform_.resize(sharing.n_nodes(), 0.);
+  sharing.add_up(uniform_);
+  sum_ = parallel::sum(sum_);
 }
 
 bool Load::is_distributed() const {
@@ -59,7 +61,7 @@ double Load::resultant(double t) const {
            std::accumulate(share.weights.begin(), share.weights.end(), 0.);
   if (is_distributed())
     sum = parallel::sum(sum);
-  return sum + factor_in_time(t) / factor_ * std::accumulate(uniform_.begin(), uniform_.end(), 0.);
+  return sum + factor_in_time(t) / factor_ * sum_;
 }
 
 void Load::add_to(std::vector<double> &right_side, double density, const Share &share) const {
@@ -85,7 +87,7 @@ template void add_shares<3>(const Quadrature<3> &, const casefile::Formula &, Lo
 template <int dim>
 Loads<dim>::Loads(const Discretisation<dim> &body, const casefile::Case &asked, double step,
                   double reference_temperature, const std::vector<SurfaceExchange> &exchanges)
-    : heat_factor_(-step / reference_temperature) {
+    : sharing_(&body.sharing()), heat_factor_(-step / reference_temperature) {
   add_volume_loads(body, asked.load);
   for (const casefile::BoundaryCase &boundary : asked.boundaries)
     add_surface_loads(body, boundary);
@@ -103,7 +105,7 @@ void Loads<dim>::add_volume_loads(const Discretisation<dim> &body, const casefil
     parallel::together([&] {
       body.for_each_cell([&](const Quadrature<dim> &cell) { add_shares(cell, 1., added); });
     });
-    added.sum_over_ranks(body.n_nodes());
+    added.sum_over_ranks(body.sharing());
   };
   for (int c = 0; c < static_cast<int>(load.force.size()); ++c)
     over_cells({LoadKind::force, "", c}, load.force[c], 1, c);
@@ -124,7 +126,7 @@ void Loads<dim>::add_over_facets(const Discretisation<dim> &body, LoadKind kind,
     body.for_each_facet(boundary,
                         [&](const Quadrature<dim> &facet) { add_shares(facet, weight, added); });
   });
-  added.sum_over_ranks(body.n_nodes());
+  added.sum_over_ranks(body.sharing());
 }
 
 template <int dim>
@@ -162,7 +164,8 @@ void Loads<dim>::integrate(double t, std::vector<double> &right_side) const {
       load.integrate(t, load.is_distributed() ? share : right_side);
     }
   });
-  parallel::sum(share);
+  if (!share.empty())
+    sharing_->add_up(share);
   for (std::size_t i = 0; i < share.size(); ++i)
     right_side[i] += share[i];
 }

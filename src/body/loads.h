@@ -48,7 +48,7 @@ class Load {
   const LoadKind &kind() const { return kind_; }
   void add(Share share);
   /// Sums what was integrated here and now over the ranks; once, when all shares are there.
-  void sum_over_ranks(std::size_t n_nodes);
+  void sum_over_ranks(const NodeSharing &sharing);
   /// Whether `integrate` gives this rank's share only: shares of a density that depends on place
   /// and time stay with the rank that owns their cells.
   bool is_distributed() const;
@@ -68,6 +68,7 @@ class Load {
   int stride_, component_;
   std::vector<Share> shares_;    // of a density that depends on place and time
   std::vector<double> uniform_;  // by node, of any other: density(t) or 1 times this
+  double sum_ = 0;               // of these, over all nodes
 };
 
 /// Adds the shares of a cell or facet; `weight` scales the density at each point.
@@ -96,6 +97,7 @@ class Loads {
                        const casefile::Formula &density, const casefile::Formula &weight,
                        double factor, int component);
 
+  const NodeSharing *sharing_;  // of the body; they may be assigned
   double heat_factor_;
   std::vector<Load> loads_;
 };

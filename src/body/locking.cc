@@ -154,19 +154,20 @@ std::vector<Simplex<dim>> simplices(const Discretisation<dim> &body,
 // Means of the strains around each node, weighted with the volumes, of one region's cells.
 template <int dim>
 std::vector<double> recovered(const std::vector<Simplex<dim>> &cells, std::size_t region,
-                              std::size_t n_nodes) {
+                              const NodeSharing &sharing) {
   constexpr int n = material::n_strains<dim>;
-  std::vector<double> sums((n + 1) * n_nodes, 0.);  // of the strains, then of the volumes
+  std::vector<double> sums(n * sharing.n_nodes(), 0.), volumes(sharing.n_nodes(), 0.);
   for (const Simplex<dim> &cell : cells)
     if (cell.region == region)
       for (const Node node : cell.nodes) {
         Strain<dim>::Map(&sums[n * std::size_t{node}]) += cell.volume * cell.strain;
-        sums[n * n_nodes + node] += cell.volume;
+        volumes[node] += cell.volume;
       }
-  parallel::sum(sums);
-  for (std::size_t node = 0; node < n_nodes; ++node)
-    if (const double volume = sums[n * n_nodes + node]; volume > 0)
-      Strain<dim>::Map(&sums[n * node]) /= volume;
+  sharing.add_up(sums);
+  sharing.add_up(volumes);
+  for (std::size_t node = 0; node < volumes.size(); ++node)
+    if (volumes[node] > 0)
+      Strain<dim>::Map(&sums[n * node]) /= volumes[node];
   return sums;
 }
 
@@ -195,7 +196,7 @@ LockedShare by_recovery(const Discretisation<dim> &body,
   parallel::largest(last);
   Held all;
   for (std::size_t region = 0; region <= static_cast<std::size_t>(last[0]); ++region) {
-    const std::vector<double> nodal = recovered(cells, region, body.n_nodes());
+    const std::vector<double> nodal = recovered(cells, region, body.sharing());
     for (const Simplex<dim> &cell : cells)
       if (cell.region == region) {
         all.strain += cell.held.strain;
@@ -232,11 +233,8 @@ double size_of(const Quadrature<dim> &cell, const std::vector<Vector3> &points) 
   return largest;
 }
 
-double diagonal(const std::vector<Vector3> &points) {
-  Eigen::AlignedBox3d around;
-  for (const Vector3 &point : points)
-    around.extend(Eigen::Vector3d::Map(point.data()));
-  return around.diagonal().norm();
+double diagonal(const std::array<Vector3, 2> &bounds) {
+  return (Eigen::Vector3d::Map(bounds[1].data()) - Eigen::Vector3d::Map(bounds[0].data())).norm();
 }
 
 }  // namespace
@@ -260,7 +258,7 @@ Slenderness slenderness(const Discretisation<dim> &body) {
   if (sums[2] == 0)
     return {};
   const double thickness = 2 * sums[0] / sums[2];
-  return {.ratio = diagonal(body.points()) / (thickness * dim * std::sqrt(dim)),
+  return {.ratio = diagonal(body.bounds()) / (thickness * dim * std::sqrt(dim)),
           .cells = thickness * sums[0] / sums[1]};
 }
 

@@ -45,6 +45,7 @@ template <int dim>
 Operator<dim>::Operator(const Discretisation<dim> &body,
                         const material::BodyConstants<dim> &material, Modes modes)
     : graph_(body.graph()),
+      sharing_(body.sharing()),
       storage_(graph_.column.size(), Block::Zero()),
       conduction_(graph_.column.size(), 0.),
       reference_temperature_(material.reference_temperature) {
@@ -55,6 +56,7 @@ template <int dim>
 Operator<dim>::Operator(const Discretisation<dim> &body,
                         const material::Composition<dim> &composition, Modes modes)
     : graph_(body.graph()),
+      sharing_(body.sharing()),
       storage_(graph_.column.size(), Block::Zero()),
       conduction_(graph_.column.size(), 0.),
       reference_temperature_(composition.reference_temperature()) {
@@ -189,7 +191,7 @@ void Operator<dim>::multiply(double step, std::span<const double> x, std::span<d
     std::copy(sum.begin(), sum.end(), &y[unknown<dim>(i, 0)]);
   }
   add_rate_share(step, x, y);
-  parallel::sum(y);
+  sharing_.add_up(y);
 }
 
 template <int dim>
@@ -204,7 +206,7 @@ std::vector<double> Operator<dim>::rate_product(typename RateForces<dim>::Kind k
                                                 std::span<const double> x) const {
   std::vector<double> product(x.size(), 0.);
   rates_->add(kind, graph_, x, product);
-  parallel::sum(product);
+  sharing_.add_up(product);
   return product;
 }
 
@@ -241,15 +243,16 @@ std::vector<double> Operator<dim>::diagonal(double step) const {
     for (std::size_t e = graph_.row[i]; e < graph_.row[i + 1]; ++e)
       if (graph_.column[e] == i)
         Vector<n>::Map(&diagonal[unknown<dim>(i, 0)]) = step_block(e, step).diagonal();
-  parallel::sum(diagonal);
+  sharing_.add_up(diagonal);
   return diagonal;
 }
 
 template <int dim>
-std::array<double, Operator<dim>::n> Operator<dim>::scales(std::span<const double> diagonal) {
+std::array<double, Operator<dim>::n> Operator<dim>::scales(std::span<const double> diagonal) const {
   std::array<double, 3> largest{};
   for (std::size_t i = 0; i < diagonal.size(); ++i)
     largest[field_of<dim>(i)] = std::max(largest[field_of<dim>(i)], std::abs(diagonal[i]));
+  sharing_.largest(largest);
   std::array<double, n> scales;
   for (int c = 0; c < n; ++c)
     scales[c] = 1 / std::sqrt(largest[field_of<dim>(c)]);
@@ -264,7 +267,7 @@ std::vector<double> Operator<dim>::sizes(double step, std::span<const double> x)
       Eigen::Map<Vector<n>>(&sums[unknown<dim>(i, 0)]) +=
           step_block(e, step).cwiseAbs() *
           Eigen::Map<const Vector<n>>(&x[unknown<dim>(graph_.column[e], 0)]).cwiseAbs();
-  parallel::sum(sums);
+  sharing_.add_up(sums);
   return sums;
 }
 
@@ -286,7 +289,7 @@ void Operator<dim>::multiply_by_field(std::span<const double> x, FieldProducts &
     std::copy(theta.begin(), theta.end(), &products.of[2][unknown<dim>(i, 0)]);
   }
   for (std::vector<double> &product : products.of)
-    parallel::sum(product);
+    sharing_.add_up(product);
 }
 
 template <int dim>
@@ -296,7 +299,7 @@ std::vector<double> Operator<dim>::times(const std::vector<double> &entries, int
   for (Node i = 0; i < graph_.n_nodes(); ++i)
     for (std::size_t e = graph_.row[i]; e < graph_.row[i + 1]; ++e)
       taken[i] += entries[e] * x[unknown<dim>(graph_.column[e], component)];
-  parallel::sum(taken);
+  sharing_.add_up(taken);
   return taken;
 }
 

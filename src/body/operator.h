@@ -48,8 +48,8 @@ void add_history(const FieldProducts &products, std::span<double> y);
 /// fields at once: what is left is symmetric, as definite as before, and its heat rows are those of
 /// the whole, as the modes have no memory of their own.
 ///
-/// Every rank holds what its cells contribute; products are summed over the ranks, so all of them
-/// must ask for one.
+/// Every rank holds what its cells contribute; products are summed over the ranks (`NodeSharing`),
+/// so all of them must ask for one.
 template <int dim>
 class Operator {
  public:
@@ -87,6 +87,7 @@ class Operator {
   void add_rate_share(double step, std::span<const double> x, std::span<double> y) const;
 
   const NodeGraph &graph() const { return graph_; }
+  const NodeSharing &sharing() const { return sharing_; }
   double reference_temperature() const { return reference_temperature_; }
 
   /// Block of storage - step / theta_ref G at place `entry` of the graph; `step` = k [s]. On
@@ -109,7 +110,7 @@ class Operator {
   /// Of each component of a node, 1 / sqrt(largest diagonal entry of its field): in unknowns that
   /// are measured by it the fields' blocks are of one size. The second by `diagonal(step)`.
   std::array<double, n> scales(double step) const { return scales(diagonal(step)); }
-  static std::array<double, n> scales(std::span<const double> diagonal);
+  std::array<double, n> scales(std::span<const double> diagonal) const;
 
   /// |storage - step / theta_ref G| |x|, entry by entry, the size of the terms of a product; on
   /// several ranks at most that of their shares.
@@ -143,6 +144,7 @@ class Operator {
   std::size_t entry_of(Node row, Node column) const;
 
   NodeGraph graph_;
+  const NodeSharing &sharing_;  // of the body
   std::vector<Block, Eigen::aligned_allocator<Block>> storage_;
   std::vector<double> conduction_;
   std::vector<double> capacitors_;     // empty: there are none here

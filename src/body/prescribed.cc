@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <set>
 
 #include "case/time_steps.h"
 #include "case/toml_text.h"
+#include "parallel/ranks.h"
 #include "tourmaline/case/case.h"
 #include "tourmaline/error.h"
 
@@ -64,6 +66,23 @@ void require_apart(const Discretisation<dim> &body,
 }  // namespace
 
 template <int dim>
+std::vector<Node> nodes_with_conditions(const Discretisation<dim> &body,
+                                        const casefile::Case &asked) {
+  std::set<Node> nodes;
+  const auto add = [&](const std::vector<Node> &some) { nodes.insert(some.begin(), some.end()); };
+  for (const casefile::BoundaryCase &boundary : asked.boundaries)
+    if (boundary.displacement || boundary.potential)
+      add(body.nodes_on(boundary.on));
+  for (const casefile::ContactCase &contact : asked.contacts)
+    add(body.nodes_on(contact.on));
+  for (const casefile::ElectrodeCase &electrode : asked.electrodes)
+    add(nodes_of(body, electrode));
+  for (Node node = 0; node < body.n_nodes() && body.is_on_axis(node); ++node)
+    nodes.insert(node);
+  return {nodes.begin(), nodes.end()};
+}
+
+template <int dim>
 std::vector<Prescribed> prescribed_unknowns(
     const Discretisation<dim> &body, const std::vector<casefile::BoundaryCase> &boundaries,
     const std::vector<casefile::ElectrodeCase> &electrodes) {
@@ -109,7 +128,10 @@ namespace {
 
 template <int dim>
 bool lies_on_axis(const Discretisation<dim> &body, const std::string &boundary) {
-  return body.geometry() == Geometry::revolved && body.nodes_on({boundary}).empty();
+  if (body.geometry() != Geometry::revolved)
+    return false;
+  const auto n_nodes = static_cast<double>(body.nodes_on({boundary}).size());
+  return body.sharing().sum(n_nodes) == 0;
 }
 
 bool says_more_than_displacement_along_x(const casefile::BoundaryCase &boundary) {
@@ -205,13 +227,15 @@ std::vector<double> initial_state(const Discretisation<dim> &body,
   if (initial.state)
     return *initial.state;
   std::vector<double> state(body.n_nodes() * Fields<dim>::count, 0.);
-  for (Node node = 0; node < body.n_nodes(); ++node) {
-    const Vector3 &point = body.points()[node];
-    for (int c = 0; c < dim && !initial.displacement.empty(); ++c)
-      state[unknown<dim>(node, c)] = initial.displacement[c].value(point, 0);
-    state[unknown<dim>(node, Fields<dim>::potential)] = initial.potential.value(point, 0);
-    state[unknown<dim>(node, Fields<dim>::temperature)] = initial.temperature.value(point, 0);
-  }
+  parallel::together([&] {
+    for (Node node = 0; node < body.n_nodes(); ++node) {
+      const Vector3 &point = body.points()[node];
+      for (int c = 0; c < dim && !initial.displacement.empty(); ++c)
+        state[unknown<dim>(node, c)] = initial.displacement[c].value(point, 0);
+      state[unknown<dim>(node, Fields<dim>::potential)] = initial.potential.value(point, 0);
+      state[unknown<dim>(node, Fields<dim>::temperature)] = initial.temperature.value(point, 0);
+    }
+  });
   return state;
 }
 
@@ -236,6 +260,8 @@ template void check_axis<2>(const Discretisation<2> &, const casefile::Case &,
                             const std::vector<Prescribed> &);
 template void check_axis<3>(const Discretisation<3> &, const casefile::Case &,
                             const std::vector<Prescribed> &);
+template std::vector<Node> nodes_with_conditions(const Discretisation<2> &, const casefile::Case &);
+template std::vector<Node> nodes_with_conditions(const Discretisation<3> &, const casefile::Case &);
 template std::vector<std::vector<Node>> electrode_nodes<2>(
     const std::vector<Prescribed> &, const std::vector<casefile::ElectrodeCase> &);
 template std::vector<std::vector<Node>> electrode_nodes<3>(

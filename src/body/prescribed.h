@@ -32,6 +32,13 @@ std::vector<Prescribed> prescribed_unknowns(
     const Discretisation<dim> &body, const std::vector<casefile::BoundaryCase> &boundaries,
     const std::vector<casefile::ElectrodeCase> &electrodes = {});
 
+/// The nodes where the case says something of displacements or potentials, of electrodes, contacts
+/// and the axis of a revolved body, ascending: what holds the body, and what circuits and contacts
+/// are made of, all ranks have to know.
+template <int dim>
+std::vector<Node> nodes_with_conditions(const Discretisation<dim> &body,
+                                        const casefile::Case &asked);
+
 /// Throws CaseError where something else than 0 is prescribed as u_x on the axis of a revolved
 /// body, at the end of any step.
 template <int dim>

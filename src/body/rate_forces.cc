@@ -76,6 +76,14 @@ void add_stiffness(const Quadrature<dim> &cell, const material::BodyConstants<di
                      modes.response.template middleCols<dim>(static_cast<int>(n * b))));
 }
 
+// On any rank.
+bool is_there(const NodeSharing &sharing, const std::vector<double> &masses) {
+  double largest = 0;
+  for (const double mass : masses)
+    largest = std::max(largest, mass);
+  return sharing.largest(largest) > 0;
+}
+
 }  // namespace
 
 // What the cells add, and where.
@@ -171,10 +179,9 @@ RateForces<dim>::RateForces(const Discretisation<dim> &body,
         },
         modes);
   });
-  parallel::sum(assembly.stranded);
-  parallel::sum(assembly.stranded_drag);
-  if (std::any_of(assembly.stranded.begin(), assembly.stranded.end(),
-                  [](double mass) { return mass > 0; }))
+  body.sharing().add_up(assembly.stranded);
+  body.sharing().add_up(assembly.stranded_drag);
+  if (is_there(body.sharing(), assembly.stranded))
     add_stranded(body, assembly);
   node_masses_.assign(assembly.graph.n_nodes(), 0.);
   diagonal_ = node_masses_;
@@ -184,8 +191,8 @@ RateForces<dim>::RateForces(const Discretisation<dim> &body,
       if (assembly.graph.column[e] == i)
         diagonal_[i] = mass_[e];
     }
-  parallel::sum(node_masses_);
-  parallel::sum(diagonal_);
+  body.sharing().add_up(node_masses_);
+  body.sharing().add_up(diagonal_);
   // Whether there is any damping is known to all ranks, whoever's cells are damped.
   for (std::vector<Block> *blocks : {&damping_, &backward_damping_})
     if (parallel::sum(blocks->empty() ? 0. : 1.) > 0) {
@@ -212,8 +219,8 @@ void RateForces<dim>::add_stranded(const Discretisation<dim> &body, Assembly &as
     std::vector<double> takers(massless_.size(), 0.), others(takers), left(takers),
         left_drag(takers);
     visit([&](Node node, Node other) { (massless_[other] ? others : takers)[node] += 1; });
-    parallel::sum(takers);
-    parallel::sum(others);
+    body.sharing().add_up(takers);
+    body.sharing().add_up(others);
     visit([&](Node node, Node other) {
       if (!massless_[other]) {
         assembly.add_mass(other, other, stranded[node] / takers[node], drag[node] / takers[node]);
@@ -222,11 +229,11 @@ void RateForces<dim>::add_stranded(const Discretisation<dim> &body, Assembly &as
         left_drag[other] += drag[node] / others[node];
       }
     });
-    parallel::sum(left);
-    parallel::sum(left_drag);
+    body.sharing().add_up(left);
+    body.sharing().add_up(left_drag);
     stranded = left;
     drag = left_drag;
-    if (std::all_of(left.begin(), left.end(), [](double mass) { return mass == 0; }))
+    if (!is_there(body.sharing(), left))
       return;
   }
   const auto node = std::max_element(stranded.begin(), stranded.end()) - stranded.begin();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "dense/decompositions.h"
 #include "gradients.h"
@@ -66,28 +67,50 @@ Recovery<dim>::Recovery(const Discretisation<dim> &body)
       samples_.insert(samples_.end(), cell.points.begin(), cell.points.end());
     });
   number_patches();
-  measure_patches();
-  solve_normal_equations();
+  share_patches({});
+  fit();
   find_neighbours();
 }
 
+// Of all corners of all ranks' cells, in the order of their regional nodes in the whole body.
 template <int dim>
 void Recovery<dim>::number_patches() {
   const std::size_t n_corners = shares_.front().size(), n_nodes = shares_.size();
-  std::vector<double> is_corner(nodes_.size(), 0);
+  std::vector<double> is_corner(nodes_.size_of_whole(), 0);
   for (std::size_t i = 0; i < numbers_.size(); ++i)
     if (i % n_nodes < n_corners)
-      is_corner[numbers_[i]] = 1;
+      is_corner[nodes_.number_in_whole(numbers_[i])] = 1;
   parallel::largest(is_corner);
-  std::vector<std::uint32_t> patch(nodes_.size());
-  for (std::uint32_t i = 0; i < is_corner.size(); ++i)
-    if (is_corner[i] > 0) {
-      patch[i] = static_cast<std::uint32_t>(corner_of_.size());
-      corner_of_.push_back(i);
-    }
+  std::vector<Node> patch(is_corner.size());
+  Node n_patches = 0;
+  for (std::size_t i = 0; i < is_corner.size(); ++i)
+    patch[i] = is_corner[i] > 0 ? n_patches++ : 0;
+  touched_.resize(n_patches, false);
   for (std::size_t i = 0; i < numbers_.size(); ++i)
-    if (i % n_nodes < n_corners)
-      patch_of_.push_back(patch[numbers_[i]]);
+    if (i % n_nodes < n_corners) {
+      patches_in_whole_.push_back(patch[nodes_.number_in_whole(numbers_[i])]);
+      touched_[patches_in_whole_.back()] = true;
+    }
+}
+
+template <int dim>
+void Recovery<dim>::share_patches(const std::vector<Node> &known) {
+  const NodeSharing whole(touched_);
+  sharing_ = body_.sharing().is_whole() ? whole : NodeSharing(whole, touched_, known);
+  patches_.assign(sharing_.n_nodes(), {});
+  corner_of_.assign(sharing_.n_nodes(), none);
+  patch_of_.clear();
+  const std::size_t n_corners = shares_.front().size(), n_nodes = shares_.size();
+  for (std::size_t i = 0; i < patches_in_whole_.size(); ++i) {
+    patch_of_.push_back(*sharing_.node(patches_in_whole_[i]));
+    corner_of_[patch_of_.back()] = numbers_[i / n_corners * n_nodes + i % n_corners];
+  }
+}
+
+template <int dim>
+void Recovery<dim>::fit() {
+  measure_patches();
+  solve_normal_equations();
 }
 
 template <int dim>
@@ -113,14 +136,13 @@ void Recovery<dim>::for_each_sample(
 
 template <int dim>
 void Recovery<dim>::measure_patches() {
-  patches_.resize(corner_of_.size());
   std::vector<double> sums(4 * patches_.size(), 0), extents(3 * patches_.size(), 0);
   for_each_sample([&](std::uint32_t patch, const Place &place) {
     sums[4 * patch + 3] += 1;
     for (int axis = 0; axis < 3; ++axis)
       sums[4 * patch + axis] += place[axis];
   });
-  parallel::sum(sums);
+  sharing_.add_up(sums);
   for (std::size_t p = 0; p < patches_.size(); ++p)
     for (int axis = 0; axis < 3; ++axis)
       patches_[p].centre[axis] = sums[4 * p + axis] / sums[4 * p + 3];
@@ -129,7 +151,7 @@ void Recovery<dim>::measure_patches() {
       extents[3 * patch + axis] =
           std::max(extents[3 * patch + axis], std::abs(place[axis] - patches_[patch].centre[axis]));
   });
-  parallel::largest(extents);
+  sharing_.find_largest(extents);
   // Along an axis in which samples differ by round-off only nothing is determined.
   for (std::size_t p = 0; p < patches_.size(); ++p) {
     const double most = std::max({extents[3 * p], extents[3 * p + 1], extents[3 * p + 2], 1e-300});
@@ -165,13 +187,15 @@ void Recovery<dim>::solve_normal_equations() {
     const Powers p = powers(patch, place);
     matrix(patch) += p * p.transpose();
   });
-  parallel::sum(inverses_);
+  sharing_.add_up(inverses_);
   const Eigen::Index linear = dim + 1;
   for (std::uint32_t patch = 0; patch < patches_.size(); ++patch) {
     auto normal = matrix(patch);
     const Eigen::LDLT<Eigen::MatrixXd> factor(normal);
     if (is_regular(factor)) {
       normal = factor.solve(Eigen::MatrixXd::Identity(terms_, terms_)).eval();
+      if (corner_of_[patch] == none)
+        continue;
       const Powers p = powers(patch, body_.points()[nodes_.node(corner_of_[patch])]);
       patches_[patch].surrounds = p.dot(normal * p) < greatest_uncertainty;
     } else {
@@ -183,35 +207,55 @@ void Recovery<dim>::solve_normal_equations() {
 }
 
 // Of each corner that its samples do not surround, with a neighbour that has what it lacks:
-// polynomials of its own (first), or, where a cell has none, of the neighbours' neighbours.
+// polynomials of its own (first), or, where a cell has none, of the neighbours' neighbours. By
+// numbers in the whole body, of all ranks.
 template <int dim>
-std::vector<std::uint32_t> Recovery<dim>::pairs_with_neighbours(bool second) const {
+std::vector<std::uint32_t> Recovery<dim>::pairs_with_neighbours(bool second,
+                                                                const Neighbours &first) const {
   std::vector<std::uint32_t> pairs;
   for (std::size_t cell = 0; cell < centres_.size(); ++cell)
     for (const std::uint32_t patch : patches_of(cell)) {
-      if (patches_[patch].surrounds || (second && neighbours_.count(patch)))
+      const Node own = sharing_.number(patch);
+      if (patches_[patch].surrounds || (second && first.count(own)))
         continue;
       for (const std::uint32_t other : patches_of(cell))
         if (!second && patches_[other].surrounds)
-          pairs.insert(pairs.end(), {patch, other});
-        else if (const auto found = neighbours_.find(other); second && found != neighbours_.end())
+          pairs.insert(pairs.end(), {own, sharing_.number(other)});
+        else if (const auto found = first.find(sharing_.number(other));
+                 second && found != first.end())
           for (const std::uint32_t farther : found->second)
-            pairs.insert(pairs.end(), {patch, farther});
+            pairs.insert(pairs.end(), {own, farther});
     }
   return parallel::joined(pairs);
 }
 
 template <int dim>
 void Recovery<dim>::find_neighbours() {
+  Neighbours all;  // by numbers in the whole body
   for (const bool second : {false, true}) {
-    const std::vector<std::uint32_t> pairs = pairs_with_neighbours(second);
+    const std::vector<std::uint32_t> pairs = pairs_with_neighbours(second, all);
     for (std::size_t i = 0; i < pairs.size(); i += 2)
-      neighbours_[pairs[i]].push_back(pairs[i + 1]);
-    for (auto &[patch, others] : neighbours_) {
+      all[pairs[i]].push_back(pairs[i + 1]);
+    for (auto &[patch, others] : all) {
       std::sort(others.begin(), others.end());
       others.erase(std::unique(others.begin(), others.end()), others.end());
     }
   }
+  if (!sharing_.is_whole())
+    know(all);
+  for (const auto &[patch, others] : all)
+    if (const auto here = sharing_.node(patch))
+      neighbours_[*here] = sharing_.nodes(others);
+}
+
+// From now on every rank has all patches that serve others.
+template <int dim>
+void Recovery<dim>::know(const Neighbours &all) {
+  std::set<Node> serving;
+  for (const auto &[patch, others] : all)
+    serving.insert(others.begin(), others.end());
+  share_patches({serving.begin(), serving.end()});
+  fit();
 }
 
 template <int dim>
@@ -244,7 +288,7 @@ std::vector<double> Recovery<dim>::coefficients(
         Eigen::Map<Coefficients>(&sums[patch * size], terms_, components) +=
             powers(patch, place).lazyProduct(row);
     }
-  parallel::sum(sums);
+  sharing_.add_up(sums);
   for (std::uint32_t patch = 0; patch < patches_.size(); ++patch) {
     Eigen::Map<Coefficients> of_patch(&sums[patch * size], terms_, components);
     const Coefficients right = of_patch;

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <array>
 #include <functional>
+#include <limits>
 #include <map>
 #include <span>
 #include <vector>
@@ -36,6 +37,8 @@ class Recovery {
 
  private:
   using Place = std::array<double, 3>;
+  using Neighbours = std::map<Node, std::vector<Node>>;  // by patch
+  static constexpr auto none = std::numeric_limits<std::uint32_t>::max();
   static constexpr int most_terms = 1 + dim + dim * (dim + 1) / 2;
   using Powers = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_terms, 1>;
   using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor, most_terms, 6>;
@@ -48,10 +51,13 @@ class Recovery {
   };
 
   void number_patches();
+  void share_patches(const std::vector<Node> &known);
+  void fit();
   void measure_patches();
   void solve_normal_equations();
   void find_neighbours();
-  std::vector<std::uint32_t> pairs_with_neighbours(bool second) const;
+  std::vector<std::uint32_t> pairs_with_neighbours(bool second, const Neighbours &first) const;
+  void know(const Neighbours &all);
   Powers powers(std::uint32_t patch, const Place &place) const;
   Eigen::Map<const Eigen::MatrixXd> inverse(std::uint32_t patch) const;
   std::span<const std::uint32_t> patches_of(std::size_t cell) const;
@@ -72,11 +78,16 @@ class Recovery {
   Eigen::Index terms_;                       // of a polynomial: constant, linear, quadratic ones
   std::vector<Place> centres_, samples_;     // of this rank's cells
   std::vector<std::uint32_t> numbers_;       // regional nodes of this rank's cells
-  std::vector<std::uint32_t> patch_of_;      // patches of this rank's cells, by corner
-  std::vector<std::uint32_t> corner_of_;     // regional node of each patch
-  std::vector<Patch> patches_;               // of all ranks
-  std::vector<double> inverses_;             // of the patches' normal equations
-  std::map<std::uint32_t, std::vector<std::uint32_t>> neighbours_;  // of those that do not surround
+  // Patches are shared out as nodes are: a rank has those of its cells' corners and those that all
+  // know, as they serve corners that their samples do not surround.
+  NodeSharing sharing_;
+  std::vector<bool> touched_;             // of all patches those at this rank's cells
+  std::vector<Node> patches_in_whole_;    // patches of this rank's cells, by corner
+  std::vector<std::uint32_t> patch_of_;   // the same among those of this rank
+  std::vector<std::uint32_t> corner_of_;  // regional node of each patch; none: not at its cells
+  std::vector<Patch> patches_;
+  std::vector<double> inverses_;  // of the patches' normal equations
+  Neighbours neighbours_;         // of those whose samples do not surround their corner
 };
 
 }  // namespace tourmaline::body

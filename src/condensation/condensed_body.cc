@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "body/backward_error.h"
 #include "condensation/multifrontal.h"
@@ -32,6 +33,8 @@ CondensedBody<dim>::CondensedBody(const body::Discretisation<dim> &body,
                                   const std::vector<std::size_t> &contact,
                                   const FactorisationChoice &choice)
     : CondensedBody(op, step) {
+  if (!body.sharing().is_whole())
+    throw std::logic_error("a factorisation needs all nodes on every rank");
   number(prescribed, contact);
   // MUMPS on two ranks waits for ever where nothing is eliminated.
   if (parallel::n_ranks() > 1 && contact_variables_.size() == unknown_of_.size())
@@ -273,7 +276,7 @@ double CondensedBody<dim>::relative_size(const VectorXd &correction,
   std::vector<double> change(state.size(), 0.);
   for (std::size_t v = 0; v < unknown_of_.size(); ++v)
     change[unknown_of_[v]] = correction[static_cast<Index>(v)] * scale(unknown_of_[v]);
-  return body::relative_size<dim>(change, state, scale_);
+  return body::relative_size<dim>(operator_.sharing(), change, state, scale_);
 }
 
 template <int dim>

@@ -27,7 +27,7 @@ BodyMatrix<dim>::BodyMatrix(const body::Operator<dim> &op, double step,
       step_(step),
       is_prescribed_(body::mask_of(prescribed, op.graph().n_nodes() * n)),
       contact_index_(op.graph().n_nodes(), -1),
-      rows_(op.graph()),
+      rows_(op.sharing()),
       scale_(op.scales(step)) {
   preallocate();
   assemble();
@@ -49,7 +49,8 @@ bool BodyMatrix<dim>::set_contact(std::vector<NodeTangent<dim>> contact) {
   contact_ = std::move(contact);
   if (is_first) {
     for (std::size_t i = 0; i < contact_.size(); ++i)
-      contact_index_[contact_[i].node] = static_cast<int>(i);
+      contact_of_row_[rows_.of(contact_[i].node)] = contact_index_[contact_[i].node] =
+          static_cast<int>(i);
     note_contact_blocks();
   }
   if (!as_free || is_first)
@@ -62,15 +63,16 @@ bool BodyMatrix<dim>::set_contact(std::vector<NodeTangent<dim>> contact) {
 template <int dim>
 void BodyMatrix<dim>::preallocate() {
   const body::NodeGraph &graph = op_.graph();
+  const body::NodeSharing &sharing = rows_.sharing();
   std::vector<double> near(graph.n_nodes()),
       far(near);  // blocks with nodes of the same rank, of others
   for (Node i = 0; i < graph.n_nodes(); ++i)
     for (std::size_t e = graph.row[i]; e < graph.row[i + std::size_t{1}]; ++e)
-      ++(rows_.rank_of(graph.column[e]) == rows_.rank_of(i) ? near : far)[i];
-  parallel::sum(near);
-  parallel::sum(far);
+      ++(sharing.rank_of(graph.column[e]) == sharing.rank_of(i) ? near : far)[i];
+  sharing.add_up(near);
+  sharing.add_up(far);
   std::vector<PetscInt> inside, outside;
-  const auto all = static_cast<PetscInt>(graph.n_nodes()), own = rows_.n_own();
+  const auto all = rows_.n_all(), own = rows_.n_own();
   for (PetscInt row = 0; row < own; ++row) {
     const Node node = rows_.own_node(row);
     inside.push_back(std::min(static_cast<PetscInt>(near[node]), own));
@@ -110,7 +112,7 @@ void BodyMatrix<dim>::assemble() {
     for (std::size_t e = graph.row[i]; e < graph.row[i + 1]; ++e) {
       const Block k = scales.asDiagonal() * op_.step_block(e, step_) * scales.asDiagonal();
       Block block = sign * qi * k * projector(graph.column[e]);
-      if (graph.column[e] == i && rows_.owns(i))
+      if (graph.column[e] == i && rows_.sharing().is_own(i))
         block += Block::Identity() - qi;
       const PetscInt row = rows_.of(i), column = rows_.of(graph.column[e]);
       check(MatSetValuesBlocked(matrix_, 1, &row, 1, &column, block.data(), ADD_VALUES));
@@ -175,29 +177,26 @@ PetscErrorCode BodyMatrix<dim>::multiply_free(Mat free, Vec x, Vec y) {
   PetscFunctionReturn(0);
 }
 
-// Unknowns of the whole body.
 template <int dim>
 std::vector<double> BodyMatrix<dim>::in_si(Vec scaled) const {
   const PetscScalar *own = nullptr;
   check(VecGetArrayRead(scaled, &own));
-  const std::vector<double> all =
-      parallel::joined(std::vector<double>(own, own + rows_.n_own() * n));
-  check(VecRestoreArrayRead(scaled, &own));
-  std::vector<double> state(all.size());
-  for (std::size_t row = 0; row < rows_.n_all(); ++row)
+  std::vector<double> state(n * rows_.sharing().n_nodes(), 0.);
+  for (PetscInt row = 0; row < rows_.n_own(); ++row)
     for (int c = 0; c < n; ++c)
-      state[unknown<dim>(rows_.node(row), c)] = scale_[c] * all[row * n + c];
+      state[unknown<dim>(rows_.own_node(row), c)] = scale_[c] * own[row * n + c];
+  check(VecRestoreArrayRead(scaled, &own));
+  rows_.sharing().take_from_owners(state);
   return state;
 }
 
-// This rank's share of rows of the whole body, the electric and heat rows with their sign.
 template <int dim>
-void BodyMatrix<dim>::put_rows(std::span<const double> all, Vec scaled) const {
+void BodyMatrix<dim>::put_rows(std::span<const double> rows, Vec scaled) const {
   PetscScalar *own = nullptr;
   check(VecGetArray(scaled, &own));
   for (PetscInt i = 0; i < rows_.n_own() * n; ++i) {
     const int c = i % n;
-    own[i] = (c < dim ? 1 : -1) * scale_[c] * all[unknown<dim>(rows_.own_node(i / n), c)];
+    own[i] = (c < dim ? 1 : -1) * scale_[c] * rows[unknown<dim>(rows_.own_node(i / n), c)];
   }
   check(VecRestoreArray(scaled, &own));
 }
@@ -255,21 +254,26 @@ typename BodyMatrix<dim>::Block BodyMatrix<dim>::block_of(PetscInt row, PetscInt
   return block;
 }
 
+// Of nodes beside the contact, which another rank may have, it is in the matrix already.
+template <int dim>
+typename BodyMatrix<dim>::Block BodyMatrix<dim>::projector_of_row(PetscInt row) const {
+  const auto found = contact_of_row_.find(row);
+  return found == contact_of_row_.end() ? Block(Block::Identity())
+                                        : projector(contact_[found->second].node);
+}
+
 // Q (K + C) Q + 1 - Q of these nodes. The contact leaves nothing free that is prescribed.
 template <int dim>
 typename BodyMatrix<dim>::Block BodyMatrix<dim>::with_contact(const ContactBlock &of) const {
-  const Node node = rows_.node(of.row);
-  const Block q = projector(node);
-  Block block = q * of.without * projector(rows_.node(of.column));
+  const Block q = projector_of_row(of.row);
+  Block block = q * of.without * projector_of_row(of.column);
   if (of.row != of.column)
     return block;
   block += Block::Identity() - q;
-  if (const int k = contact_index_[node]; k >= 0) {
-    const NodeTangent<dim> &at = contact_[k];
-    block.template topLeftCorner<dim, dim>() += scale_[0] * scale_[0] * at.stiffness;
-    for (int c = dim; c < n; ++c)
-      block(c, c) += scale_[c] * scale_[c] * at.crossing[c - dim];
-  }
+  const NodeTangent<dim> &at = contact_[contact_of_row_.at(of.row)];
+  block.template topLeftCorner<dim, dim>() += scale_[0] * scale_[0] * at.stiffness;
+  for (int c = dim; c < n; ++c)
+    block(c, c) += scale_[c] * scale_[c] * at.crossing[c - dim];
   return block;
 }
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <array>
+#include <map>
 #include <span>
 #include <utility>
 #include <vector>
@@ -51,12 +52,12 @@ class BodyMatrix {
   void refine(const body::CellProducts<dim> &cells) { cells_ = &cells; }
   bool is_refined() const { return cells_ != nullptr; }
 
-  /// Q r, of the whole body [SI].
+  /// Q r [SI].
   void project(std::span<double> vector) const;
-  /// Unknowns of the whole body [SI], on every rank. Collective.
+  /// By unknown of this rank [SI]. Collective.
   std::vector<double> in_si(Vec scaled) const;
-  /// This rank's share of rows of the whole body, the electric and heat rows with their sign.
-  void put_rows(std::span<const double> all, Vec scaled) const;
+  /// Of rows by unknown those that are this rank's, the electric and heat rows with their sign.
+  void put_rows(std::span<const double> rows, Vec scaled) const;
 
  private:
   using Block = typename body::Operator<dim>::Block;
@@ -67,7 +68,8 @@ class BodyMatrix {
 
   void preallocate();
   Block projector(body::Node node) const;
-  bool at_contact(PetscInt row) const { return contact_index_[rows_.node(row)] >= 0; }
+  bool at_contact(PetscInt row) const { return contact_of_row_.contains(row); }
+  Block projector_of_row(PetscInt row) const;
   void assemble();
   void note_contact_blocks();
   void note_held_nodes();
@@ -84,6 +86,7 @@ class BodyMatrix {
   std::vector<NodeTangent<dim>> contact_;
   std::vector<NodeCoupling<dim>> coupling_;   // as `contact_`, or empty
   std::vector<int> contact_index_;            // by node; -1: not at the contact
+  std::map<PetscInt, int> contact_of_row_;    // the same by the rows of contact nodes alone
   std::vector<ContactBlock> contact_blocks_;  // in this rank's rows
   NodeRows rows_;
   std::vector<std::pair<PetscInt, Block>> held_;  // own rows, from the first one on, where Q != 1

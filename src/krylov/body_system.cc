@@ -219,7 +219,7 @@ Solved BodySystem<dim>::solve(std::span<const double> right_side, double reducti
 template <int dim>
 double BodySystem<dim>::relative_size(std::span<const double> change,
                                       std::span<const double> state) const {
-  return body::relative_size<dim>(change, state, parts_->matrices.scale());
+  return body::relative_size<dim>(parts_->op.sharing(), change, state, parts_->matrices.scale());
 }
 
 template <int dim>

@@ -28,7 +28,7 @@ struct Solved {
 /// back, so that the diagonal blocks are positive definite; the preconditioner solves by blocks, u,
 /// then phi, then theta: aggregation multigrid with the rigid motions for u (GAMG), BoomerAMG
 /// (hypre) for phi and theta. Only the first follows the contact, in coarse spaces without it. All
-/// vectors are SI and whole on every rank.
+/// vectors are SI, by unknown of this rank.
 template <int dim>
 class BodySystem {
  public:

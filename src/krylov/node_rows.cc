@@ -9,27 +9,26 @@ namespace tourmaline::krylov {
 
 using body::Node;
 
-NodeRows::NodeRows(const body::NodeGraph &graph)
-    : row_of_(graph.n_nodes()), rank_of_(graph.n_nodes()), node_of_(graph.n_nodes()) {
-  std::vector<double> closeness(graph.n_nodes(), -parallel::n_ranks());  // the largest wins
-  for (Node i = 0; i < graph.n_nodes(); ++i)
-    if (graph.row[i] != graph.row[i + std::size_t{1}])
-      closeness[i] = -parallel::rank();
-  parallel::largest(closeness);
-  std::iota(node_of_.begin(), node_of_.end(), Node{0});
-  std::stable_sort(node_of_.begin(), node_of_.end(),
-                   [&](Node a, Node b) { return closeness[a] > closeness[b]; });
-  for (std::size_t row = 0; row < node_of_.size(); ++row) {
-    row_of_[node_of_[row]] = static_cast<PetscInt>(row);
-    rank_of_[node_of_[row]] = static_cast<int>(-closeness[node_of_[row]]);
-    begin_ += closeness[node_of_[row]] > -parallel::rank();
-    end_ += closeness[node_of_[row]] >= -parallel::rank();
-  }
+// Rows are known to the owners first.
+NodeRows::NodeRows(const body::NodeSharing &sharing)
+    : sharing_(sharing), row_of_(sharing.n_nodes()) {
+  for (Node node = 0; node < sharing.n_nodes(); ++node)
+    if (sharing.is_own(node))
+      own_.push_back(node);
+  const std::vector<std::uint32_t> counts =
+      parallel::joined(std::vector{static_cast<std::uint32_t>(own_.size())});
+  begin_ = std::accumulate(counts.begin(), counts.begin() + parallel::rank(), PetscInt{0});
+  std::vector<double> rows(row_of_.size(), 0.);
+  for (std::size_t i = 0; i < own_.size(); ++i)
+    rows[own_[i]] = begin_ + static_cast<double>(i);
+  sharing.take_from_owners(rows);
+  std::transform(rows.begin(), rows.end(), row_of_.begin(),
+                 [](double row) { return static_cast<PetscInt>(row); });
 }
 
 IS NodeRows::own(int n_unknowns, int first, int count) const {
   std::vector<PetscInt> rows;
-  for (PetscInt row = begin_; row < end_; ++row)
+  for (PetscInt row = begin_; row < begin_ + n_own(); ++row)
     for (int c = 0; c < count; ++c)
       rows.push_back(n_unknowns * row + first + c);
   IS set = nullptr;

@@ -18,7 +18,7 @@ namespace tourmaline::output {
 namespace {
 
 constexpr std::string_view magic = "Tourmaline checkpoint\n";
-constexpr std::uint64_t format_version = 6;
+constexpr std::uint64_t format_version = 7;
 
 /// Writes one member behind the other.
 class Writer {
@@ -129,6 +129,17 @@ void SavedNumbers::put(const std::string &name, std::initializer_list<double> va
   values_[name] = values;
 }
 
+void SavedNumbers::put_field(const std::string &name, const std::vector<double> &values) {
+  put(name, values);
+  fields_.insert(name);
+}
+
+// In the same order everywhere.
+void SavedNumbers::for_each_field(const std::function<void(std::vector<double> &)> &visit) {
+  for (const std::string &name : fields_)
+    visit(values_.at(name));
+}
+
 std::size_t SavedNumbers::size(const std::string &name) const {
   const auto found = values_.find(name);
   return found == values_.end() ? 0 : found->second.size();
@@ -166,6 +177,7 @@ void write_checkpoint(const std::filesystem::path &path, const Checkpoint &check
   file.number(std::uint64_t{checkpoint.numbers.all().size()});
   for (const auto &[name, values] : checkpoint.numbers.all()) {
     file.text(name);
+    file.number(std::uint64_t{checkpoint.numbers.is_field(name)});
     file.numbers(values);
   }
   file.finish();
@@ -192,7 +204,11 @@ Checkpoint read_checkpoint(const std::filesystem::path &path) {
   checkpoint.position.field_bytes = file.number();
   for (std::uint64_t left = file.number(); left > 0; --left) {
     const std::string name = file.text();
-    checkpoint.numbers.put(name, file.numbers());
+    const bool is_field = file.number() != 0;
+    if (is_field)
+      checkpoint.numbers.put_field(name, file.numbers());
+    else
+      checkpoint.numbers.put(name, file.numbers());
   }
   return checkpoint;
 }

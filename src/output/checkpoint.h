@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <initializer_list>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,6 +24,10 @@ class SavedNumbers {
     values_[name].assign(values.data(), values.data() + values.size());
   }
   void put(const std::string &name, std::initializer_list<double> values);
+  /// A vector by unknown of the body, of which ranks may have a part each; a checkpoint has it
+  /// whole.
+  void put_field(const std::string &name, const std::vector<double> &values);
+  void for_each_field(const std::function<void(std::vector<double> &)> &visit);
   /// Throws MachineError when nothing of that name, or another number of values, is there.
   std::span<const double> get(const std::string &name, std::size_t size) const;
   /// 0 where nothing of that name is there.
@@ -33,9 +39,11 @@ class SavedNumbers {
   }
 
   const std::map<std::string, std::vector<double>> &all() const { return values_; }
+  bool is_field(const std::string &name) const { return fields_.contains(name); }
 
  private:
   std::map<std::string, std::vector<double>> values_;
+  std::set<std::string> fields_;  // names
 };
 
 /// How far a table has come.

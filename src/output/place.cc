@@ -6,7 +6,7 @@
 
 namespace tourmaline::output {
 
-double largest_extent(const std::vector<Vector3> &points) {
+double largest_extent(std::span<const Vector3> points) {
   double extent = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const auto [low, high] = std::minmax_element(

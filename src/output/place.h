@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "output/records.h"
@@ -7,7 +8,7 @@
 namespace tourmaline::output {
 
 /// Of a body along an axis [m].
-double largest_extent(const std::vector<Vector3> &points);
+double largest_extent(std::span<const Vector3> points);
 
 /// Indices of the points in the order x, then y, then z; coordinates that differ by less than 1e-9
 /// of the largest extent count as equal, so round-off in a mesh does not shuffle rows.

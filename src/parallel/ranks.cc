@@ -177,6 +177,22 @@ std::vector<std::uint32_t> joined_on_first(const std::vector<std::uint32_t> &min
   return gathered(mine, MPI_UINT32_T, false);
 }
 
+std::vector<double> joined_on_first(const std::vector<double> &mine) {
+  return gathered(mine, MPI_DOUBLE, false);
+}
+
+void exchange(std::span<Message> messages) {
+  constexpr int tag = 1;
+  std::vector<MPI_Request> requests;
+  for (Message &of : messages) {
+    MPI_Irecv(of.received.data(), static_cast<int>(of.received.size()), MPI_DOUBLE, of.rank, tag,
+              MPI_COMM_WORLD, &requests.emplace_back());
+    MPI_Isend(of.sent.data(), static_cast<int>(of.sent.size()), MPI_DOUBLE, of.rank, tag,
+              MPI_COMM_WORLD, &requests.emplace_back());
+  }
+  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+}
+
 void together(const std::function<void()> &work) {
   if (n_ranks() == 1) {
     work();

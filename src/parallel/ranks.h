@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-/// The processes (MPI ranks) of a run. Vectors over the body are whole on every rank; cells, and
-/// with them matrices and integrals, are shared out, so that what a rank computes is its share of a
-/// sum. Functions that communicate must be called by all ranks. Without MPI, or on one rank, all of
-/// this does nothing.
+/// The processes (MPI ranks) of a run. Cells, and with them matrices and integrals, are shared out,
+/// so that what a rank computes is its share of a sum; whether vectors over the body are, too,
+/// `body::NodeSharing` knows. Functions that communicate must be called by all ranks. Without MPI,
+/// or on one rank, all of this does nothing.
 namespace tourmaline::parallel {
 
 int rank();
@@ -41,7 +41,16 @@ int from_first(int value);
 std::vector<double> joined(const std::vector<double> &mine);
 std::vector<std::uint32_t> joined(const std::vector<std::uint32_t> &mine);
 /// The same on the first rank only; empty on the others.
+std::vector<double> joined_on_first(const std::vector<double> &mine);
 std::vector<std::uint32_t> joined_on_first(const std::vector<std::uint32_t> &mine);
+
+/// What goes to another rank and what comes from there, each of a size that both know.
+struct Message {
+  int rank;
+  std::vector<double> sent, received;
+};
+/// Two ranks have one message each for the other, or none.
+void exchange(std::span<Message> messages);
 
 /// Runs work that does not communicate. If it throws on some rank, all ranks throw the error of the
 /// first of these, so that none waits for another.

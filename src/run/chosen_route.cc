@@ -147,7 +147,7 @@ void ChosenRoute<dim>::factorise_after_all(int n, const SolveError &error) {
   route_.reset();
   const double needed = factorised_memory(model_.asked),
                available = parallel::available_memory().bytes;
-  if (parallel::from_first(needed > available) != 0)
+  if (parallel::from_first(needed > available) != 0 || !model_.sharing().is_whole())
     throw SolveError(
         fmt::format("{} A factorisation needs about {:.3g} GiB of memory, and {:.3g} "
                     "GiB are available",

@@ -4,6 +4,7 @@
 
 #include "body/prescribed.h"
 #include "case/electrodes.h"
+#include "parallel/ranks.h"
 #include "run/start_state.h"
 #include "run/step_check.h"
 #include "solve/settling.h"
@@ -43,8 +44,10 @@ void Evolution<dim>::begin() {
 
 template <int dim>
 void Evolution<dim>::prescribe(double time, std::vector<double> &state) {
-  for (const body::Prescribed &p : model_.prescribed)
-    state[p.unknown] = p.value.value(p.point, time);
+  parallel::together([&] {
+    for (const body::Prescribed &p : model_.prescribed)
+      state[p.unknown] = p.value.value(p.point, time);
+  });
   if (electrodes_)
     electrodes_->prescribe(state);
   if (steady_heat_)
@@ -56,7 +59,7 @@ void Evolution<dim>::sum_right_side(TakenStep &step) {
   const double time = model_.time(step.n);
   step.loads.assign(model_.n_unknowns(), 0.);
   model_.add_loads(time, step.loads);
-  StepCheck(step.n, time).loads(dim, model_.body.points(), step.loads);
+  parallel::together([&] { StepCheck(step.n, time).loads(dim, model_.body.points(), step.loads); });
   step.right_side = step.loads;
   leaked_.add_to(step.right_side);
   add_remembered(step.right_side);
@@ -146,7 +149,7 @@ void Evolution<dim>::go_back(const Point &point, int n) {
 
 template <int dim>
 void Evolution<dim>::save(output::SavedNumbers &numbers) const {
-  numbers.put("state", state_);
+  numbers.put_field("state", state_);
   leaked_.save(numbers);
   if (electrodes_)
     electrodes_->save(numbers);

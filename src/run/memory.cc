@@ -75,6 +75,11 @@ bool solves_iteratively(const casefile::Case &asked) {
   return asked.solver.body == "iterative" || parallel::from_first(too_large) != 0;
 }
 
+bool may_be_factorised(const casefile::Case &asked) {
+  const bool has_memory = factorised_memory(asked) <= parallel::available_memory().bytes;
+  return asked.solver.body == "automatic" && parallel::from_first(has_memory) != 0;
+}
+
 void require_memory(const casefile::Case &asked) {
   const double needed =
       solves_iteratively(asked) ? iterative_memory(asked) : factorised_memory(asked);

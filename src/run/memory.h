@@ -21,6 +21,9 @@ double iterative_memory(const casefile::Case &asked);
 /// available (and the voltages of all electrodes are given). The same on all ranks, which ask
 /// together.
 bool solves_iteratively(const casefile::Case &asked);
+/// Whether what is solved iteratively is factorised where that fails: with "automatic" and memory
+/// for it. All ranks together.
+bool may_be_factorised(const casefile::Case &asked);
 
 /// Throws CaseError when the estimate exceeds what the machine has, MachineError when it exceeds
 /// what this process may take of that; before anything is allocated.

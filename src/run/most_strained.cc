@@ -17,7 +17,7 @@ void MostStrained::step(const output::HistoryRow &row, const std::vector<double>
 
 void MostStrained::save(output::SavedNumbers &numbers) const {
   numbers.put("largest elastic energy", {largest_, static_cast<double>(step_), time_});
-  numbers.put("most strained state", state_);
+  numbers.put_field("most strained state", state_);
 }
 
 void MostStrained::restore(const output::SavedNumbers &numbers) {

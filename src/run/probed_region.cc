@@ -1,6 +1,8 @@
 #include "run/probed_region.h"
 
 #include <algorithm>
+#include <array>
+#include <limits>
 
 #include "parallel/ranks.h"
 
@@ -11,7 +13,7 @@ using body::Fields;
 template <int dim>
 ProbedRegion<dim>::ProbedRegion(const body::Discretisation<dim> &body,
                                 const casefile::ModelCase &model, std::vector<std::size_t> regions)
-    : regions_(std::move(regions)) {
+    : sharing_(body.sharing()), regions_(std::move(regions)) {
   for (int c = 0; c < Fields<dim>::count; ++c)
     if (model.has(body::column_of<dim>(c)))
       components_.push_back(c);
@@ -29,14 +31,17 @@ ProbedRegion<dim>::ProbedRegion(const body::Discretisation<dim> &body,
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   });
-  nodes_ = parallel::joined(nodes);
-  std::sort(nodes_.begin(), nodes_.end());
-  nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
-  parallel::sum(weights);
+  nodes = parallel::joined(sharing_.numbers(nodes));
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  nodes_ = sharing_.nodes(nodes);
+  std::erase_if(nodes_, [&](body::Node node) { return !sharing_.counts(node); });
+  sharing_.add_up(weights);
   for (const body::Node node : nodes_) {
     weights_.push_back(weights[node]);
     volume_ += weights[node];
   }
+  volume_ = sharing_.sum(volume_);
 }
 
 template <int dim>
@@ -67,16 +72,18 @@ template <int dim>
 void ProbedRegion<dim>::add_fields(std::span<const double> state, Columns &columns) const {
   for (const int c : components_) {
     const std::string name = body::column_of<dim>(c);
-    double integral = 0, least = state[body::unknown<dim>(nodes_[0], c)], greatest = least;
+    double integral = 0;
+    std::array<double, 2> extremes;  // the least with a minus, the greatest
+    extremes.fill(-std::numeric_limits<double>::infinity());
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       const double value = state[body::unknown<dim>(nodes_[i], c)];
       integral += weights_[i] * value;
-      least = std::min(least, value);
-      greatest = std::max(greatest, value);
+      extremes = {std::max(extremes[0], -value), std::max(extremes[1], value)};
     }
-    columns.insert(
-        columns.end(),
-        {{"mean_" + name, integral / volume_}, {"min_" + name, least}, {"max_" + name, greatest}});
+    sharing_.largest(extremes);
+    columns.insert(columns.end(), {{"mean_" + name, sharing_.sum(integral) / volume_},
+                                   {"min_" + name, -extremes[0]},
+                                   {"max_" + name, extremes[1]}});
   }
 }
 

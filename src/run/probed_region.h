@@ -28,9 +28,10 @@ class ProbedRegion {
   bool has(std::size_t region) const;
   void add_fields(std::span<const double> state, Columns &columns) const;
 
+  const body::NodeSharing &sharing_;
   std::vector<std::size_t> regions_;
   std::vector<int> components_;    // of the fields that are not left out
-  std::vector<body::Node> nodes_;  // of its cells, ascending
+  std::vector<body::Node> nodes_;  // of its cells those that count here, ascending
   std::vector<double> weights_;    // by these, integral of the shape function [m^dim]
   double volume_ = 0;
 };

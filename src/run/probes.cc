@@ -127,8 +127,11 @@ output::ProbeRows Probes<dim>::rows_of(const Places &probe, std::span<const doub
     if (probe.is_line)
       row.push_back(probe.along(i));
     row.insert(row.end(), probe.at[i].begin(), probe.at[i].begin() + dim);
+    std::vector<double> values;
     for (const int c : components)
-      row.push_back(probe.fields[i].template value<dim>(state, c));
+      values.push_back(probe.fields[i].template value<dim>(state, c));
+    model_.sharing().sum(values);
+    row.insert(row.end(), values.begin(), values.end());
   }
   return rows;
 }

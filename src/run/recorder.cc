@@ -26,6 +26,13 @@ Vector3 in_space(const Vector<dim> &v) {
   return plain;
 }
 
+std::vector<double> flat(const std::vector<Vector3> &points) {
+  std::vector<double> coordinates;
+  for (const Vector3 &point : points)
+    coordinates.insert(coordinates.end(), point.begin(), point.end());
+  return coordinates;
+}
+
 template <int dim>
 Vector<dim> displacement(std::span<const double> state, body::Node node) {
   return Eigen::Map<const Vector<dim>>(&state[body::unknown<dim>(node, 0)]);
@@ -53,7 +60,7 @@ void Recorder<dim>::initial(std::span<const double> state, const solve::RateReco
   if (model_.asked.time.is_dynamic())
     balance_->begin_motion(rates);
   put_boundaries();
-  StepCheck(0, 0).state(dim, model_.body.points(), state);
+  parallel::together([&] { StepCheck(0, 0).state(dim, model_.body.points(), state); });
   if (has_fields(0))
     put_fields(0, state, checked_fields(0, state));
   seconds_ += watch.lap();
@@ -71,7 +78,7 @@ void Recorder<dim>::put_boundaries() {
       names.insert(names.end(), contact.on.begin(), contact.on.end());
     std::vector<std::uint32_t> nodes;
     for (const contact::InterfaceNode<dim> &at : model_.interface)
-      nodes.push_back(at.node);
+      nodes.push_back(model_.sharing().number(at.node));
     contact_facets_ = output::contact_facets(boundaries, names, nodes);
   });
 }
@@ -101,7 +108,7 @@ output::HistoryRow Recorder<dim>::step(int n, const solve::StepOutcome &outcome,
   Stopwatch watch;
   const double time = model_.time(n);
   const StepCheck check(n, time);
-  check.state(dim, model_.body.points(), state);
+  parallel::together([&] { check.state(dim, model_.body.points(), state); });
   output::HistoryRow row;
   row.step = n;
   row.time = time;
@@ -160,11 +167,17 @@ output::CellFields Recorder<dim>::checked_fields(int n, std::span<const double> 
 template <int dim>
 void Recorder<dim>::finish(std::span<const double> state) {
   Stopwatch watch;
+  const body::NodeSharing &sharing = model_.sharing();
+  const std::vector<double> unknowns = sharing.on_first({state.begin(), state.end()}),
+                            places = sharing.on_first(flat(model_.body.points()));
   parallel::on_first([&] {
     folder_.finish();  // first, so that a full disk costs no row of the tables
-    std::vector<body::Node> all(model_.body.n_nodes());
+    std::vector<body::Node> all(sharing.n_all());
     std::iota(all.begin(), all.end(), body::Node{0});
-    folder_.put_nodes(model_.body.points(), point_fields(state, all));
+    std::vector<Vector3> points;
+    for (std::size_t i = 0; i < places.size(); i += 3)
+      points.push_back({places[i], places[i + 1], places[i + 2]});
+    folder_.put_nodes(points, point_fields(unknowns, all));
   });
   seconds_ += watch.lap();
 }
@@ -283,6 +296,29 @@ std::vector<output::ContactRow> Recorder<dim>::contact_rows(int n,
   return rows;
 }
 
+namespace {
+
+// The least of all nodes' values, and the place of the first node that has it, whoever has that.
+template <int dim, class Value>
+std::pair<double, Vector3> least(const body::Discretisation<dim> &body, const Value &value) {
+  const body::NodeSharing &sharing = body.sharing();
+  body::Node first = 0;
+  for (body::Node node = 1; node < body.n_nodes(); ++node)
+    if (value(node) < value(first))
+      first = node;
+  const double of_all = -sharing.largest(-value(first)),
+               number = value(first) == of_all ? sharing.number(first)
+                                               : static_cast<double>(sharing.n_all());
+  const auto here = sharing.node(static_cast<body::Node>(-sharing.largest(-number)));
+  Vector3 place{};
+  if (here && sharing.counts(*here))
+    place = body.points()[*here];
+  sharing.sum(place);
+  return {of_all, place};
+}
+
+}  // namespace
+
 template <int dim>
 std::vector<output::Extreme> Recorder<dim>::extremes(std::span<const double> state) const {
   using Value = std::function<double(body::Node)>;
@@ -297,19 +333,10 @@ std::vector<output::Extreme> Recorder<dim>::extremes(std::span<const double> sta
   for (const auto &[name, value] : fields) {
     if (!model_.asked.model.has(name))
       continue;
-    output::Extreme e{name, value(0), value(0), model_.body.points()[0], model_.body.points()[0]};
-    for (body::Node node = 1; node < model_.body.n_nodes(); ++node) {
-      const double v = value(node);
-      if (v < e.minimum) {
-        e.minimum = v;
-        e.at_minimum = model_.body.points()[node];
-      }
-      if (v > e.maximum) {
-        e.maximum = v;
-        e.at_maximum = model_.body.points()[node];
-      }
-    }
-    all.push_back(e);
+    const auto [minimum, at_minimum] = least(model_.body, value);
+    const auto [maximum, at_maximum] =
+        least(model_.body, [&of = value](body::Node node) { return -of(node); });
+    all.push_back({name, minimum, -maximum, at_minimum, at_maximum});
   }
   return all;
 }

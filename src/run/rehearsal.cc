@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "parallel/ranks.h"
 #include "run/probes.h"
 #include "run/start_state.h"
 #include "run/step_check.h"
@@ -29,11 +30,13 @@ void rehearse(const solve::Model<dim> &model, int n_steps) {
     const long long later = model.asked.time.steps - 1LL;  // than the first
     const int n = n_steps == 1 ? 1 : 1 + static_cast<int>(later * i / (n_steps - 1));
     const double time = model.time(n);
-    for (const body::Prescribed &p : model.prescribed)
-      state[p.unknown] = p.value.value(p.point, time);
+    parallel::together([&] {
+      for (const body::Prescribed &p : model.prescribed)
+        state[p.unknown] = p.value.value(p.point, time);
+    });
     loads.assign(model.n_unknowns(), 0.);
     model.add_loads(time, loads);
-    StepCheck(n, time).loads(dim, model.body.points(), loads);
+    parallel::together([&] { StepCheck(n, time).loads(dim, model.body.points(), loads); });
     contact.begin_step(time, before, state);
     exchange.begin_step(time, state);
   }

@@ -117,13 +117,15 @@ double StepDoubling<dim>::error(const TakenStep &whole, const TakenStep &halves,
 
 template <int dim>
 double StepDoubling<dim>::field_error(const TakenStep &whole, const TakenStep &halves) {
+  const body::NodeSharing &sharing = model_.body.sharing();
   for (const TakenStep *step : {&whole, &halves}) {
-    const body::FieldSizes changes = body::field_sizes<dim>(since(step->state, initial_), scale_);
+    const body::FieldSizes changes =
+        body::field_sizes<dim>(sharing, since(step->state, initial_), scale_);
     for (std::size_t field = 0; field < changes.size(); ++field)
       changes_[field] = larger(changes_[field], changes[field]);
   }
-  return body::relative_size(body::field_sizes<dim>(since(whole.state, halves.state), scale_),
-                             changes_);
+  return body::relative_size(
+      body::field_sizes<dim>(sharing, since(whole.state, halves.state), scale_), changes_);
 }
 
 // Statuses between which nothing lies, as of a point that is closed without pressure, are one.
@@ -170,7 +172,7 @@ void StepDoubling<dim>::save(output::SavedNumbers &numbers) const {
   numbers.put("number of sizes", {static_cast<double>(sizes_.size())});
   numbers.put("tried sizes", std::vector<double>(sizes_.begin(), sizes_.end()));
   numbers.put("largest changes", changes_);
-  numbers.put("initial state", initial_);
+  numbers.put_field("initial state", initial_);
   numbers.put("step doubling",
               {double(rejected_), double(computed_), double(rough_), first_rough_});
   ladder_.save(numbers);

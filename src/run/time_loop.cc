@@ -43,9 +43,11 @@ void put_page_in(const std::filesystem::path &directory) {
 }
 
 template <int dim>
-solve::Model<dim> announced(const casefile::Case &asked, output::Progress &progress) {
+solve::Model<dim> announced(const casefile::Case &asked, bool iterative,
+                            output::Progress &progress) {
   progress.stage("mesh and operator");
-  return solve::Model<dim>(asked);
+  return solve::Model<dim>(asked,
+                           iterative && !may_be_factorised(asked) && solve::shares_nodes(asked));
 }
 
 // Evaluates the case's formulas once before anything is written: a formula that is undefined
@@ -64,7 +66,7 @@ TimeLoop<dim>::TimeLoop(const casefile::Case &asked, const std::filesystem::path
                 options.quiet || !parallel::is_first()),
       iterative_(checkpoint_ ? ChosenRoute<dim>::was_iterative(checkpoint_->numbers)
                              : solves_iteratively(asked)),
-      model_(announced<dim>(asked, progress_)),
+      model_(announced<dim>(asked, iterative_, progress_)),
       evolution_(model_),
       most_strained_(model_.n_unknowns()),
       adrift_(model_) {
@@ -75,6 +77,9 @@ TimeLoop<dim>::TimeLoop(const casefile::Case &asked, const std::filesystem::path
   }
   open_folder(directory, std::move(lock));
   recorder_.emplace(model_, *folder_);
+  if (checkpoint_)
+    checkpoint_->numbers.for_each_field(
+        [&](std::vector<double> &field) { field = model_.sharing().part_of(std::move(field)); });
   const output::SavedNumbers *numbers = checkpoint_ ? &checkpoint_->numbers : nullptr;
   if (asked.time.tolerance)
     chosen_.emplace(model_, evolution_).plan(numbers);
@@ -266,34 +271,43 @@ void TimeLoop<dim>::tell(const output::Summary &done, int signal) const {
                              signal_name(signal));
   if (!quiet_)
     std::cout << ending_text(dim, highlights_, done.extremes,
-                             output::largest_extent(model_.body.points()))
+                             output::largest_extent(model_.body.bounds()))
               << places_text(folder_->directory()) << std::flush;
 }
 
 // Everything that later steps, or what is told of the run at its end, depend on.
 template <int dim>
 void TimeLoop<dim>::save() {
+  output::Checkpoint checkpoint;
+  if (parallel::is_first() || !model_.sharing().is_whole())
+    checkpoint.numbers = numbers();
+  checkpoint.numbers.for_each_field(
+      [&](std::vector<double> &field) { field = model_.sharing().on_first(field); });
   parallel::on_first([&] {
-    output::Checkpoint checkpoint;
     checkpoint.program = program_version();
     checkpoint.inputs = inputs_;
     checkpoint.ranks = parallel::n_ranks();
     checkpoint.step = done_;
-    output::SavedNumbers &numbers = checkpoint.numbers;
-    evolution_.save(numbers);
-    if (chosen_)
-      chosen_->save(numbers);
-    else
-      given_->save(numbers);
-    account_.save(numbers);
-    adrift_.save(numbers);
-    recorder_->save(numbers);
-    highlights_.save(numbers);
-    most_strained_.save(numbers);
-    temperature_.save(numbers);
     folder_->put_checkpoint(std::move(checkpoint));
   });
   saved_step_ = done_;
+}
+
+template <int dim>
+output::SavedNumbers TimeLoop<dim>::numbers() const {
+  output::SavedNumbers numbers;
+  evolution_.save(numbers);
+  if (chosen_)
+    chosen_->save(numbers);
+  else
+    given_->save(numbers);
+  account_.save(numbers);
+  adrift_.save(numbers);
+  recorder_->save(numbers);
+  highlights_.save(numbers);
+  most_strained_.save(numbers);
+  temperature_.save(numbers);
+  return numbers;
 }
 
 template <int dim>
@@ -342,7 +356,7 @@ output::Summary TimeLoop<dim>::summary() const {
   summary.components = component_versions();
   summary.inputs = contents_;
   summary.sizes = {{"dimension", dim},
-                   {"nodes", model_.body.n_nodes()},
+                   {"nodes", model_.sharing().n_all()},
                    {"cells", model_.body.n_cells()},
                    {"unknowns", report.unknowns},
                    {"electric_and_thermal_unknowns", report.electric_and_thermal_unknowns},

@@ -25,6 +25,11 @@ struct Sum {
     value += term;
     size += std::abs(term);
   }
+  Sum of_all(const body::NodeSharing &sharing) const {
+    std::array<double, 2> both{value, size};
+    sharing.sum(both);
+    return {both[0], both[1]};
+  }
 };
 
 template <int dim>
@@ -114,6 +119,7 @@ double Balance<dim>::smallest_heat() const {
     double most = 0;
     for (std::size_t i = Fields<dim>::temperature; i < diagonal.size(); i += Fields<dim>::count)
       most = larger(most, std::abs(diagonal[i]));
+    most = model_.sharing().largest(most);
     return 1e-12 * most * std::pow(model_.op.reference_temperature(), 2) / step;
   }
   std::vector<double> warm(model_.n_unknowns(), 0.), product(model_.n_unknowns());
@@ -122,8 +128,8 @@ double Balance<dim>::smallest_heat() const {
   model_.op.multiply(0, warm, product);
   double heat = 0;
   for (std::size_t i = Fields<dim>::temperature; i < warm.size(); i += Fields<dim>::count)
-    heat += product[i];
-  return std::abs(heat) * model_.op.reference_temperature() / model_.step;
+    heat += model_.counts(i) ? product[i] : 0;
+  return std::abs(model_.sharing().sum(heat)) * model_.op.reference_temperature() / model_.step;
 }
 
 template <int dim>
@@ -193,11 +199,11 @@ void Balance<dim>::put_imbalance(const std::string &name, double value, double s
 template <int dim>
 void Balance<dim>::add_energy(const Step &step, Columns &columns) {
   const EnergyWorks works = energy_works(model_, step, is_prescribed_, can_open_);
-  const Energies gain = step.change_of_energy();
+  const Energies gain = step.change_of_energy(model_.sharing());
   std::array<double, 3> lost_by_field = works.by_scheme;
   double lost = works.by_scheme[0] + works.by_scheme[2];
   if (!step.is_dynamic()) {
-    const Energies loss = step.energy_of_change();
+    const Energies loss = step.energy_of_change(model_.sharing());
     lost_by_field = by_field(loss);
     lost = loss.sum();
   }
@@ -301,13 +307,16 @@ void Balance<dim>::add_forces(const Step &step, Columns &columns) {
   std::array<Sum, dim> load, reaction, contact;
   for (std::size_t i = 0; i < step.now.unknowns.size(); ++i) {
     const std::size_t c = i % Fields<dim>::count;
-    if (c >= dim)
+    if (c >= dim || !model_.counts(i))
       continue;
     load[c].add(step.loads[i]);
     contact[c].add(step.contact[i]);
     if (is_prescribed_[i])
       reaction[c].add(step.reaction(i));
   }
+  for (std::array<Sum, dim> *forces : {&load, &reaction, &contact})
+    for (Sum &sum : *forces)
+      sum = sum.of_all(model_.sharing());
   find_forces(step);
   double worst = 0, size = 0;
   for (int c = 0; c < dim; ++c) {
@@ -488,10 +497,15 @@ void Balance<dim>::add_heat(const Step &step, Columns &columns) {
   std::map<std::string, double> out;
   Sum imbalance;
   for (const Passage &at : heats_held(step)) {
+    passages_.push_back(at);
+    if (!model_.sharing().counts(at.node))
+      continue;
     out[std::string(at.boundary)] += at.amount;
     imbalance.size += std::abs(at.amount);
-    passages_.push_back(at);
   }
+  for (const std::string &name : boundaries_.of_heats())
+    out[name] = model_.sharing().sum(out[name]);
+  imbalance.size = model_.sharing().sum(imbalance.size);
   double source = 0;
   for (const body::Load &load : model_.loads.each())
     switch (const double resultant = load.resultant(step.time); load.kind().kind) {
@@ -516,7 +530,9 @@ void Balance<dim>::add_heat(const Step &step, Columns &columns) {
   const double per_watt = -model_.step / model_.op.reference_temperature();
   for (std::size_t i = Fields<dim>::temperature;
        !model_.asked.time.is_static() && i < step.now.unknowns.size(); i += Fields<dim>::count)
-    stored += (step.now.products.sum(i) - step.before.products.sum(i)) / per_watt;
+    if (model_.counts(i))
+      stored += (step.now.products.sum(i) - step.before.products.sum(i)) / per_watt;
+  stored = model_.sharing().sum(stored);
   imbalance.add(stored);
   imbalance.add(-source);
   imbalance.size += smallest_heat_;
@@ -548,16 +564,16 @@ void Balance<dim>::add_friction_heat(const Step &step, Columns &columns) const {
 template <int dim>
 void Balance<dim>::save(output::SavedNumbers &numbers) const {
   const Energies &stored = before_.stored;
-  numbers.put("balance charges", before_.charges);
+  numbers.put_field("balance charges", before_.charges);
   numbers.put("balance electrodes", electrode_charges_);
   numbers.put("balance stored energy",
               {stored.elastic, stored.electric, stored.thermal, stored.coupling});
   if (!model_.asked.time.is_dynamic())
     return;
-  numbers.put("balance loads", forces_before_.loads);
-  numbers.put("balance contact", forces_before_.contact);
-  numbers.put("balance friction", forces_before_.friction);
-  numbers.put("balance rates", forces_before_.rates);
+  numbers.put_field("balance loads", forces_before_.loads);
+  numbers.put_field("balance contact", forces_before_.contact);
+  numbers.put_field("balance friction", forces_before_.friction);
+  numbers.put_field("balance rates", forces_before_.rates);
 }
 
 template <int dim>

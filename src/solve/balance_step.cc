@@ -15,9 +15,11 @@ using body::Fields;
 namespace {
 
 template <int dim, class Value, class Product>
-Energies energy_of(std::size_t n, const Value &value, const Product &product) {
+Energies energy_of(const body::NodeSharing &sharing, const Value &value, const Product &product) {
   Energies energy;
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < sharing.n_nodes() * Fields<dim>::count; ++i) {
+    if (!sharing.counts(static_cast<body::Node>(i / Fields<dim>::count)))
+      continue;
     const int field = field_of<dim>(i);
     if (field == 0) {
       energy.elastic += value(i) * product(0, i) / 2;
@@ -28,13 +30,15 @@ Energies energy_of(std::size_t n, const Value &value, const Product &product) {
       energy.thermal -= value(i) * product(2, i) / 2;
     }
   }
-  return energy;
+  std::array<double, 4> sums{energy.elastic, energy.electric, energy.thermal, energy.coupling};
+  sharing.sum(sums);
+  return {sums[0], sums[1], sums[2], sums[3]};
 }
 
 template <int dim>
-Energies stored_energy(const BalancedState<dim> &state) {
+Energies stored_energy(const body::NodeSharing &sharing, const BalancedState<dim> &state) {
   return energy_of<dim>(
-      state.unknowns.size(), [&](std::size_t i) { return state.unknowns[i]; },
+      sharing, [&](std::size_t i) { return state.unknowns[i]; },
       [&](int field, std::size_t i) { return state.products.of[field][i]; });
 }
 
@@ -52,7 +56,7 @@ std::vector<double> by_unknown(const Model<dim> &model, const Eigen::VectorXd &f
 template <int dim>
 void multiply(const Model<dim> &model, bool cell_by_cell, BalancedState<dim> &state) {
   state.products = model.products_by_field(state.unknowns, cell_by_cell);
-  state.stored = stored_energy(state);
+  state.stored = stored_energy(model.sharing(), state);
   state.by_cells = cell_by_cell;
 }
 
@@ -125,7 +129,8 @@ std::vector<double> carried(const Model<dim> &model, double time,
 
 // By field, the largest scaled unknown of all that it is coupled to.
 template <int dim>
-std::array<double, 3> coupled_sizes(const CoupledFields &coupled, const BalanceStep<dim> &step,
+std::array<double, 3> coupled_sizes(const body::NodeSharing &sharing, const CoupledFields &coupled,
+                                    const BalanceStep<dim> &step,
                                     const std::array<double, Fields<dim>::count> &scale) {
   const std::vector<double> &now = step.now.unknowns, &before = step.before.unknowns;
   std::array<double, 3> own{}, whole{};  // the largest scaled unknown, by field
@@ -133,6 +138,7 @@ std::array<double, 3> coupled_sizes(const CoupledFields &coupled, const BalanceS
     own[field_of<dim>(i)] =
         larger(own[field_of<dim>(i)],
                larger(std::abs(now[i]), std::abs(before[i])) / scale[i % Fields<dim>::count]);
+  sharing.largest(own);
   for (int f = 0; f < 3; ++f)
     for (int g = 0; g < 3; ++g)
       if (coupled[f][g])
@@ -190,6 +196,7 @@ std::array<double, 3> work_of_round_off(const Model<dim> &model, const BalanceSt
     if (laws.lets_pass(contact::Crossing::heat))
       see(2, step.now.unknowns[body::unknown<dim>(at.node, Fields<dim>::temperature)]);
   }
+  model.sharing().largest(most);
   const double watt = model.op.reference_temperature() / model.step;
   return {most[0] * sums.force, most[1] * sums.charge, most[2] * sums.heat / watt};
 }
@@ -201,23 +208,22 @@ std::array<double, 3> by_field(const Energies &energy) {
 }
 
 template <int dim>
-Energies BalanceStep<dim>::energy_of_change() const {
+Energies BalanceStep<dim>::energy_of_change(const body::NodeSharing &sharing) const {
   return energy_of<dim>(
-      now.unknowns.size(), [&](std::size_t i) { return change(i); },
+      sharing, [&](std::size_t i) { return change(i); },
       [&](int field, std::size_t i) { return product_change(field, i); });
 }
 
 template <int dim>
-Energies BalanceStep<dim>::change_of_energy() const {
+Energies BalanceStep<dim>::change_of_energy(const body::NodeSharing &sharing) const {
   const auto moved = [&](std::size_t i) { return change(i); };
   const auto twice = [&](std::size_t i) { return now.unknowns[i] + before.unknowns[i]; };
-  Energies energy = energy_of<dim>(now.unknowns.size(), moved, [&](int field, std::size_t i) {
+  Energies energy = energy_of<dim>(sharing, moved, [&](int field, std::size_t i) {
     return now.products.of[field][i] + before.products.of[field][i];
   });
   // Not a square: half of it changes with phi, the other half with theta.
-  const Energies other = energy_of<dim>(now.unknowns.size(), twice, [&](int field, std::size_t i) {
-    return product_change(field, i);
-  });
+  const Energies other = energy_of<dim>(
+      sharing, twice, [&](int field, std::size_t i) { return product_change(field, i); });
   energy.coupling = (energy.coupling + other.coupling) / 2;
   return energy;
 }
@@ -230,9 +236,12 @@ CoupledFields coupled_fields(const Model<dim> &model) {
     for (std::size_t i = 0; i < of_one.size(); ++i)
       of_one[i] = field_of<dim>(i) == g;
     const std::vector<double> rows = model.op.sizes(model.step, of_one);
+    std::array<double, 3> largest{};
     for (std::size_t i = 0; i < rows.size(); ++i)
-      if (rows[i] > 0)
-        coupled[field_of<dim>(i)][g] = true;
+      largest[field_of<dim>(i)] = std::max(largest[field_of<dim>(i)], rows[i]);
+    model.sharing().largest(largest);
+    for (int f = 0; f < 3; ++f)
+      coupled[f][g] = largest[f] > 0;
   }
   for (int over = 0; over < 3; ++over)
     for (int f = 0; f < 3; ++f)
@@ -321,11 +330,11 @@ void add_exchanges(const Model<dim> &model, double watt, std::vector<double> &di
 
 // Of the rows of a field.
 template <int dim>
-double norm(int field, std::span<const double> vector) {
+double norm(const Model<dim> &model, int field, std::span<const double> vector) {
   double squares = 0;
   for (std::size_t i = 0; i < vector.size(); ++i)
-    squares += field_of<dim>(i) == field ? vector[i] * vector[i] : 0;
-  return std::sqrt(squares);
+    squares += field_of<dim>(i) == field && model.counts(i) ? vector[i] * vector[i] : 0;
+  return std::sqrt(model.sharing().sum(squares));
 }
 
 // Solutions by iteration leave residuals of `linear_tolerance` times what each field contributes to
@@ -339,9 +348,9 @@ void add_work_of_residuals(const Model<dim> &model, const BalanceStep<dim> &step
     for (int f = 0; is_by_iteration && f < 3; ++f) {
       double contributed = 0;
       for (const std::vector<double> &product : state->products.of)
-        contributed = larger(contributed, norm<dim>(f, product));
+        contributed = larger(contributed, norm(model, f, product));
       sums.energy[f] +=
-          model.asked.solver.linear_tolerance * contributed * norm<dim>(f, state->unknowns);
+          model.asked.solver.linear_tolerance * contributed * norm(model, f, state->unknowns);
     }
 }
 
@@ -356,24 +365,24 @@ BalanceRoundOff round_off_of(const Model<dim> &model, const CoupledFields &coupl
   constexpr double several = 1e2, neighbours = 10;
   const double eps = larger(std::numeric_limits<double>::epsilon(), step.backward_error);
   std::vector<double> diagonal = model.op.diagonal(model.step);
-  const std::array<double, Fields<dim>::count> scale = body::Operator<dim>::scales(diagonal);
-  std::array<double, 3> size = coupled_sizes(coupled, step, scale);
+  const std::array<double, Fields<dim>::count> scale = model.op.scales(diagonal);
+  std::array<double, 3> size = coupled_sizes(model.sharing(), coupled, step, scale);
   size[0] = std::max(size[0], widest_opening(model, step) / scale[0]);
   const double watt = model.op.reference_temperature() / model.step;
   add_exchanges(model, watt, diagonal);
-  BalanceRoundOff sums;
+  std::array<double, 3> rows{}, energy{};
   for (std::size_t i = 0; i < diagonal.size(); ++i) {
+    if (!model.counts(i))
+      continue;
     const int field = field_of<dim>(i);
     const double uncertain = eps * size[field] * scale[i % Fields<dim>::count],
                  row = neighbours * std::abs(diagonal[i]) * uncertain;
-    if (field == 0)
-      sums.force += row;
-    else if (field == 1)
-      sums.charge += row;
-    else
-      sums.heat += watt * row;
-    sums.energy[field] += several * row * uncertain;
+    rows[field] += row;
+    energy[field] += several * row * uncertain;
   }
+  model.sharing().sum(rows);
+  model.sharing().sum(energy);
+  BalanceRoundOff sums{rows[0], rows[1], watt * rows[2], energy};
   const std::array<double, 3> work = work_of_round_off(model, step, sums),
                               now = by_field(step.now.stored),
                               before = by_field(step.before.stored);

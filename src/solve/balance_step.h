@@ -96,11 +96,11 @@ struct BalanceStep {
   double product_change(int field, std::size_t i) const {
     return now.products.of[field][i] - before.products.of[field][i];
   }
-  /// W(d), what the Euler step loses (docs/theory.md, section 8).
-  body::Energies energy_of_change() const;
+  /// W(d), what the Euler step loses (docs/theory.md, section 8). All ranks together, as below.
+  body::Energies energy_of_change(const body::NodeSharing &sharing) const;
   /// W_n - W_(n-1) as d . K (x_n + x_(n-1)) / 2: the round-off of a difference of the two would be
   /// that of all that is stored, and of what cells of a thin body carry around.
-  body::Energies change_of_energy() const;
+  body::Energies change_of_energy(const body::NodeSharing &sharing) const;
 };
 
 /// Of u, phi and theta. The coupling's part is that of phi, which theta is coupled to where there

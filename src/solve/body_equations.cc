@@ -19,10 +19,12 @@ constexpr double enough = 1e-15;           // a correction that changes no digit
 
 // Of the rows of each field: u, phi, theta.
 template <int dim>
-std::array<double, 3> norms(std::span<const double> rows) {
+std::array<double, 3> norms(const Model<dim> &model, std::span<const double> rows) {
   std::array<double, 3> norms{};
   for (std::size_t i = 0; i < rows.size(); ++i)
-    norms[body::field_of<dim>(i)] += rows[i] * rows[i];
+    if (model.counts(i))
+      norms[body::field_of<dim>(i)] += rows[i] * rows[i];
+  model.sharing().sum(norms);
   for (double &norm : norms)
     norm = std::sqrt(norm);
   return norms;
@@ -100,7 +102,7 @@ std::array<double, 3> BodyEquations<dim>::field_sizes() const {
   model_.op.multiply_by_field(state_, products);
   std::array<double, 3> sizes{};
   for (const std::vector<double> &product : products.of) {
-    const std::array<double, 3> of_one = norms<dim>(product);
+    const std::array<double, 3> of_one = norms(model_, product);
     for (int f = 0; f < 3; ++f)
       sizes[f] = larger(sizes[f], of_one[f]);
   }
@@ -117,7 +119,8 @@ typename BodyEquations<dim>::NodalForces BodyEquations<dim>::nodal_forces() cons
   for (const std::vector<double> &of_one : products.of)
     for (std::size_t i = 0; i < of_one.size(); i += n)
       forces.largest = larger(forces.largest, Vector::Map(&of_one[i]).norm());
-  forces.round_off = of_round_off * norms<dim>(model_.op.sizes(model_.step, state_))[0];
+  forces.largest = model_.sharing().largest(forces.largest);
+  forces.round_off = of_round_off * norms(model_, model_.op.sizes(model_.step, state_))[0];
   return forces;
 }
 
@@ -130,7 +133,7 @@ std::array<double, 3> BodyEquations<dim>::round_off(std::span<const double> righ
     terms[i] = is_prescribed_[i]
                    ? 0
                    : of_round_off * (terms[i] + (right_side.empty() ? 0 : std::abs(right_side[i])));
-  return norms<dim>(terms);
+  return norms(model_, terms);
 }
 
 // Round-off is looked at only where an iteration has gained little, as it costs a product. Of a
@@ -138,7 +141,7 @@ std::array<double, 3> BodyEquations<dim>::round_off(std::span<const double> righ
 template <int dim>
 bool BodyEquations<dim>::is_solved(std::span<const double> free_residual) {
   const double tolerance = model_.asked.solver.linear_tolerance;
-  const std::array<double, 3> found = norms<dim>(free_residual), sizes = field_sizes();
+  const std::array<double, 3> found = norms(model_, free_residual), sizes = field_sizes();
   const double before = lack_;
   lack_ = 0;
   for (int f = 0; f < 3; ++f)
@@ -234,7 +237,7 @@ template <int dim>
 void BodyEquations<dim>::give_up(double time, std::span<const double> free_residual) const {
   constexpr std::array<const char *, 3> names{"displacement", "potential", "temperature"};
   const double tolerance = model_.asked.solver.linear_tolerance;
-  const std::array<double, 3> found = norms<dim>(free_residual), sizes = field_sizes();
+  const std::array<double, 3> found = norms(model_, free_residual), sizes = field_sizes();
   std::string what;
   for (int f = 0; f < 3; ++f)
     if (!(found[f] <= tolerance * sizes[f]))

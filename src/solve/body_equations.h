@@ -20,9 +20,8 @@ namespace tourmaline::solve {
 /// (`krylov::BodySystem`). Once refined, products with K are taken cell by cell, and corrections go
 /// on until they fall no more.
 ///
-/// All vectors have an entry for each unknown of the body (SI) and are whole on every rank. A free
-/// residual is b - K x less the friction of slipping points, projected onto what contact and
-/// prescribed unknowns leave free.
+/// All vectors have an entry for each unknown of this rank (SI). A free residual is b - K x less
+/// the friction of slipping points, projected onto what contact and prescribed unknowns leave free.
 template <int dim>
 class BodyEquations {
  public:

@@ -1,6 +1,9 @@
 #include "solve/boundary_book.h"
 
 #include <algorithm>
+#include <limits>
+#include <map>
+#include <utility>
 
 #include "solve/exchange_weights.h"
 
@@ -14,6 +17,30 @@ namespace {
 void add_once(std::vector<std::string> &names, const std::string &name) {
   if (std::find(names.begin(), names.end(), name) == names.end())
     names.push_back(name);
+}
+
+// In the order of the first nodes whose temperatures they prescribe, whoever has these.
+template <int dim>
+std::vector<std::string> boundaries_with_temperatures(const Model<dim> &model) {
+  constexpr double nowhere = std::numeric_limits<double>::infinity();
+  std::map<std::string, double> first;
+  for (const casefile::BoundaryCase &boundary : model.asked.boundaries)
+    for (const std::string &name : boundary.on)
+      first[name] = nowhere;
+  for (const body::Prescribed &p : model.prescribed)
+    if (p.unknown % Fields<dim>::count == Fields<dim>::temperature && p.is_given()) {
+      const auto node = static_cast<body::Node>(p.unknown / Fields<dim>::count);
+      first[p.boundary] = std::min<double>(first[p.boundary], model.sharing().number(node));
+    }
+  std::vector<std::pair<double, std::string>> ordered;
+  for (const auto &[name, node] : first)
+    if (const double of_all = -model.sharing().largest(-node); of_all < nowhere)
+      ordered.emplace_back(of_all, name);
+  std::sort(ordered.begin(), ordered.end());
+  std::vector<std::string> names;
+  for (auto &[node, name] : ordered)
+    names.push_back(std::move(name));
+  return names;
 }
 
 }  // namespace
@@ -33,13 +60,10 @@ BoundaryBook<dim>::BoundaryBook(const Model<dim> &model)
 
 template <int dim>
 void BoundaryBook<dim>::find_boundaries() {
-  for (const body::Prescribed &p : model_.prescribed) {
-    const int component = static_cast<int>(p.unknown % Fields<dim>::count);
-    if (component == Fields<dim>::temperature && p.is_given())
-      add_once(heats_, p.boundary);
-    else if (component == Fields<dim>::potential && p.electrode < 0 && p.is_given())
+  heats_ = boundaries_with_temperatures(model_);
+  for (const body::Prescribed &p : model_.prescribed)
+    if (p.unknown % Fields<dim>::count == Fields<dim>::potential && p.electrode < 0 && p.is_given())
       add_once(charges_, p.boundary);
-  }
   for (const body::Load &load : model_.loads.each())
     if (load.kind().kind == LoadKind::heat_flux)
       add_once(heats_, load.kind().boundary);

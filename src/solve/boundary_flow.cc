@@ -108,7 +108,7 @@ Load BoundaryPart<dim>::over_facets(const std::string &name, const casefile::For
       body::add_shares(facet, weight, load);
     });
   });
-  load.sum_over_ranks(model_.body.n_nodes());
+  load.sum_over_ranks(model_.sharing());
   return load;
 }
 
@@ -135,8 +135,8 @@ typename BoundaryPart<dim>::Shares BoundaryPart<dim>::shares_of(
     model_.body.for_each_facet_on_both(
         boundaries, names_, [&](const Quadrature<dim> &facet) { add_area(facet, here); });
   });
-  parallel::sum(whole);
-  parallel::sum(here);
+  model_.sharing().add_up(whole);
+  model_.sharing().add_up(here);
   Shares shares;
   for (body::Node node = 0; node < here.size(); ++node)
     if (here[node] > 0)
@@ -165,7 +165,8 @@ std::vector<double> BoundaryPart<dim>::tractions(double time) const {
       load.integrate(time, sum);
     }
   });
-  parallel::sum(of_this_rank);
+  if (!of_this_rank.empty())
+    model_.sharing().add_up(of_this_rank);
   forces.resize(of_this_rank.empty() ? forces.size() : of_this_rank.size(), 0.);
   for (std::size_t i = 0; i < of_this_rank.size(); ++i)
     forces[i] += of_this_rank[i];
@@ -176,10 +177,12 @@ std::vector<double> BoundaryPart<dim>::tractions(double time) const {
 template <int dim>
 double BoundaryPart<dim>::exchanged(const Exchange &exchange, double time,
                                     std::span<const double> state) const {
-  const double inside =
-      std::inner_product(state.begin(), state.end(), exchange.weights.begin(), 0.);
+  double inside = 0;
+  for (std::size_t i = 0; i < state.size(); ++i)
+    if (model_.counts(i))
+      inside += state[i] * exchange.weights[i];
   return model_.linear_exchanges[exchange.number].factor *
-         (inside - exchange.outside.resultant(time));
+         (model_.sharing().sum(inside) - exchange.outside.resultant(time));
 }
 
 // Charges and heats that do not pass at nodes.
@@ -197,14 +200,17 @@ void BoundaryPart<dim>::add_given(double time, std::span<const double> state,
   }
 }
 
+// What passes at nodes, and what tractions do there.
 template <int dim>
-BoundaryFlow BoundaryPart<dim>::flow(double time, std::span<const Passage> passages,
-                                     std::span<const double> state, const Vector3 &about) const {
+BoundaryFlow BoundaryPart<dim>::at_nodes(double time, std::span<const Passage> passages,
+                                         const Vector3 &about) const {
   BoundaryFlow flow;
   const auto push = [&](body::Node node, int component, double size) {
     add_force(size * Eigen::Vector3d::Unit(component), model_.body.points()[node], about, flow);
   };
   for (const Passage &passage : passages) {
+    if (!model_.sharing().counts(passage.node))
+      continue;
     const double amount = share(passage) * passage.amount;
     if (passage.component < dim)
       push(passage.node, passage.component, amount);
@@ -213,9 +219,20 @@ BoundaryFlow BoundaryPart<dim>::flow(double time, std::span<const Passage> passa
   }
   const std::vector<double> tractions = this->tractions(time);
   for (std::size_t i = 0; i < tractions.size(); ++i)
-    if (tractions[i] != 0)
+    if (tractions[i] != 0 && model_.counts(i))
       push(static_cast<body::Node>(i / Fields<dim>::count),
            static_cast<int>(i % Fields<dim>::count), tractions[i]);
+  for (Eigen::Vector3d *sum : {&flow.force, &flow.moment})
+    model_.sharing().sum(std::span(sum->data(), 3));
+  for (double *sum : {&flow.charge, &flow.heat})
+    *sum = model_.sharing().sum(*sum);
+  return flow;
+}
+
+template <int dim>
+BoundaryFlow BoundaryPart<dim>::flow(double time, std::span<const Passage> passages,
+                                     std::span<const double> state, const Vector3 &about) const {
+  BoundaryFlow flow = at_nodes(time, passages, about);
   add_given(time, state, flow);
   return flow;
 }

@@ -54,6 +54,7 @@ class BoundaryPart {
   Shares shares_of(const std::vector<std::string> &boundaries) const;
   double share(const Passage &passage) const;
   std::vector<double> tractions(double time) const;
+  BoundaryFlow at_nodes(double time, std::span<const Passage> passages, const Vector3 &about) const;
   void add_given(double time, std::span<const double> state, BoundaryFlow &flow) const;
   double exchanged(const Exchange &exchange, double time, std::span<const double> state) const;
 

@@ -440,7 +440,7 @@ StepOutcome CondensedRoute<dim>::advance(double time, std::span<const double> ri
                                          std::span<const double> before, std::span<double> state) {
   const VectorXd start = last_increment_;
   StepOutcome outcome = solve(time, right_side, before, state);
-  if (is_refined() || outgrew_measured<dim>(state)) {
+  if (is_refined() || outgrew_measured<dim>(model_.sharing(), state)) {
     measure(right_side, state, outcome);
     if (is_refined() || !(so_far_.forward_error > worth_refining))
       return outcome;

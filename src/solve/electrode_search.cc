@@ -70,6 +70,7 @@ typename ElectrodeSearch<dim>::Lack ElectrodeSearch<dim>::lack(
   double largest = 0;
   for (std::size_t i = Fields<dim>::potential; i < state.size(); i += Fields<dim>::count)
     largest = std::max(largest, std::abs(state[i]));
+  largest = model_.sharing().largest(largest);
   return {charges + circuit_.admittance() * voltages_ - supplied,
           largest * capacities_ + charges.cwiseAbs() + supplied.cwiseAbs()};
 }

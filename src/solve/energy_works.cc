@@ -103,15 +103,26 @@ ContactWorks &ContactWorks::operator+=(const ContactWorks &other) {
   return *this;
 }
 
+namespace {
+
+// Of what stands at the unknowns.
+void sum_over_ranks(const body::NodeSharing &sharing, EnergyWorks &works) {
+  for (double *work : {&works.load, &works.electric, &works.thermal, &works.conduction,
+                       &works.by_scheme[0], &works.by_scheme[2]})
+    *work = sharing.sum(*work);
+}
+
+}  // namespace
+
 template <int dim>
 EnergyWorks energy_works(const Model<dim> &model, const BalanceStep<dim> &step,
                          const std::vector<bool> &is_prescribed,
                          const std::vector<bool> &can_open) {
   const double per_watt = -model.step / model.op.reference_temperature();
   EnergyWorks works;
-  works.by_scheme[0] = step.rates.lost;
-  add_contacts(model, step, works);
   for (std::size_t i = 0; i < step.now.unknowns.size(); ++i) {
+    if (!model.counts(i))
+      continue;
     const int field = field_of<dim>(i);
     if (field == 0)
       add_mechanical(step, i, is_prescribed[i],
@@ -123,6 +134,9 @@ EnergyWorks energy_works(const Model<dim> &model, const BalanceStep<dim> &step,
     else
       add_heat(step, i, per_watt, works);
   }
+  sum_over_ranks(model.sharing(), works);
+  works.by_scheme[0] += step.rates.lost;
+  add_contacts(model, step, works);
   return works;
 }
 

@@ -15,7 +15,7 @@ std::vector<std::pair<body::Node, double>> exchange_weights(
         by_node[facet.nodes[a]] +=
             factor * coefficient.value(facet.points[q], 0) * facet.jxw[q] * facet.value(q, a);
   });
-  parallel::sum(by_node);
+  body.sharing().add_up(by_node);
   std::vector<std::pair<body::Node, double>> weights;
   for (const body::Node node : body.nodes_on(boundaries))
     weights.emplace_back(node, by_node[node]);

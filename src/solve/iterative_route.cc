@@ -26,6 +26,18 @@ using Eigen::VectorXd;
 // Forward errors above it are worth refinement.
 constexpr double worth_refined_solutions = 1e-7;
 
+// Displacements, then potentials and temperatures.
+template <int dim>
+std::array<std::size_t, 2> free_unknowns(const Model<dim> &model,
+                                         const std::vector<bool> &is_prescribed) {
+  std::array<double, 2> count{};
+  for (std::size_t i = 0; i < is_prescribed.size(); ++i)
+    if (!is_prescribed[i] && model.counts(i))
+      ++count[body::field_of<dim>(i) > 0 ? 1 : 0];
+  model.sharing().sum(count);
+  return {static_cast<std::size_t>(count[0]), static_cast<std::size_t>(count[1])};
+}
+
 template <int dim>
 class IterativeRoute : public Route {
  public:
@@ -56,7 +68,8 @@ class IterativeRoute : public Route {
 
   const Model<dim> &model_;
   const std::vector<bool> is_prescribed_;
-  const std::string left_to_contact_;  // rigid motions
+  const std::array<std::size_t, 2> unknowns_;  // that are solved for: of u, of phi and theta
+  const std::string left_to_contact_;          // rigid motions
   const double contact_tolerance_;
   BodyEquations<dim> body_;
   ContactBySolutions<dim> contact_;
@@ -71,6 +84,7 @@ template <int dim>
 IterativeRoute<dim>::IterativeRoute(const Model<dim> &model)
     : model_(model),
       is_prescribed_(body::mask_of(model.prescribed, model.n_unknowns())),
+      unknowns_(free_unknowns(model, is_prescribed_)),
       left_to_contact_(casefile::left_to_contact(model.asked)),
       contact_tolerance_(
           10 * std::max(model.asked.solver.tolerance, model.asked.solver.linear_tolerance)),
@@ -170,7 +184,7 @@ StepOutcome IterativeRoute<dim>::advance(double time, std::span<const double> ri
   contact_.begin_step(time, before, state);
   settle();
   check_held();
-  if (is_refined() || this->template outgrew_measured<dim>(state))
+  if (is_refined() || this->template outgrew_measured<dim>(model_.sharing(), state))
     measure();
   see_backward_error(body_.backward_error(contact_.freed(body_.residual())));
   StepOutcome done = contact_.outcome();
@@ -182,18 +196,15 @@ template <int dim>
 void IterativeRoute<dim>::describe(RouteReport &report) const {
   report.condense_seconds += body_.system().set_up_seconds();
   report.preconditioners = body_.system().set_ups();
-  for (std::size_t i = 0; i < is_prescribed_.size(); ++i)
-    if (!is_prescribed_[i]) {
-      ++report.unknowns;
-      report.electric_and_thermal_unknowns += body::field_of<dim>(i) > 0;
-    }
+  report.unknowns = unknowns_[0] + unknowns_[1];
+  report.electric_and_thermal_unknowns = unknowns_[1];
 }
 
 template <int dim>
 void IterativeRoute<dim>::save_memory(output::SavedNumbers &numbers) const {
   body_.system().save(numbers);
   contact_.save(numbers);
-  numbers.put("state before", two_before_);
+  numbers.put_field("state before", two_before_);
 }
 
 template <int dim>

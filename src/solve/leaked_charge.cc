@@ -41,7 +41,7 @@ std::vector<double> leaking(const Model<dim> &model, std::optional<double> time,
       if (exchange.accumulates)
         add_facets(model, exchange, time, state, by_node);
   });
-  parallel::sum(by_node);
+  model.sharing().add_up(by_node);
   return by_node;
 }
 

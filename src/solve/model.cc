@@ -4,6 +4,7 @@
 
 #include "body/conductors.h"
 #include "mesh/distribute.h"
+#include "parallel/ranks.h"
 #include "solve/held_by_mass.h"
 #include "stopwatch.h"
 
@@ -43,27 +44,37 @@ std::vector<body::Prescribed> prescribed_in(const body::Discretisation<dim> &bod
 
 }  // namespace
 
+bool shares_nodes(const casefile::Case &asked) {
+  return parallel::n_ranks() > 1 && !asked.time.is_dynamic() && !asked.initial.from;
+}
+
 template <int dim>
 struct Model<dim>::Built {
-  Built(const casefile::Case &asked, const std::function<mesh::Mesh<dim>()> &make_mesh)
+  Built(const casefile::Case &asked, const std::function<mesh::Mesh<dim>()> &make_mesh,
+        bool shares_nodes)
       : composition(asked),
-        body(mesh::shared_out<dim>(make_mesh), asked.mesh.degree, body::geometry_of(asked)),
-        mesh_seconds(watch.lap()) {}
+        body(mesh::shared_out<dim>(make_mesh), asked.mesh.degree, body::geometry_of(asked)) {
+    if (shares_nodes)
+      body.share_nodes(body::nodes_with_conditions(body, asked));
+    mesh_seconds = watch.lap();
+  }
 
   Stopwatch watch;
   material::Composition<dim> composition;
   body::Discretisation<dim> body;
-  double mesh_seconds;
+  double mesh_seconds = 0;
   Stopwatch since_mesh;
 };
 
 template <int dim>
-Model<dim>::Model(const casefile::Case &asked_for)
-    : Model(asked_for, Built(asked_for, [&] { return mesh::build<dim>(asked_for); })) {}
+Model<dim>::Model(const casefile::Case &asked_for, bool shares_nodes)
+    : Model(asked_for, Built(
+                           asked_for, [&] { return mesh::build<dim>(asked_for); }, shares_nodes)) {}
 
 template <int dim>
 Model<dim>::Model(const casefile::Case &asked_for, mesh::Mesh<dim> mesh)
-    : Model(asked_for, Built(asked_for, [&] { return std::move(mesh); })) {}
+    : Model(asked_for, Built(
+                           asked_for, [&] { return std::move(mesh); }, false)) {}
 
 template <int dim>
 Model<dim>::Model(const casefile::Case &asked_for, Built built)

@@ -17,10 +17,15 @@
 
 namespace tourmaline::solve {
 
+/// Whether nodes can be shared out to the ranks where the case is solved iteratively: not where the
+/// start of a motion is settled, by a factorisation, and no state of another run.
+bool shares_nodes(const casefile::Case &asked);
+
 /// Everything a step needs that does not change from step to step: the case as mathematics.
 template <int dim>
 struct Model {
-  explicit Model(const casefile::Case &asked_for);
+  /// `shares_nodes`: a rank has a part of the nodes alone (`body::NodeSharing`).
+  explicit Model(const casefile::Case &asked_for, bool shares_nodes = false);
   /// On a mesh of the caller's, whose boundaries the case names, of one material; `asked_for.mesh`
   /// says only the degree.
   Model(const casefile::Case &asked_for, mesh::Mesh<dim> mesh);
@@ -51,6 +56,11 @@ struct Model {
   /// Steps of that k follow [s]. What has factorised or scaled by the k before serves them no more.
   void set_step(double k);
   std::size_t n_unknowns() const { return body.n_nodes() * body::Fields<dim>::count; }
+  const body::NodeSharing &sharing() const { return body.sharing(); }
+  /// Whether sums over unknowns count this one here.
+  bool counts(std::size_t unknown) const {
+    return sharing().counts(static_cast<body::Node>(unknown / body::Fields<dim>::count));
+  }
 
   using Vector = Eigen::Matrix<double, dim, 1>;
   /// Where the foundation has moved to [m]; and u_nu at which a contact node touches it.

@@ -145,7 +145,7 @@ StepOutcome MonolithicRoute<dim>::advance(double time, std::span<const double> r
   exchange_.end_step(
       x_.body, [&](std::size_t node) { return crossing[node]; }, outcome);
   std::copy(x_.body.begin(), x_.body.end(), state.begin());
-  if (outgrew_measured<dim>(state)) {
+  if (outgrew_measured<dim>(model_.sharing(), state)) {
     Stopwatch watch;
     see_forward_error(accuracy(right_side, state, outcome).forward_error);
     so_far_.estimate_seconds += watch.lap();
@@ -382,8 +382,9 @@ Accuracy MonolithicRoute<dim>::accuracy(std::span<const double> right_side,
     for (int c = 0; c < dim; ++c)
       residual.body[body::unknown<dim>(model_.interface[n].node, c)] -=
           outcome.contact_forces[dim * static_cast<Index>(n) + c];
-  return {so_far_.backward_error, body::relative_size<dim>(system_.increment(residual).body, state,
-                                                           system_.field_scales())};
+  return {so_far_.backward_error,
+          body::relative_size<dim>(model_.body.sharing(), system_.increment(residual).body, state,
+                                   system_.field_scales())};
 }
 
 template <int dim>

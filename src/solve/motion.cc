@@ -45,7 +45,9 @@ void Motion<dim>::begin(std::span<const double> state) {
   multiply(rates_);
   describe(rates_);
   for (std::size_t i = 0; i < state.size(); ++i)
-    record_.kinetic_energy += rates_.velocity[i] * rates_.momentum[i] / 2;
+    if (model_.counts(i))
+      record_.kinetic_energy += rates_.velocity[i] * rates_.momentum[i] / 2;
+  record_.kinetic_energy = model_.sharing().sum(record_.kinetic_energy);
 }
 
 // Of given rates it is what leaves them of the product with the end's value.
@@ -114,6 +116,8 @@ void Motion<dim>::end_step(std::span<const double> before, std::span<const doubl
 template <int dim>
 void Motion<dim>::add_energies(const Rates &next, std::span<const double> d) {
   for (std::size_t i = 0; i < d.size(); ++i) {
+    if (!model_.counts(i))
+      continue;
     record_.dissipated += d[i] * next.backward_damping[i];
     if (!is_inertial())
       continue;
@@ -128,6 +132,9 @@ void Motion<dim>::add_energies(const Rates &next, std::span<const double> d) {
   }
   if (!given_.empty())
     record_.lost += lost_at_supports(next, d);
+  for (double *sum :
+       {&record_.dissipated, &record_.kinetic_energy, &record_.kinetic_gained, &record_.lost})
+    *sum = model_.sharing().sum(*sum);
 }
 
 // By how much d.M a of the mean of both ends exceeds the kinetic energy gained: with v and a the
@@ -142,12 +149,14 @@ double Motion<dim>::lost_at_supports(const Rates &next, std::span<const double> 
     const std::size_t i = one.of->unknown;
     beyond[i] = (next.acceleration[i] + rates_.acceleration[i]) / 2 -
                 (next.velocity[i] - rates_.velocity[i]) / k;
-    lost += (d[i] / k - (next.velocity[i] + rates_.velocity[i]) / 2) *
-            (next.momentum[i] - rates_.momentum[i]);
+    if (model_.counts(i))
+      lost += (d[i] / k - (next.velocity[i] + rates_.velocity[i]) / 2) *
+              (next.momentum[i] - rates_.momentum[i]);
   }
   const std::vector<double> force = model_.op.rate_product(RateForces<dim>::Kind::inertia, beyond);
   for (std::size_t i = 0; i < d.size(); ++i)
-    lost += d[i] * force[i];
+    if (model_.counts(i))
+      lost += d[i] * force[i];
   return lost;
 }
 
@@ -160,20 +169,22 @@ void Motion<dim>::describe(const Rates &now) {
     const double damping = now.damping[i] + now.backward_damping[i],
                  inertia = is_inertial() ? now.inertia[i] : 0;
     record_.forces[i] = inertia + damping;
-    if (const std::size_t c = i % Fields<dim>::count; c < dim) {
+    if (const std::size_t c = i % Fields<dim>::count; c < dim && model_.counts(i)) {
       record_.inertia[c] -= inertia;
       record_.damping[c] -= damping;
     }
   }
+  model_.sharing().sum(record_.inertia);
+  model_.sharing().sum(record_.damping);
 }
 
 template <int dim>
 void Motion<dim>::save(output::SavedNumbers &numbers) const {
   if (!forces_)
     return;
-  numbers.put("velocity", rates_.velocity);
-  numbers.put("acceleration", rates_.acceleration);
-  numbers.put("mean velocity", rates_.difference);
+  numbers.put_field("velocity", rates_.velocity);
+  numbers.put_field("acceleration", rates_.acceleration);
+  numbers.put_field("mean velocity", rates_.difference);
 }
 
 template <int dim>

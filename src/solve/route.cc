@@ -41,11 +41,12 @@ void Route::see_forward_error(double error) {
 }
 
 template <int dim>
-bool Route::outgrew_measured(std::span<const double> state) {
+bool Route::outgrew_measured(const body::NodeSharing &sharing, std::span<const double> state) {
   constexpr double times = 10;
   std::array<double, 3> size{};
   for (std::size_t i = 0; i < state.size(); ++i)
     size[body::field_of<dim>(i)] = larger(size[body::field_of<dim>(i)], std::abs(state[i]));
+  sharing.largest(size);
   bool outgrew = false;
   for (std::size_t f = 0; f < size.size(); ++f)
     if (size[f] > times * measured_[f]) {
@@ -55,8 +56,8 @@ bool Route::outgrew_measured(std::span<const double> state) {
   return outgrew;
 }
 
-template bool Route::outgrew_measured<2>(std::span<const double>);
-template bool Route::outgrew_measured<3>(std::span<const double>);
+template bool Route::outgrew_measured<2>(const body::NodeSharing &, std::span<const double>);
+template bool Route::outgrew_measured<3>(const body::NodeSharing &, std::span<const double>);
 
 void Route::forget_errors() {
   so_far_.backward_error = so_far_.forward_error = std::numeric_limits<double>::quiet_NaN();

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "body/node_sharing.h"
 #include "output/checkpoint.h"
 #include "output/records.h"
 #include "solve/rate_record.h"
@@ -157,7 +158,7 @@ class Route {
   /// the first time, or is ten times as large as when it was measured last. What a thin part does
   /// not take part in says nothing of it.
   template <int dim>
-  bool outgrew_measured(std::span<const double> state);
+  bool outgrew_measured(const body::NodeSharing &sharing, std::span<const double> state);
   void forget_errors();
   static void add_factorisation(const condensation::FactorisationStatistics &statistics,
                                 RouteReport &report);

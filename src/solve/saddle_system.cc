@@ -43,7 +43,7 @@ SaddleSystem<dim>::SaddleSystem(const body::Operator<dim> &op, double step,
       crossing_(crossing),
       slope_(Eigen::VectorXd::Zero(static_cast<Index>(crossing.size()))) {
   const std::vector<double> diagonal = op.diagonal(step);
-  field_scale_ = body::Operator<dim>::scales(diagonal);
+  field_scale_ = op.scales(diagonal);
   number(prescribed);
   set_scales();
   for (const Point &point : points_) {

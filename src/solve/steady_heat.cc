@@ -39,6 +39,7 @@ double long_step(const Model<dim> &model, const std::vector<double> &conduction)
     slowest =
         larger(slowest, std::abs(storage[body::unknown<dim>(node, Fields<dim>::temperature)]) *
                             model.op.reference_temperature() / std::max(conduction[node], 1e-300));
+  slowest = model.sharing().largest(slowest);
   return std::ldexp(slowest > 0 ? slowest : 1., 100);
 }
 
@@ -55,7 +56,7 @@ SteadyHeat<dim>::SteadyHeat(const Model<dim> &model, bool iteratively)
       held_.push_back(p);
   keeps_initial_ = !is_held();
   if (keeps_initial_)
-    keep_initial();
+    parallel::together([&] { keep_initial(); });
   for (const body::Prescribed &p : held_)
     is_free_[p.unknown / n] = false;
   if (iteratively || std::none_of(is_free_.begin(), is_free_.end(), [](bool free) { return free; }))
@@ -75,16 +76,17 @@ SteadyHeat<dim>::SteadyHeat(const Model<dim> &model, bool iteratively)
 // What exchanges heat takes some from a body that is equally warm everywhere.
 template <int dim>
 bool SteadyHeat<dim>::is_held() const {
-  if (!held_.empty())
+  if (model_.sharing().largest(held_.empty() ? 0. : 1.) > 0)
     return true;
   std::vector<double> warm(model_.n_unknowns(), 0.);
   for (Node node = 0; node < diagonal_.size(); ++node)
     warm[theta(node)] = 1;
   const std::vector<double> taken = model_.op.conducted(warm);
+  double takes = 0;
   for (Node node = 0; node < diagonal_.size(); ++node)
     if (taken[node] > 1e-9 * diagonal_[node])
-      return true;
-  return false;
+      takes = 1;
+  return model_.sharing().largest(takes) > 0;
 }
 
 template <int dim>
@@ -114,7 +116,10 @@ std::vector<double> SteadyHeat<dim>::heat_at(double time) const {
 
 template <int dim>
 void SteadyHeat<dim>::require_unwarmed(double time, const std::vector<double> &heat) const {
-  if (!keeps_initial_ || std::all_of(heat.begin(), heat.end(), [](double q) { return q == 0; }))
+  double largest = 0;
+  for (const double q : heat)
+    largest = larger(largest, std::abs(q));
+  if (!keeps_initial_ || model_.sharing().largest(largest) == 0)
     return;
   throw CaseError(fmt::format(
       "{}: [time] regime = \"static\": at t = {:g} heat flows into the body, whose temperature "
@@ -131,11 +136,12 @@ void SteadyHeat<dim>::iterate(double time, const std::vector<double> &heat,
   std::vector<double> residual(size), direction(size, 0.), of_direction(model_.n_unknowns(), 0.);
   const auto product = [&](const std::vector<double> &state) { return model_.op.conducted(state); };
   const auto projected = [&](std::size_t node, double value) { return is_free_[node] ? value : 0; };
+  const auto counts = [&](std::size_t i) { return model_.sharing().counts(static_cast<Node>(i)); };
   const auto size_of = [&](const std::vector<double> &r) {
     double sum = 0;
     for (std::size_t i = 0; i < size; ++i)
-      sum += is_free_[i] ? r[i] * r[i] / diagonal_[i] : 0;
-    return sum;
+      sum += counts(i) && is_free_[i] ? r[i] * r[i] / diagonal_[i] : 0;
+    return model_.sharing().sum(sum);
   };
   std::vector<double> of_x = product(x);
   for (std::size_t i = 0; i < size; ++i)
@@ -145,7 +151,7 @@ void SteadyHeat<dim>::iterate(double time, const std::vector<double> &heat,
     terms[i] = std::abs(heat[i]) + diagonal_[i] * std::abs(x[theta(static_cast<Node>(i))]);
   double rho = size_of(residual);
   const double wanted = tolerance * tolerance * (size_of(terms) + rho);
-  const std::size_t most = 20 * size + 100;
+  const std::size_t most = 20 * model_.sharing().n_all() + 100;
   for (std::size_t k = 0; rho > wanted; ++k) {
     if (k == most)
       throw SolveError(
@@ -158,7 +164,8 @@ void SteadyHeat<dim>::iterate(double time, const std::vector<double> &heat,
     const std::vector<double> taken = product(of_direction);
     double curvature = 0;
     for (std::size_t i = 0; i < size; ++i)
-      curvature += projected(i, direction[i] * taken[i]);
+      curvature += counts(i) ? projected(i, direction[i] * taken[i]) : 0;
+    curvature = model_.sharing().sum(curvature);
     const double along = rho / curvature;
     for (std::size_t i = 0; i < size; ++i) {
       x[theta(static_cast<Node>(i))] += along * direction[i];
@@ -176,8 +183,10 @@ void SteadyHeat<dim>::fill(double time, std::span<double> state) {
   const std::vector<double> heat = heat_at(time);
   require_unwarmed(time, heat);
   std::vector<double> x(state.size(), 0.);
-  for (const body::Prescribed &p : held_)
-    x[p.unknown] = p.value.value(p.point, p.is_given() ? time : 0);
+  parallel::together([&] {
+    for (const body::Prescribed &p : held_)
+      x[p.unknown] = p.value.value(p.point, p.is_given() ? time : 0);
+  });
   if (factorised_) {
     std::vector<double> right_side(state.size(), 0.);
     for (Node node = 0; node < heat.size(); ++node)
