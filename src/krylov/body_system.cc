@@ -238,12 +238,14 @@ namespace {
 template <int dim>
 constexpr std::size_t tangent_size = 3 + 2 * dim *dim;  // node, projector, stiffness, crossing
 
+// Nodes by their numbers in the whole body.
 template <int dim>
-std::vector<double> numbers_of(const std::vector<NodeTangent<dim>> &contact) {
+std::vector<double> numbers_of(const std::vector<NodeTangent<dim>> &contact,
+                               const body::NodeSharing &sharing) {
   std::vector<double> numbers;
   numbers.reserve(contact.size() * tangent_size<dim>);
   for (const NodeTangent<dim> &at : contact) {
-    numbers.push_back(at.node);
+    numbers.push_back(sharing.number(at.node));
     numbers.insert(numbers.end(), at.projector.data(), at.projector.data() + dim * dim);
     numbers.insert(numbers.end(), at.stiffness.data(), at.stiffness.data() + dim * dim);
     numbers.insert(numbers.end(), at.crossing.data(), at.crossing.data() + 2);
@@ -252,11 +254,12 @@ std::vector<double> numbers_of(const std::vector<NodeTangent<dim>> &contact) {
 }
 
 template <int dim>
-std::vector<NodeTangent<dim>> contact_of(std::span<const double> numbers) {
+std::vector<NodeTangent<dim>> contact_of(std::span<const double> numbers,
+                                         const body::NodeSharing &sharing) {
   std::vector<NodeTangent<dim>> contact(numbers.size() / tangent_size<dim>);
   const double *next = numbers.data();
   for (NodeTangent<dim> &at : contact) {
-    at.node = static_cast<body::Node>(next[0]);
+    at.node = sharing.node(static_cast<body::Node>(next[0])).value();
     std::copy_n(next + 1, dim * dim, at.projector.data());
     std::copy_n(next + 1 + dim * dim, dim * dim, at.stiffness.data());
     std::copy_n(next + 1 + 2 * dim * dim, 2, at.crossing.data());
@@ -269,8 +272,9 @@ std::vector<NodeTangent<dim>> contact_of(std::span<const double> numbers) {
 
 template <int dim>
 void BodySystem<dim>::save(output::SavedNumbers &numbers) const {
-  numbers.put("preconditioned contact", numbers_of(parts_->preconditioned));
-  numbers.put("matrix' contact", numbers_of(parts_->matrices.contact()));
+  const body::NodeSharing &sharing = parts_->op.sharing();
+  numbers.put("preconditioned contact", numbers_of(parts_->preconditioned, sharing));
+  numbers.put("matrix' contact", numbers_of(parts_->matrices.contact(), sharing));
   numbers.put("preconditioners", {static_cast<double>(parts_->set_ups)});
 }
 
@@ -278,8 +282,9 @@ void BodySystem<dim>::save(output::SavedNumbers &numbers) const {
 template <int dim>
 void BodySystem<dim>::restore(const output::SavedNumbers &numbers, std::size_t contact_nodes) {
   const std::size_t size = contact_nodes * tangent_size<dim>;
-  set_contact(contact_of<dim>(numbers.get("preconditioned contact", size)));
-  set_contact(contact_of<dim>(numbers.get("matrix' contact", size)));
+  const body::NodeSharing &sharing = parts_->op.sharing();
+  set_contact(contact_of<dim>(numbers.get("preconditioned contact", size), sharing));
+  set_contact(contact_of<dim>(numbers.get("matrix' contact", size), sharing));
   parts_->set_ups = static_cast<int>(numbers.get("preconditioners", 1)[0]);
 }
 

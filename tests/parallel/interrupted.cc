@@ -73,6 +73,21 @@ TEST_P(Interrupted, KilledItGoesOnToTheSameBytesWhereTheSolutionIsIterative) {
   expect_same_bytes();
 }
 
+// Its nodes have other numbers on each rank, as the first ones by place, on the left, have not.
+TEST_P(Interrupted, KilledItGoesOnToTheSameBytesWhereItsContactIsBelow) {
+  interrupt(file_of(R"toml(
+mesh.box = { min = [0, 0], max = [0.02, 0.01], cells = [24, 12], cell = "quadrilateral" }
+material.library = "BaTiO3-Liu2014"
+time = { end = 1, steps = 12 }
+boundary = [ { on = "top", displacement = ["2e-7*t", "-5e-7*sin(4*t)"], potential = 0, temperature = 0 } ]
+contact = { on = "bottom", normal = "unilateral", friction = { law = "coulomb", coefficient = 0.3 } }
+output = { every = 5, checkpoint = "2 steps" }
+solver = { body = "iterative", linear_tolerance = 1e-13 }
+)toml"),
+            SIGKILL);
+  expect_same_bytes();
+}
+
 // MUMPS on several ranks adds in the order in which messages arrive: no two runs have the same last
 // bits.
 TEST_P(Interrupted, KilledItGoesOnToTheSameNumbersWithAFactorisation) {

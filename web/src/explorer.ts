@@ -5,49 +5,33 @@ import { Body, Look } from './body';
 import { margins } from './axes';
 import { canBeLogarithmic } from './colour_scale';
 import { differenceOf } from './difference';
-import { isSameMesh } from './same_mesh';
 import { Display } from './display';
 import { drawOverlay } from './overlay';
 import { keepCamera } from './view_camera';
 import { changed, keepControl } from './address';
 import { cutBody } from './cut_body';
 import { CutPlane } from './cut_plane';
-import { Camera, fitted } from './stage';
+import { Camera } from './stage';
 import { Frame } from './frame';
-import { Pen, Point } from './pen';
+import { Pen } from './pen';
+import { Pointing } from './pointing';
 import { Probing } from './probing';
 import { Caption, pixelSheet, vectorSheet } from './picture_sheet';
 import { fileName, save, saveButtons, saveText } from './save';
 import { vectorNames } from './vectors';
-import { Field, Result } from './results';
+import { Field } from './results';
 import { Picture } from './picture';
 import { ColourBar } from './colour_bar';
 import { colourRange, Range } from './colours';
 import { choice, element, tick } from './dom';
 import { HandRange } from './hand_range';
 import { isReached, notReached, stateAt, strayMoment } from './moments';
-import { drawRing, nextNode, Probed, snapped, tell } from './readout';
 import { Extremes, Found, peaks, shownRange, wholeRange } from './shown_range';
 import { fieldTitle, shown, symbols } from './numbers';
 import { Drawing } from './on_screen';
 import { camerasOf } from './overview';
 import { Timeline } from './timeline';
-
-interface View {
-  /** the body, and what of it is shown */
-  whole: Body;
-  result: Result;
-  body: Body;
-  picture: Picture;
-  camera: Camera;
-  controls: OrbitControls;
-  bar: ColourBar;
-  note: HTMLElement;
-  readout: HTMLElement;
-  drawing: Drawing;
-  /** of a difference of two: said of it */
-  less?: string;
-}
+import { View } from './view';
 
 const nothing = (): Extremes => ({ least: Infinity, greatest: -Infinity });
 
@@ -71,17 +55,16 @@ export class Explorer {
   /** typed, the same for all bodies; undefined: `stretch` times what suits each */
   private magnification?: number;
   private mesh: boolean;
-  private readonly views: View[];
+  readonly views: View[];
   private readonly componentChoice: ReturnType<typeof choice>;
   private readonly fieldChoice: ReturnType<typeof choice>;
   readonly display: Display;
-  private readonly probing: Probing;
+  readonly probing: Probing;
   private readonly cut: CutPlane;
   private readonly hand = new HandRange(() => this.refresh());
-  /** what the readouts tell of, and whether a ring marks it */
-  private probed?: Probed & { view: View; ring: boolean };
+  private readonly pointing = new Pointing(this);
 
-  constructor(bodies: Body[], private readonly timeline: Timeline) {
+  constructor(bodies: Body[], readonly timeline: Timeline) {
     const first = bodies[0].result;
     this.mesh = first.grid!.cells.length <= mostCellsWithMesh;
     this.field = first.field('potential')?.name ?? first.fields[0].name;
@@ -141,7 +124,7 @@ export class Explorer {
     for (const view of own) this.become(view, plane ? cutBody(view.whole, plane) : view.whole);
     for (const view of this.views.filter((v) => v.less !== undefined))
       this.become(view, plane ? differenceOf(own[0].body, own[1].body, view.whole)!.body : view.whole);
-    this.probed = undefined;
+    this.pointing.drop();
     this.probing.become(own.map((view) => view.body));
     this.refresh();
   }
@@ -205,22 +188,16 @@ export class Explorer {
       note: element('p', { class: 'note' }), readout: element('div', { class: 'readout', role: 'status' }),
       drawing: new Drawing(canvas, () => this.draw(view)),
     };
-    canvas.addEventListener('keydown', (event) => this.key(view, event));
-    canvas.addEventListener('pointermove', (event) => this.point(view, event));
-    // Before the controls, which turn and shift.
-    canvas.addEventListener('pointerdown', (event) => this.press(view, event), { capture: true });
-    canvas.addEventListener('pointerup', () => this.release(view));
-    // A finger that is lifted leaves as well: what it pointed at stays.
-    canvas.addEventListener('pointerleave', (event) => { if (event.pointerType === 'mouse') this.forget(); });
+    this.pointing.listen(view);
     return view;
   }
 
   private frame(view: View): HTMLElement {
-    const zoom = (by: number) => () => this.zoom(view, by);
+    const zoom = (by: number) => () => this.pointing.zoom(view, by);
     const buttons = element('div', { class: 'zoom' },
       element('button', { type: 'button', 'aria-label': 'closer', onclick: zoom(1.4) }, '+'),
       element('button', { type: 'button', 'aria-label': 'farther', onclick: zoom(1 / 1.4) }, '−'),
-      element('button', { type: 'button', 'aria-label': 'whole body', onclick: () => this.home(view) }, '⤢'));
+      element('button', { type: 'button', 'aria-label': 'whole body', onclick: () => this.pointing.home(view) }, '⤢'));
     return element('figure', { class: view.less === undefined ? 'view' : 'view difference', hidden: view.less !== undefined },
       element('div', { class: 'head' }, element('figcaption', {}, this.views.length > 1 && view.result.title), element('div', { class: 'tools' },
         saveButtons('the picture', [['PNG', () => this.savePixels(view)], ['SVG', () => this.saveVectors(view)]]), buttons)),
@@ -274,7 +251,7 @@ export class Explorer {
     return box;
   }
 
-  private fieldOf(view: View): Field | undefined { return view.result.field(this.field); }
+  fieldOf(view: View): Field | undefined { return view.result.field(this.field); }
 
   /** Of the views that share their colours. */
   private valuesOf(views: View[]): Found {
@@ -314,7 +291,7 @@ export class Explorer {
     return this.magnification ?? this.stretch * Math.min(...views.map(({ body }) => body.suitableScale));
   }
 
-  private look(view: View): Look {
+  look(view: View): Look {
     const field = this.fieldOf(view);
     const range = this.range(view);
     // A difference is there only where both runs are.
@@ -340,11 +317,8 @@ export class Explorer {
     const parts = [look.scale === 0 ? 'not deformed' : `displacement × ${shown(look.scale, 2)}`,
       origin && `values: ${origin}`, said, view.less, look.missing ?? strayMoment(view.result, this.timeline.time)];
     view.note.textContent = parts.filter((part) => part).join(' · ');
-    this.sayProbed(view);
-    const { canvas } = view.picture;
-    if (!this.isTold(view) || !this.probed!.ring || look.state < 0) return;
-    this.aim(view);
-    drawRing(canvas, view.body, this.probed!, view.camera.three, fitted(canvas)?.ratio ?? 1);
+    this.pointing.sayProbed(view);
+    this.pointing.mark(view, look);
   }
 
   private caption(view: View): Caption {
@@ -376,133 +350,4 @@ export class Explorer {
     return said;
   }
 
-  private home(view: View) {
-    view.camera.reset();
-    for (const other of this.besides(view)) {
-      other.controls.target.copy(view.camera.target);
-      other.controls.update();
-    }
-    this.refresh();
-  }
-
-  /** The views that move with one, itself among them. */
-  private besides(view: View): View[] { return this.views.filter((other) => other.camera === view.camera); }
-
-  private zoom(view: View, by: number) {
-    view.camera.three.zoom = Math.min(200, Math.max(0.5, view.camera.three.zoom * by));
-    this.refresh();
-  }
-
-  private key(view: View, event: KeyboardEvent) {
-    const turns: Record<string, [number, number]> = {
-      ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1],
-    };
-    if (event.key === '+' || event.key === '=') this.zoom(view, 1.2);
-    else if (event.key === '-') this.zoom(view, 1 / 1.2);
-    else if (event.key === '0') this.home(view);
-    else if (event.key === 'Escape' && this.probed) this.forget();
-    else if (turns[event.key] && event.shiftKey) this.step(view, ...turns[event.key]);
-    else if (turns[event.key]) this.move(view, ...turns[event.key]);
-    else return;
-    event.preventDefault();
-  }
-
-  // From node to node.
-  private step(view: View, across: number, up: number) {
-    if (stateAt(view.result, this.timeline.time) < 0) return;
-    this.aim(view);
-    const from = this.probed?.view === view ? this.probed.node : undefined;
-    const next = nextNode(view.body, from, across, up, view.camera.three);
-    if (!next) return;
-    this.probed = { ...next, view, ring: true };
-    this.refresh();
-  }
-
-  // Turns a solid body, shifts a plane one.
-  private move(view: View, across: number, up: number) {
-    const camera = view.camera.three;
-    const { target } = view.controls;
-    const views = this.besides(view);
-    if (view.camera.dimension === 3) {
-      const place = new THREE.Spherical().setFromVector3(
-        camera.position.clone().sub(target).applyQuaternion(turned));
-      place.theta -= 0.15 * across;
-      place.phi = Math.min(Math.PI - 0.05, Math.max(0.05, place.phi - 0.15 * up));
-      camera.position.setFromSpherical(place).applyQuaternion(turned.clone().invert()).add(target);
-      camera.lookAt(target);
-    } else {
-      const shift = new THREE.Vector3(-0.08 * across, -0.08 * up, 0).divideScalar(camera.zoom);
-      camera.position.add(shift);
-      for (const other of views) other.controls.target.add(shift);
-    }
-    for (const other of views) other.controls.update();
-    this.refresh();
-  }
-
-  /** Brings camera and body to what the picture of a view shows. */
-  private aim(view: View) {
-    const frame = view.picture.canvas.getBoundingClientRect(), { state, scale } = this.look(view);
-    view.camera.aim(frame.width, frame.height, 1);
-    view.body.place(state, scale);
-  }
-
-  private forget() {
-    const ring = this.probed?.ring;
-    this.probed = undefined;
-    for (const view of this.views) this.sayProbed(view);
-    if (ring) this.refresh();
-  }
-
-  /** Where the pointer is, in normalised device coordinates, and what of the body lies there. */
-  private under(view: View, event: PointerEvent): { at: Point; near?: Probed } {
-    const { state, scale } = this.look(view);
-    const frame = view.picture.canvas.getBoundingClientRect();
-    const x = ((event.clientX - frame.left) / frame.width) * 2 - 1;
-    const y = 1 - ((event.clientY - frame.top) / frame.height) * 2;
-    if (state < 0) return { at: [x, y] };
-    view.camera.aim(frame.width, frame.height, 1);
-    view.body.place(state, scale);
-    const hit = view.body.pick(x, y, view.camera.three);
-    return { at: [x, y], near: hit && snapped(view.body, hit, x, y, frame, view.camera.three) };
-  }
-
-  private press(view: View, event: PointerEvent) {
-    const { at, near } = this.under(view, event);
-    const taken = this.probing.press(view.body, at, near?.hit);
-    view.controls.enabled = !taken;
-    if (taken) view.picture.canvas.setPointerCapture(event.pointerId);
-    this.point(view, event);
-  }
-
-  private release(view: View) {
-    view.controls.enabled = true;
-    const frame = view.picture.canvas.getBoundingClientRect();
-    view.camera.aim(frame.width, frame.height, 1);
-    this.probing.release(view.camera);
-  }
-
-  private point(view: View, event: PointerEvent) {
-    const { at, near } = this.under(view, event);
-    this.probing.move(at);
-    const ring = this.probed?.ring;
-    this.probed = near && { ...near, view, ring: event.pointerType !== 'mouse' };
-    if (ring || this.probed?.ring) this.refresh();
-    else for (const other of this.views) this.sayProbed(other);
-  }
-
-  /** Whether what is pointed at is a place of this view's body too. */
-  private isTold(view: View): boolean {
-    return !!this.probed && (view === this.probed.view || isSameMesh(view.body, this.probed.view.body));
-  }
-
-  // Of the moment that is shown, so again whenever that changes.
-  private sayProbed(view: View) {
-    if (this.isTold(view))
-      return tell(view.readout, view.body, this.probed!, this.timeline.time, this.fieldOf(view), this.component);
-    view.readout.replaceChildren();
-    delete view.readout.dataset.node;
-  }
 }
-
-// OrbitControls measures angles about y; the body's up is z.
-const turned = new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 0, 1), new THREE.Vector3(0, 1, 0));
