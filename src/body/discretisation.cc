@@ -185,6 +185,7 @@ template <int dim>
 void Discretisation<dim>::Parts::share_nodes(const std::vector<Node> &known) {
   sharing = NodeSharing(sharing, touched(), known);
   std::vector<Vector3> here;
+  here.reserve(sharing.n_nodes());
   for (Node node = 0; node < sharing.n_nodes(); ++node)
     here.push_back(points[sharing.number(node)]);
   points = std::move(here);
@@ -202,7 +203,9 @@ void Discretisation<dim>::Parts::find_dofs_here() {
   }
   std::sort(dofs_here.begin(), dofs_here.end());
   dofs_here.erase(std::unique(dofs_here.begin(), dofs_here.end()), dofs_here.end());
+  dofs_here.shrink_to_fit();
   std::vector<Node> nodes;
+  nodes.reserve(dofs_here.size());
   for (const auto dof : dofs_here)
     nodes.push_back(*sharing.node(nodes_by_dof[dof]));
   nodes_by_dof = std::move(nodes);

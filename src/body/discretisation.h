@@ -97,8 +97,8 @@ class Discretisation {
   ~Discretisation();
   Discretisation(Discretisation &&) noexcept;
 
-  /// From now on a rank has the nodes of its cells and these alone, which are known to all ranks,
-  /// and numbers them anew. All ranks together.
+  /// From now on a rank has the nodes of its cells, `known` (alike on all ranks) and node 0, and
+  /// numbers them anew. All ranks together.
   void share_nodes(const std::vector<Node> &known);
   const NodeSharing &sharing() const;
 

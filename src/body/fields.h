@@ -13,7 +13,7 @@ struct Fields {
   static constexpr int potential = dim, temperature = dim + 1, count = dim + 2;
 };
 
-/// Index of an unknown in vectors over the whole body, `node * (dim + 2) + component`.
+/// Index of an unknown in vectors over the body, `node * (dim + 2) + component`.
 template <int dim>
 constexpr std::size_t unknown(Node node, int component) {
   return std::size_t{node} * Fields<dim>::count + component;

@@ -301,7 +301,7 @@ std::vector<Interpolation> on_all_ranks(const Discretisation<dim> &body,
         nearest = other;
     best[i] = unpacked(std::span(all).subspan(nearest * size, size));
     if (!body.sharing().is_whole() && nearest / places.size() != rank)
-      best[i].nodes.clear();
+      best[i] = {best[i].place, {}, {}, best[i].distance};
   }
   return best;
 }

@@ -9,7 +9,7 @@ namespace tourmaline::body {
 
 /// A place of the body, where a field is the sum of its values at `nodes` times `weights`: the
 /// shape functions of the cell that the place lies in. Where nodes are shared out to the ranks only
-/// one rank has them; its value is the sum over the ranks.
+/// one rank has them, and without nodes the value is 0: the place's is the sum over the ranks.
 struct Interpolation {
   Vector3 place{};  ///< [m]
   std::vector<Node> nodes;

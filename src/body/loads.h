@@ -84,7 +84,7 @@ class Loads {
   Loads(const Discretisation<dim> &body, const casefile::Case &asked, double step,
         double reference_temperature, const std::vector<SurfaceExchange> &exchanges = {});
 
-  /// Adds all loads at time t, of all ranks; one entry for each unknown of the body.
+  /// Adds all loads at time t, of all ranks; one entry for each unknown of this rank.
   void integrate(double t, std::vector<double> &right_side) const;
 
   const std::vector<Load> &each() const { return loads_; }

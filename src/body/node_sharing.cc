@@ -29,13 +29,13 @@ std::vector<int> owners(const std::vector<bool> &touched) {
 }  // namespace
 
 NodeSharing::NodeSharing(const std::vector<bool> &touched)
-    : n_all_(touched.size()), owner_(owners(touched)) {}
+    : rank_(parallel::rank()), n_all_(touched.size()), owner_(owners(touched)) {}
 
 NodeSharing::NodeSharing(const NodeSharing &whole, const std::vector<bool> &touched,
                          const std::vector<Node> &known)
-    : n_all_(whole.n_all_) {
+    : rank_(whole.rank_), n_all_(whole.n_all_) {
   std::vector<bool> is_known(n_all_, false);
-  is_known[0] = true;  // so that no rank is without a node
+  is_known[0] = true;  // so that no rank is without a node, and the first one is the body's
   for (const Node node : known)
     is_known[node] = true;
   for (Node node = 0; node < n_all_; ++node) {
@@ -65,7 +65,7 @@ void NodeSharing::find_neighbours(const std::vector<bool> &touched) {
   auto next = all.begin();
   for (int rank = 0; rank < static_cast<int>(sizes.size()); ++rank) {
     const auto begin = std::exchange(next, next + sizes[static_cast<std::size_t>(rank)]);
-    if (rank == parallel::rank())
+    if (rank == rank_)
       continue;
     Neighbour with{rank, {}, {}};
     for (const Node node : nodes({begin, next}))
@@ -76,10 +76,6 @@ void NodeSharing::find_neighbours(const std::vector<bool> &touched) {
     if (!with.own.empty() || !with.others.empty())
       neighbours_.push_back(std::move(with));
   }
-}
-
-bool NodeSharing::is_own(Node node) const {
-  return parallel::n_ranks() == 1 || owner_[node] == parallel::rank();
 }
 
 std::vector<Node> NodeSharing::numbers(std::vector<Node> nodes) const {
@@ -237,7 +233,7 @@ double NodeSharing::largest(double value) const {
   return value;
 }
 
-std::vector<double> NodeSharing::on_first(const std::vector<double> &part) const {
+std::vector<double> NodeSharing::on_first(std::vector<double> part) const {
   if (is_whole())
     return part;
   const std::size_t of_node = part.size() / n_nodes();

@@ -17,8 +17,8 @@ using Node = unsigned int;
 /// rank's part: each entry is that of the whole body, on every rank that has it, and what is summed
 /// over nodes is summed over those that count, and then over the ranks.
 ///
-/// A node belongs to the first rank whose cells touch it. `Node` numbers this rank's nodes, in the
-/// order of their numbers in the whole body.
+/// A node belongs to the first rank whose cells touch it. Node 0 is the same on all ranks. `Node`
+/// numbers this rank's nodes, in the order of their numbers in the whole body.
 class NodeSharing {
  public:
   NodeSharing() = default;
@@ -41,7 +41,7 @@ class NodeSharing {
   /// Of nodes by their numbers those that this rank has.
   std::vector<Node> nodes(const std::vector<Node> &numbers) const;
   int rank_of(Node node) const { return owner_[node]; }
-  bool is_own(Node node) const;
+  bool is_own(Node node) const { return owner_[node] == rank_; }
   /// Whether this rank counts the node in sums over nodes.
   bool counts(Node node) const { return is_whole() || is_own(node); }
 
@@ -62,7 +62,7 @@ class NodeSharing {
 
   /// The vector of the whole body of which this is each rank's part, on the first rank; on the
   /// others, if it is shared out, it is empty.
-  std::vector<double> on_first(const std::vector<double> &part) const;
+  std::vector<double> on_first(std::vector<double> part) const;
   /// This rank's part of a vector of the whole body.
   std::vector<double> part_of(std::vector<double> whole) const;
 
@@ -82,6 +82,7 @@ class NodeSharing {
                   const std::function<bool(Node)> &is_share) const;
   void take_whole_from_owners(std::span<double> values) const;
 
+  int rank_ = 0;  // this one
   std::size_t n_all_ = 0;
   std::vector<int> owner_;             // by node
   std::vector<Node> number_;           // by node; empty: whole

@@ -66,15 +66,15 @@ Recovery<dim>::Recovery(const Discretisation<dim> &body)
     body.for_each_cell_sampled([&](const Quadrature<dim> &cell) {
       samples_.insert(samples_.end(), cell.points.begin(), cell.points.end());
     });
-  number_patches();
-  share_patches({});
+  const PatchesHere here = number_patches();
+  share_patches(here, {});
   fit();
-  find_neighbours();
+  find_neighbours(here);
 }
 
 // Of all corners of all ranks' cells, in the order of their regional nodes in the whole body.
 template <int dim>
-void Recovery<dim>::number_patches() {
+typename Recovery<dim>::PatchesHere Recovery<dim>::number_patches() const {
   const std::size_t n_corners = shares_.front().size(), n_nodes = shares_.size();
   std::vector<double> is_corner(nodes_.size_of_whole(), 0);
   for (std::size_t i = 0; i < numbers_.size(); ++i)
@@ -85,24 +85,25 @@ void Recovery<dim>::number_patches() {
   Node n_patches = 0;
   for (std::size_t i = 0; i < is_corner.size(); ++i)
     patch[i] = is_corner[i] > 0 ? n_patches++ : 0;
-  touched_.resize(n_patches, false);
+  PatchesHere here{{}, std::vector<bool>(n_patches, false)};
   for (std::size_t i = 0; i < numbers_.size(); ++i)
     if (i % n_nodes < n_corners) {
-      patches_in_whole_.push_back(patch[nodes_.number_in_whole(numbers_[i])]);
-      touched_[patches_in_whole_.back()] = true;
+      here.by_corner.push_back(patch[nodes_.number_in_whole(numbers_[i])]);
+      here.touched[here.by_corner.back()] = true;
     }
+  return here;
 }
 
 template <int dim>
-void Recovery<dim>::share_patches(const std::vector<Node> &known) {
-  const NodeSharing whole(touched_);
-  sharing_ = body_.sharing().is_whole() ? whole : NodeSharing(whole, touched_, known);
+void Recovery<dim>::share_patches(const PatchesHere &here, const std::vector<Node> &known) {
+  const NodeSharing whole(here.touched);
+  sharing_ = body_.sharing().is_whole() ? whole : NodeSharing(whole, here.touched, known);
   patches_.assign(sharing_.n_nodes(), {});
   corner_of_.assign(sharing_.n_nodes(), none);
   patch_of_.clear();
   const std::size_t n_corners = shares_.front().size(), n_nodes = shares_.size();
-  for (std::size_t i = 0; i < patches_in_whole_.size(); ++i) {
-    patch_of_.push_back(*sharing_.node(patches_in_whole_[i]));
+  for (std::size_t i = 0; i < here.by_corner.size(); ++i) {
+    patch_of_.push_back(*sharing_.node(here.by_corner[i]));
     corner_of_[patch_of_.back()] = numbers_[i / n_corners * n_nodes + i % n_corners];
   }
 }
@@ -230,7 +231,7 @@ std::vector<std::uint32_t> Recovery<dim>::pairs_with_neighbours(bool second,
 }
 
 template <int dim>
-void Recovery<dim>::find_neighbours() {
+void Recovery<dim>::find_neighbours(const PatchesHere &here) {
   Neighbours all;  // by numbers in the whole body
   for (const bool second : {false, true}) {
     const std::vector<std::uint32_t> pairs = pairs_with_neighbours(second, all);
@@ -242,19 +243,19 @@ void Recovery<dim>::find_neighbours() {
     }
   }
   if (!sharing_.is_whole())
-    know(all);
+    know(here, all);
   for (const auto &[patch, others] : all)
-    if (const auto here = sharing_.node(patch))
-      neighbours_[*here] = sharing_.nodes(others);
+    if (const auto own = sharing_.node(patch))
+      neighbours_[*own] = sharing_.nodes(others);
 }
 
 // From now on every rank has all patches that serve others.
 template <int dim>
-void Recovery<dim>::know(const Neighbours &all) {
+void Recovery<dim>::know(const PatchesHere &here, const Neighbours &all) {
   std::set<Node> serving;
   for (const auto &[patch, others] : all)
     serving.insert(others.begin(), others.end());
-  share_patches({serving.begin(), serving.end()});
+  share_patches(here, {serving.begin(), serving.end()});
   fit();
 }
 

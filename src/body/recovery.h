@@ -50,14 +50,20 @@ class Recovery {
     bool surrounds = false;  ///< its corner
   };
 
-  void number_patches();
-  void share_patches(const std::vector<Node> &known);
+  /// Of all ranks' patches those at this rank's cells: by corner of these, and whether one is.
+  struct PatchesHere {
+    std::vector<Node> by_corner;
+    std::vector<bool> touched;
+  };
+
+  PatchesHere number_patches() const;
+  void share_patches(const PatchesHere &here, const std::vector<Node> &known);
   void fit();
   void measure_patches();
   void solve_normal_equations();
-  void find_neighbours();
+  void find_neighbours(const PatchesHere &here);
   std::vector<std::uint32_t> pairs_with_neighbours(bool second, const Neighbours &first) const;
-  void know(const Neighbours &all);
+  void know(const PatchesHere &here, const Neighbours &all);
   Powers powers(std::uint32_t patch, const Place &place) const;
   Eigen::Map<const Eigen::MatrixXd> inverse(std::uint32_t patch) const;
   std::span<const std::uint32_t> patches_of(std::size_t cell) const;
@@ -81,9 +87,7 @@ class Recovery {
   // Patches are shared out as nodes are: a rank has those of its cells' corners and those that all
   // know, as they serve corners that their samples do not surround.
   NodeSharing sharing_;
-  std::vector<bool> touched_;             // of all patches those at this rank's cells
-  std::vector<Node> patches_in_whole_;    // patches of this rank's cells, by corner
-  std::vector<std::uint32_t> patch_of_;   // the same among those of this rank
+  std::vector<std::uint32_t> patch_of_;   // patches of this rank's cells, by corner
   std::vector<std::uint32_t> corner_of_;  // regional node of each patch; none: not at its cells
   std::vector<Patch> patches_;
   std::vector<double> inverses_;  // of the patches' normal equations

@@ -54,7 +54,7 @@ bool has_hardly_a_share(const body::Discretisation<dim> &body, const body::Quadr
   return own < hardly * whole;
 }
 
-// Every rank has all nodes, and of their integrals what its facets contribute.
+// Every rank has all nodes of the contact, and of their integrals what its facets contribute.
 template <int dim>
 void sum_over_ranks(std::map<body::Node, Integrals<dim>> &by_node) {
   std::vector<double> plain;

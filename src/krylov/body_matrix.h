@@ -4,8 +4,8 @@
 
 #include <Eigen/Dense>
 #include <array>
-#include <map>
 #include <span>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -84,10 +84,10 @@ class BodyMatrix {
   double step_;
   std::vector<bool> is_prescribed_;
   std::vector<NodeTangent<dim>> contact_;
-  std::vector<NodeCoupling<dim>> coupling_;   // as `contact_`, or empty
-  std::vector<int> contact_index_;            // by node; -1: not at the contact
-  std::map<PetscInt, int> contact_of_row_;    // the same by the rows of contact nodes alone
-  std::vector<ContactBlock> contact_blocks_;  // in this rank's rows
+  std::vector<NodeCoupling<dim>> coupling_;           // as `contact_`, or empty
+  std::vector<int> contact_index_;                    // by node; -1: not at the contact
+  std::unordered_map<PetscInt, int> contact_of_row_;  // the same by the rows of contact nodes alone
+  std::vector<ContactBlock> contact_blocks_;          // in this rank's rows
   NodeRows rows_;
   std::vector<std::pair<PetscInt, Block>> held_;  // own rows, from the first one on, where Q != 1
   std::array<double, n> scale_;

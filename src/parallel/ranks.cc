@@ -215,7 +215,7 @@ void on_first(const std::function<void()> &work) {
 }
 
 bool all_come(std::chrono::milliseconds patience) {
-  constexpr int tag = 32767;  // the largest that every MPI has; nothing else here sends to a tag
+  constexpr int tag = 32767;  // the largest that every MPI has; nothing else here sends to this tag
   std::vector<MPI_Request> requests;
   for (int other = 0; other < n_ranks(); ++other)
     if (other != rank()) {

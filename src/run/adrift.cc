@@ -38,7 +38,7 @@ void Adrift<dim>::require_near(int n, std::span<const double> state) const {
       of_node += std::pow(state[body::unknown<dim>(node, c)], 2);
     square = std::max(square, of_node);
   }
-  const double displacement = std::sqrt(model_.body.sharing().largest(square));
+  const double displacement = std::sqrt(model_.sharing().largest(square));
   if (displacement <= farthest * output::largest_extent(model_.body.bounds()))
     return;
   throw SolveError(fmt::format(

@@ -143,15 +143,21 @@ solve::StepOutcome ChosenRoute<dim>::advance(int n, std::span<const double> righ
 // worth all the memory that there is.
 template <int dim>
 void ChosenRoute<dim>::factorise_after_all(int n, const SolveError &error) {
-  const Eigen::VectorXd slip = route_->accumulated_slip();
-  route_.reset();
+  if (!model_.sharing().is_whole())
+    throw SolveError(fmt::format(
+        "{} There was no memory for a factorisation when the run began, and the nodes of the body "
+        "have been shared out to the ranks since; take solver.body = \"direct\"",
+        error.what()));
+  // With what the iterative route gives back; until then that may have to take shorter steps.
   const double needed = factorised_memory(model_.asked),
-               available = parallel::available_memory().bytes;
-  if (parallel::from_first(needed > available) != 0 || !model_.sharing().is_whole())
+               available = parallel::available_memory().bytes + iterative_memory(model_.asked);
+  if (parallel::from_first(needed > available) != 0)
     throw SolveError(
         fmt::format("{} A factorisation needs about {:.3g} GiB of memory, and {:.3g} "
                     "GiB are available",
                     error.what(), needed / gibibyte, available / gibibyte));
+  const Eigen::VectorXd slip = route_->accumulated_slip();
+  route_.reset();
   iterative_ = false;
   direct_from_ = n;
   progress_.stage("factorisation");

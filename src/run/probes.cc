@@ -122,16 +122,19 @@ output::ProbeRows Probes<dim>::rows_of(const Places &probe, std::span<const doub
       components.push_back(c);
       rows.columns.push_back(column);
     }
+  std::vector<double> values;  // place by place
+  for (const body::Interpolation &place : probe.fields)
+    for (const int c : components)
+      values.push_back(place.template value<dim>(state, c));
+  model_.sharing().sum(values);
+  auto next = values.begin();
   for (std::size_t i = 0; i < probe.at.size(); ++i) {
     std::vector<double> &row = rows.rows.emplace_back();
     if (probe.is_line)
       row.push_back(probe.along(i));
     row.insert(row.end(), probe.at[i].begin(), probe.at[i].begin() + dim);
-    std::vector<double> values;
-    for (const int c : components)
-      values.push_back(probe.fields[i].template value<dim>(state, c));
-    model_.sharing().sum(values);
-    row.insert(row.end(), values.begin(), values.end());
+    row.insert(row.end(), next, next + static_cast<std::ptrdiff_t>(components.size()));
+    next += static_cast<std::ptrdiff_t>(components.size());
   }
   return rows;
 }

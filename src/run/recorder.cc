@@ -33,6 +33,13 @@ std::vector<double> flat(const std::vector<Vector3> &points) {
   return coordinates;
 }
 
+std::vector<Vector3> in_rows(const std::vector<double> &coordinates) {
+  std::vector<Vector3> points;
+  for (std::size_t i = 0; i < coordinates.size(); i += 3)
+    points.push_back({coordinates[i], coordinates[i + 1], coordinates[i + 2]});
+  return points;
+}
+
 template <int dim>
 Vector<dim> displacement(std::span<const double> state, body::Node node) {
   return Eigen::Map<const Vector<dim>>(&state[body::unknown<dim>(node, 0)]);
@@ -168,16 +175,18 @@ template <int dim>
 void Recorder<dim>::finish(std::span<const double> state) {
   Stopwatch watch;
   const body::NodeSharing &sharing = model_.sharing();
-  const std::vector<double> unknowns = sharing.on_first({state.begin(), state.end()}),
-                            places = sharing.on_first(flat(model_.body.points()));
+  std::vector<double> unknowns;
+  std::vector<Vector3> places;
+  if (!sharing.is_whole()) {
+    unknowns = sharing.on_first({state.begin(), state.end()});
+    places = in_rows(sharing.on_first(flat(model_.body.points())));
+  }
   parallel::on_first([&] {
     folder_.finish();  // first, so that a full disk costs no row of the tables
     std::vector<body::Node> all(sharing.n_all());
     std::iota(all.begin(), all.end(), body::Node{0});
-    std::vector<Vector3> points;
-    for (std::size_t i = 0; i < places.size(); i += 3)
-      points.push_back({places[i], places[i + 1], places[i + 2]});
-    folder_.put_nodes(points, point_fields(unknowns, all));
+    folder_.put_nodes(places.empty() ? model_.body.points() : places,
+                      point_fields(unknowns.empty() ? state : unknowns, all));
   });
   seconds_ += watch.lap();
 }

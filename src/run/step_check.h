@@ -11,8 +11,7 @@ namespace tourmaline::run {
 
 /// The last look at a step's numbers before any of them is written: NaN and infinity are never
 /// results. Every check throws SolveError, with field, place, step and time, why, and what to try.
-/// Vectors that are whole on every rank are checked alike on every rank; a rank's own cells inside
-/// `parallel::together`.
+/// What a rank alone may have, nodes and cells, is checked inside `parallel::together`.
 class StepCheck {
  public:
   StepCheck(int step, double time) : step_(step), time_(time) {}

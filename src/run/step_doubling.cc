@@ -117,7 +117,7 @@ double StepDoubling<dim>::error(const TakenStep &whole, const TakenStep &halves,
 
 template <int dim>
 double StepDoubling<dim>::field_error(const TakenStep &whole, const TakenStep &halves) {
-  const body::NodeSharing &sharing = model_.body.sharing();
+  const body::NodeSharing &sharing = model_.sharing();
   for (const TakenStep *step : {&whole, &halves}) {
     const body::FieldSizes changes =
         body::field_sizes<dim>(sharing, since(step->state, initial_), scale_);

@@ -280,9 +280,9 @@ template <int dim>
 void TimeLoop<dim>::save() {
   output::Checkpoint checkpoint;
   if (parallel::is_first() || !model_.sharing().is_whole())
-    checkpoint.numbers = numbers();
+    checkpoint.numbers = saved_numbers();
   checkpoint.numbers.for_each_field(
-      [&](std::vector<double> &field) { field = model_.sharing().on_first(field); });
+      [&](std::vector<double> &field) { field = model_.sharing().on_first(std::move(field)); });
   parallel::on_first([&] {
     checkpoint.program = program_version();
     checkpoint.inputs = inputs_;
@@ -294,7 +294,7 @@ void TimeLoop<dim>::save() {
 }
 
 template <int dim>
-output::SavedNumbers TimeLoop<dim>::numbers() const {
+output::SavedNumbers TimeLoop<dim>::saved_numbers() const {
   output::SavedNumbers numbers;
   evolution_.save(numbers);
   if (chosen_)

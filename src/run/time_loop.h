@@ -53,7 +53,7 @@ class TimeLoop {
   output::HistoryRow record(const TakenStep &step);
   void pause(const Schedule::Pause &pause);
   void save();
-  output::SavedNumbers numbers() const;
+  output::SavedNumbers saved_numbers() const;
   void restore();
   output::Summary close_tables(Schedule &schedule);
   void put_report();

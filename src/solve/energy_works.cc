@@ -91,6 +91,13 @@ void add_heat(const BalanceStep<dim> &step, std::size_t i, double per_watt, Ener
   works.by_scheme[2] += per_watt * (step.now.unknowns[i] - step.working(i)) * step.conducted[node];
 }
 
+// Of what stands at the unknowns.
+void sum_over_ranks(const body::NodeSharing &sharing, EnergyWorks &works) {
+  for (double *work : {&works.load, &works.electric, &works.thermal, &works.conduction,
+                       &works.by_scheme[0], &works.by_scheme[2]})
+    *work = sharing.sum(*work);
+}
+
 }  // namespace
 
 ContactWorks &ContactWorks::operator+=(const ContactWorks &other) {
@@ -102,17 +109,6 @@ ContactWorks &ContactWorks::operator+=(const ContactWorks &other) {
   dissipated += other.dissipated;
   return *this;
 }
-
-namespace {
-
-// Of what stands at the unknowns.
-void sum_over_ranks(const body::NodeSharing &sharing, EnergyWorks &works) {
-  for (double *work : {&works.load, &works.electric, &works.thermal, &works.conduction,
-                       &works.by_scheme[0], &works.by_scheme[2]})
-    *work = sharing.sum(*work);
-}
-
-}  // namespace
 
 template <int dim>
 EnergyWorks energy_works(const Model<dim> &model, const BalanceStep<dim> &step,

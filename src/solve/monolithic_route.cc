@@ -383,7 +383,7 @@ Accuracy MonolithicRoute<dim>::accuracy(std::span<const double> right_side,
       residual.body[body::unknown<dim>(model_.interface[n].node, c)] -=
           outcome.contact_forces[dim * static_cast<Index>(n) + c];
   return {so_far_.backward_error,
-          body::relative_size<dim>(model_.body.sharing(), system_.increment(residual).body, state,
+          body::relative_size<dim>(model_.sharing(), system_.increment(residual).body, state,
                                    system_.field_scales())};
 }
 
