@@ -1,6 +1,7 @@
 #include "krylov/node_rows.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <numeric>
 
 #include "parallel/ranks.h"
@@ -17,7 +18,8 @@ NodeRows::NodeRows(const body::NodeSharing &sharing)
       own_.push_back(node);
   const std::vector<std::uint32_t> counts =
       parallel::joined(std::vector{static_cast<std::uint32_t>(own_.size())});
-  begin_ = std::accumulate(counts.begin(), counts.begin() + parallel::rank(), PetscInt{0});
+  begin_ = static_cast<PetscInt>(
+      std::accumulate(counts.begin(), counts.begin() + parallel::rank(), std::uint32_t{0}));
   std::vector<double> rows(row_of_.size(), 0.);
   for (std::size_t i = 0; i < own_.size(); ++i)
     rows[own_[i]] = begin_ + static_cast<double>(i);
