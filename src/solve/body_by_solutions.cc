@@ -378,14 +378,6 @@ VectorXd BodyBySolutions<dim>::without_contact() {
   return moved ? moved->x : rest;
 }
 
-// Where nothing holds a body descent has no end. Bodies that their contact holds take some tens of
-// linear systems a step.
-template <int dim>
-bool BodyBySolutions<dim>::is_spent() const {
-  constexpr int most = 1000;
-  return is_leaning_ && body_.systems_in_step() > most;
-}
-
 template <int dim>
 VectorXd BodyBySolutions<dim>::direction(const std::vector<bool> &is_smooth,
                                          const std::vector<TangentMatrix> &hessian,

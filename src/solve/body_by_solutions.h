@@ -81,7 +81,6 @@ class BodyBySolutions : public ContactBody, private SlipResponse {
                             const Eigen::VectorXd &descent) override;
   double force_size() const override { return size_; }
   double force_accuracy() const override { return model_.asked.solver.linear_tolerance * size_; }
-  bool is_spent() const override;
 
   Eigen::VectorXd increments_of(std::span<const double> state) const;
   Eigen::VectorXd possible(Eigen::VectorXd d) const;

@@ -49,7 +49,6 @@ void BodyEquations<dim>::begin_step(std::span<const double> right_side, std::spa
   state_ = state;
   correction_ = std::numeric_limits<double>::infinity();
   corrections_fall_ = true;
-  systems_ = 0;
   forget_lack();
   forget_increment();
   first_nodal_forces_ = nodal_forces();
@@ -169,7 +168,6 @@ bool BodyEquations<dim>::solve(std::span<const double> free_residual, double red
   if (is_refined())
     reduction = of_a_correction;
   const krylov::Solved solved = system_.solve(free_residual, reduction, increment_);
-  ++systems_;
   count_.krylov_iterations += solved.iterations;
   count_.krylov_largest = std::max(count_.krylov_largest, solved.iterations);
   count_.substitution_seconds += watch.lap();

@@ -62,7 +62,6 @@ class BodyEquations {
   /// Solves the linear system, its residual taken down by `reduction`. False where the iteration
   /// did not come as far.
   bool solve(std::span<const double> free_residual, double reduction);
-  int systems_in_step() const { return systems_; }  ///< that were solved since it began
   /// What it has found.
   const std::vector<double> &increment() const { return increment_; }
   /// The same, and adds it to the state.
@@ -103,7 +102,6 @@ class BodyEquations {
   std::span<double> state_;
   NodalForces first_nodal_forces_;
   std::array<double, 3> first_round_off_{};
-  int systems_ = 0;
   double lack_ = 0;
   double correction_ = 0;
   bool corrections_fall_ = true;

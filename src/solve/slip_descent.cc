@@ -96,7 +96,7 @@ VectorXd Descent::proximal_point(double tolerance) const {
 // A resists the change less than that does. A change that is too stiff is tried with a stiffer one.
 bool Descent::proximal_step(double tolerance) {
   constexpr int most_tries = 40;  // a factor of 2^40 in the stiffness
-  for (int k = 0; k < most_tries && !response_.is_spent(); ++k) {
+  for (int k = 0; k < most_tries; ++k) {
     const VectorXd next = proximal_point(tolerance);
     const VectorXd change = next - d_;
     if (change.isZero(0))
@@ -277,8 +277,7 @@ InterfaceSolution minimise(const SlipProgramme &programme, SlipResponse &respons
   };
   double least = residual();
   Creep creep(settings.patience);
-  while (least > allowed && solved < settings.max_iterations && !response.is_spent() &&
-         !creep.see(least) &&
+  while (least > allowed && solved < settings.max_iterations && !creep.see(least) &&
          (least > response.force_accuracy() || solved - last_gain < patience)) {
     descent.proximal_step(settings.tolerance);
     bool more = true;

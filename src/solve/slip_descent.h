@@ -29,9 +29,6 @@ class SlipResponse {
   /// Error that these forces have at most [N]. A residual that is no larger and falls no more is
   /// taken for zero.
   virtual double force_accuracy() const = 0;
-
-  /// Whether so many answers were given that no more are worth their cost.
-  virtual bool is_spent() const { return false; }
 };
 
 /// The programme of `InterfaceProgramme` with A known by its answers alone.
