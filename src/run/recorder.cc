@@ -26,14 +26,14 @@ Vector3 in_space(const Vector<dim> &v) {
   return plain;
 }
 
-std::vector<double> flat(const std::vector<Vector3> &points) {
+std::vector<double> coordinates_of(const std::vector<Vector3> &points) {
   std::vector<double> coordinates;
   for (const Vector3 &point : points)
     coordinates.insert(coordinates.end(), point.begin(), point.end());
   return coordinates;
 }
 
-std::vector<Vector3> in_rows(const std::vector<double> &coordinates) {
+std::vector<Vector3> places_of(const std::vector<double> &coordinates) {
   std::vector<Vector3> points;
   for (std::size_t i = 0; i < coordinates.size(); i += 3)
     points.push_back({coordinates[i], coordinates[i + 1], coordinates[i + 2]});
@@ -179,7 +179,7 @@ void Recorder<dim>::finish(std::span<const double> state) {
   std::vector<Vector3> places;
   if (!sharing.is_whole()) {
     unknowns = sharing.on_first({state.begin(), state.end()});
-    places = in_rows(sharing.on_first(flat(model_.body.points())));
+    places = places_of(sharing.on_first(coordinates_of(model_.body.points())));
   }
   parallel::on_first([&] {
     folder_.finish();  // first, so that a full disk costs no row of the tables
