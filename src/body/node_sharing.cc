@@ -101,47 +101,34 @@ std::vector<Node> NodeSharing::nodes(const std::vector<Node> &numbers) const {
   return here;
 }
 
-namespace {
-
-// With the entries of `out`, for as many of `in`.
-parallel::Message message(int rank, const std::vector<Node> &out, const std::vector<Node> &in,
-                          std::span<const double> values, std::size_t of_node) {
-  parallel::Message made{rank, {}, std::vector<double>(of_node * in.size())};
-  made.sent.reserve(of_node * out.size());
-  for (const Node node : out)
-    made.sent.insert(made.sent.end(), &values[of_node * node], &values[of_node * node] + of_node);
-  return made;
-}
-
-}  // namespace
-
-// To those that nodes belong to, who put what comes together with `two` in the order of the ranks.
-void NodeSharing::send_to_owners(std::span<double> values, Two two) const {
+// Of each neighbour the entries of `sent` go there, and those that come are put with `two` to the
+// entries of `received`, in the order of the ranks.
+void NodeSharing::exchange(std::span<double> values, Of sent, Of received, Two two) const {
   const std::size_t of_node = values.size() / n_nodes();
   std::vector<parallel::Message> messages;
-  for (const Neighbour &with : neighbours_)
-    messages.push_back(message(with.rank, with.others, with.own, values, of_node));
+  for (const Neighbour &with : neighbours_) {
+    parallel::Message &made = messages.emplace_back(
+        parallel::Message{with.rank, {}, std::vector<double>(of_node * (with.*received).size())});
+    for (const Node node : with.*sent)
+      for (const double value : values.subspan(of_node * node, of_node))
+        made.sent.push_back(value);
+  }
   parallel::exchange(messages);
   for (std::size_t i = 0; i < messages.size(); ++i) {
     const double *next = messages[i].received.data();
-    for (const Node node : neighbours_[i].own)
+    for (const Node node : neighbours_[i].*received)
       for (double &value : values.subspan(of_node * node, of_node))
         value = two(value, *next++);
   }
 }
 
+void NodeSharing::send_to_owners(std::span<double> shares, Two two) const {
+  exchange(shares, &Neighbour::others, &Neighbour::own, two);
+}
+
 void NodeSharing::send_from_owners(std::span<double> values) const {
-  const std::size_t of_node = values.size() / n_nodes();
-  std::vector<parallel::Message> messages;
-  for (const Neighbour &with : neighbours_)
-    messages.push_back(message(with.rank, with.own, with.others, values, of_node));
-  parallel::exchange(messages);
-  for (std::size_t i = 0; i < messages.size(); ++i) {
-    const double *next = messages[i].received.data();
-    for (const Node node : neighbours_[i].others)
-      for (double &value : values.subspan(of_node * node, of_node))
-        value = *next++;
-  }
+  exchange(values, &Neighbour::own, &Neighbour::others,
+           [](double, double owners) { return owners; });
 }
 
 // Of nodes that all ranks know; `is_share`: whether this rank has something to it.

@@ -76,7 +76,9 @@ class NodeSharing {
   using Two = double (*)(double, double);
   using All = void (*)(std::span<double>);
   void join(std::span<double> values, Two two, All all) const;
-  void send_to_owners(std::span<double> values, Two two) const;
+  using Of = std::vector<Node> Neighbour::*;
+  void exchange(std::span<double> values, Of sent, Of received, Two two) const;
+  void send_to_owners(std::span<double> shares, Two two) const;
   void send_from_owners(std::span<double> values) const;
   void join_known(std::span<double> values, All all,
                   const std::function<bool(Node)> &is_share) const;

@@ -145,7 +145,7 @@ template <int dim>
 void ChosenRoute<dim>::factorise_after_all(int n, const SolveError &error) {
   if (!model_.sharing().is_whole())
     throw SolveError(fmt::format(
-        "{} There was no memory for a factorisation when the run began, and the nodes of the body "
+        "{}. There was no memory for a factorisation when the run began, and the nodes of the body "
         "have been shared out to the ranks since; take solver.body = \"direct\"",
         error.what()));
   // With what the iterative route gives back; until then that may have to take shorter steps.
@@ -153,7 +153,7 @@ void ChosenRoute<dim>::factorise_after_all(int n, const SolveError &error) {
                available = parallel::available_memory().bytes + iterative_memory(model_.asked);
   if (parallel::from_first(needed > available) != 0)
     throw SolveError(
-        fmt::format("{} A factorisation needs about {:.3g} GiB of memory, and {:.3g} "
+        fmt::format("{}. A factorisation needs about {:.3g} GiB of memory, and {:.3g} "
                     "GiB are available",
                     error.what(), needed / gibibyte, available / gibibyte));
   const Eigen::VectorXd slip = route_->accumulated_slip();

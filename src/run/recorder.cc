@@ -307,23 +307,45 @@ std::vector<output::ContactRow> Recorder<dim>::contact_rows(int n,
 
 namespace {
 
-// The least of all nodes' values, and the place of the first node that has it, whoever has that.
-template <int dim, class Value>
-std::pair<double, Vector3> least(const body::Discretisation<dim> &body, const Value &value) {
+// A node of this rank and its value; made that of the least value of all ranks, and of the first
+// node that has it: where that stands.
+template <int dim>
+Vector3 find_least(const body::Discretisation<dim> &body, body::Node node, double &value) {
   const body::NodeSharing &sharing = body.sharing();
-  body::Node first = 0;
-  for (body::Node node = 1; node < body.n_nodes(); ++node)
-    if (value(node) < value(first))
-      first = node;
-  const double of_all = -sharing.largest(-value(first)),
-               number = value(first) == of_all ? sharing.number(first)
-                                               : static_cast<double>(sharing.n_all());
+  const double of_all = -sharing.largest(-value),
+               number =
+                   value == of_all ? sharing.number(node) : static_cast<double>(sharing.n_all());
+  value = of_all;
   const auto here = sharing.node(static_cast<body::Node>(-sharing.largest(-number)));
   Vector3 place{};
   if (here && sharing.counts(*here))
     place = body.points()[*here];
   sharing.sum(place);
-  return {of_all, place};
+  return place;
+}
+
+template <int dim>
+output::Extreme extreme_of(const std::string &field, const body::Discretisation<dim> &body,
+                           const std::function<double(body::Node)> &value) {
+  body::Node lowest = 0, highest = 0;
+  double least = value(0), less_the_greatest = -least;
+  for (body::Node node = 1; node < body.n_nodes(); ++node) {
+    const double v = value(node);
+    if (v < least) {
+      least = v;
+      lowest = node;
+    }
+    if (-v < less_the_greatest) {
+      less_the_greatest = -v;
+      highest = node;
+    }
+  }
+  output::Extreme found{field};
+  found.at_minimum = find_least(body, lowest, least);
+  found.at_maximum = find_least(body, highest, less_the_greatest);
+  found.minimum = least;
+  found.maximum = -less_the_greatest;
+  return found;
 }
 
 }  // namespace
@@ -339,14 +361,9 @@ std::vector<output::Extreme> Recorder<dim>::extremes(std::span<const double> sta
       {"potential", component(body::Fields<dim>::potential)},
       {"temperature", component(body::Fields<dim>::temperature)}};
   std::vector<output::Extreme> all;
-  for (const auto &[name, value] : fields) {
-    if (!model_.asked.model.has(name))
-      continue;
-    const auto [minimum, at_minimum] = least(model_.body, value);
-    const auto [maximum, at_maximum] =
-        least(model_.body, [&of = value](body::Node node) { return -of(node); });
-    all.push_back({name, minimum, -maximum, at_minimum, at_maximum});
-  }
+  for (const auto &[name, value] : fields)
+    if (model_.asked.model.has(name))
+      all.push_back(extreme_of(name, model_.body, value));
   return all;
 }
 

@@ -57,7 +57,7 @@ class SharedNodes : public Ranks {
         return std::all_of(quantity.begin(), quantity.end(),
                            [&](const auto &column) { return largest(one, column) == 0; });
       });
-      expect_equal_quantities(several, one, quantities, 1e-8);
+      expect_equal_quantities(several, one, quantities);
     };
     const Quantity u{"u_x", "u_y", "u_z"};
     expect(several_.nodes, one_.nodes, {u, {"potential"}, {"temperature"}});
