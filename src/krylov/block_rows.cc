@@ -76,7 +76,7 @@ BlockRows::BlockRows(Mat matrix, PetscInt block_size)
   column_.shrink_to_fit();
   entries_.resize(column_.size() * size_ * size_ + most_lanes);
   for (PetscInt row = 0; row < n_rows; row += size_)
-    put_entries(matrix, row);
+    read_again(matrix, row);
 }
 
 // Of the row of blocks that begins with this one of the matrix, whose rows may share them in part.
@@ -96,7 +96,7 @@ void BlockRows::put_columns(Mat matrix, PetscInt row) {
   first_.push_back(static_cast<PetscInt>(column_.size()));
 }
 
-void BlockRows::put_entries(Mat matrix, PetscInt row) {
+void BlockRows::read_again(Mat matrix, PetscInt row) {
   PetscInt n = 0;
   const PetscInt *columns = nullptr;
   const PetscScalar *values = nullptr;

@@ -287,16 +287,32 @@ void BodyMatrix<dim>::put_contact() {
   finish_assembly(matrix_);
 }
 
-// What the contact changes in the matrix of displacements.
+// Blocks of any contact, whether it changes them or not.
 template <int dim>
-void BodyMatrix<dim>::put_contact_in(Mat displacements) const {
+Mat BodyMatrix<dim>::changes_of_displacements() const {
+  const auto all = rows_.n_all(), own = rows_.n_own();
+  PetscInt first = 0, last = 0;
+  check(MatGetOwnershipRange(matrix_, &first, &last));
+  std::vector<PetscInt> inside(own), outside(own);
+  for (const ContactBlock &at : contact_blocks_)
+    ++(n * at.column >= first && n * at.column < last ? inside : outside)[at.row - first / n];
+  Mat change = nullptr;
+  check(MatCreate(PETSC_COMM_WORLD, &change));
+  check(MatSetSizes(change, dim * own, dim * own, dim * all, dim * all));
+  check(MatSetType(change, MATAIJ));
+  check(MatSetBlockSize(change, dim));
+  check(MatXAIJSetPreallocation(change, dim, inside.data(), outside.data(), nullptr, nullptr));
+  return change;
+}
+
+template <int dim>
+void BodyMatrix<dim>::put_change_in(Mat change) const {
   using BlockOfU = Eigen::Matrix<double, dim, dim, Eigen::RowMajor>;
   for (const ContactBlock &at : contact_blocks_) {
-    const BlockOfU block = with_contact(at).template topLeftCorner<dim, dim>();
-    check(
-        MatSetValuesBlocked(displacements, 1, &at.row, 1, &at.column, block.data(), INSERT_VALUES));
+    const BlockOfU block = (with_contact(at) - at.without).template topLeftCorner<dim, dim>();
+    check(MatSetValuesBlocked(change, 1, &at.row, 1, &at.column, block.data(), INSERT_VALUES));
   }
-  finish_assembly(displacements);
+  finish_assembly(change);
 }
 
 template class BodyMatrix<2>;

@@ -44,8 +44,11 @@ class BodyMatrix {
   /// from those of the contact before; without contact nodes nothing does.
   bool set_contact(std::vector<NodeTangent<dim>> contact);
   const std::vector<NodeTangent<dim>> &contact() const { return contact_; }
-  /// Puts what the contact changes into the rows and columns of u, those of `matrix` by node.
-  void put_contact_in(Mat displacements) const;
+  /// A matrix for `put_change_in`, with rows and columns of u alone, those of `matrix` by node. To
+  /// be destroyed by the caller.
+  Mat changes_of_displacements() const;
+  /// Puts in what the contact changes in the matrix of displacements.
+  void put_change_in(Mat change) const;
   /// E and G of `BodySystem::set_coupling`.
   void set_coupling(std::vector<NodeCoupling<dim>> coupling) { coupling_ = std::move(coupling); }
   /// Products of `free` are those of the cells from now on, which outlive this.

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "body/backward_error.h"
-#include "krylov/block_smoothing.h"
 #include "krylov/block_triangle.h"
 #include "krylov/body_matrix.h"
+#include "krylov/following_multigrid.h"
 #include "krylov/petsc.h"
 #include "stopwatch.h"
 
@@ -35,6 +35,7 @@ struct BodySystem<dim>::Parts {
   void make_solver();
   void orthogonalise_twice();
   void precondition();
+  void make_multigrid();
 
   BodyMatrix<dim> matrices;
   const body::Operator<dim> &op;
@@ -42,7 +43,8 @@ struct BodySystem<dim>::Parts {
   std::vector<NodeTangent<dim>> preconditioned;  // contact
   std::vector<Eigen::Vector2d> crossing;         // as the contact, or empty
   Vec right_side = nullptr, solution = nullptr;
-  BlockTriangle preconditioner;  // u, phi, theta
+  BlockTriangle preconditioner;                   // u, phi, theta
+  std::unique_ptr<FollowingMultigrid> multigrid;  // of u, from the first contact on
   KSP solver = nullptr;
   double set_up_seconds = 0;
   int set_ups = 0;
@@ -122,19 +124,20 @@ void BodySystem<dim>::Parts::orthogonalise_twice() {
 // Only the multigrid of u follows the contact.
 template <int dim>
 void BodySystem<dim>::Parts::precondition() {
-  const Mat of_u = preconditioner.diagonal(0);
-  const KSP solver_of_u = preconditioner.solver(0);
-  matrices.put_contact_in(of_u);
-  check(KSPSetReusePreconditioner(solver_of_u, PETSC_FALSE));
-  check(KSPSetOperators(solver_of_u, of_u, of_u));
-  check(KSPSetUp(solver_of_u));
-  PC multigrid = nullptr;
-  check(KSPGetPC(solver_of_u, &multigrid));
-  smooth_by_blocks(multigrid);
-  check(KSPSetUpOnBlocks(solver_of_u));
-  check(KSPSetReusePreconditioner(solver_of_u, PETSC_TRUE));
+  if (!multigrid)
+    make_multigrid();
+  matrices.put_change_in(multigrid->change());
+  multigrid->follow();
   preconditioned = matrices.contact();
   ++set_ups;
+}
+
+template <int dim>
+void BodySystem<dim>::Parts::make_multigrid() {
+  Mat change = matrices.changes_of_displacements();
+  matrices.put_change_in(change);
+  multigrid = std::make_unique<FollowingMultigrid>(preconditioner.solver(0), change);
+  check(MatDestroy(&change));
 }
 
 template <int dim>

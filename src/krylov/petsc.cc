@@ -21,7 +21,8 @@ constexpr const char *options[][2] = {
     {"-u_pc_gamg_threshold", "-1"},
     {"-u_pc_gamg_aggressive_coarsening", "10"},
     {"-u_pc_gamg_agg_nsmooths", "0"},
-    {"-u_pc_gamg_reuse_interpolation", "1"},
+    // The coarsest matrix is factorised: it may have so many rows. Levels below are many and slow.
+    {"-u_pc_gamg_coarse_eq_limit", "1000"},
     {"-u_pc_mg_cycle_type", "w"},
     {"-u_mg_levels_ksp_type", "chebyshev"},
     {"-u_mg_levels_ksp_max_it", "4"},
