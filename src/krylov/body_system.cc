@@ -124,9 +124,10 @@ void BodySystem<dim>::Parts::orthogonalise_twice() {
 // Only the multigrid of u follows the contact.
 template <int dim>
 void BodySystem<dim>::Parts::precondition() {
-  if (!multigrid)
+  if (multigrid)
+    matrices.put_change_in(multigrid->change());
+  else
     make_multigrid();
-  matrices.put_change_in(multigrid->change());
   multigrid->follow();
   preconditioned = matrices.contact();
   ++set_ups;

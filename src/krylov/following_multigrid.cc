@@ -58,8 +58,6 @@ FollowingMultigrid::FollowingMultigrid(KSP solver, Mat change) {
   check(KSPGetPC(solver, &multigrid));
   check(PCMGGetLevels(multigrid, &n_levels));
   check(PetscObjectReference(reinterpret_cast<PetscObject>(change)));
-  // The others are visited by W cycles: docs/measurements.md.
-  check(PCMGSetCycleTypeOnLevel(multigrid, n_levels - 1, PC_MG_CYCLE_V));
   for (PetscInt i = n_levels - 1; i >= 0; --i) {
     Level &level = levels_.emplace_back();
     level.change = change;
@@ -90,8 +88,9 @@ void FollowingMultigrid::note(Level &level) {
     const PetscInt first_of_block = (row - begin) / block_size * block_size;
     if (level.rows.empty() || level.rows.back() != first_of_block)
       level.rows.push_back(first_of_block);
-    level.without.resize(level.without.size() + n);
-    check(MatGetValues(level.matrix, 1, &row, n, columns, &*level.without.end() - n));
+    const std::size_t before = level.without.size();
+    level.without.resize(before + n);
+    check(MatGetValues(level.matrix, 1, &row, n, columns, &level.without[before]));
   });
 }
 

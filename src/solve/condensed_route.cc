@@ -1,66 +1,23 @@
 #include "solve/condensed_route.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include <Eigen/Dense>
 #include <optional>
-#include <set>
-#include <string>
 
-#include "case/holding.h"
-#include "dense/decompositions.h"
 #include "larger.h"
 #include "parallel/ranks.h"
+#include "solve/condensed_contact.h"
 #include "solve/connected_body.h"
-#include "solve/contact_nodes.h"
-#include "solve/coupled_programme.h"
-#include "solve/exchange_nodes.h"
-#include "solve/exchange_programme.h"
-#include "solve/first_places.h"
 #include "solve/judgement.h"
-#include "solve/leaning.h"
 #include "stopwatch.h"
-#include "tourmaline/error.h"
 
 namespace tourmaline::solve {
 
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // Forward errors above it are worth refinement, which costs some twenty substitutions a step.
 constexpr double worth_refining = 1e-8;
-
-// From the first rank to the others.
-void share(StepOutcome &outcome) {
-  std::vector<double> numbers{static_cast<double>(outcome.newton_iterations), outcome.residual,
-                              static_cast<double>(outcome.stage),
-                              static_cast<double>(outcome.slip_jumped)};
-  for (const auto status : outcome.status)
-    numbers.push_back(static_cast<double>(status));
-  for (const VectorXd &by_node :
-       {outcome.contact_forces, outcome.friction_forces, outcome.friction_bound,
-        outcome.accumulated_slip, outcome.heat_flow, outcome.friction_heat, outcome.charge_flow})
-    numbers.insert(numbers.end(), by_node.begin(), by_node.end());
-  parallel::from_first(std::span<double>(numbers));
-  outcome.newton_iterations = static_cast<int>(numbers[0]);
-  outcome.residual = numbers[1];
-  outcome.stage = static_cast<ContactStage>(numbers[2]);
-  outcome.slip_jumped = numbers[3] != 0;
-  const double *next = &numbers[4];
-  for (auto &status : outcome.status)
-    status = static_cast<ContactStatus>(*next++);
-  for (VectorXd *by_node : {&outcome.contact_forces, &outcome.friction_forces,
-                            &outcome.friction_bound, &outcome.accumulated_slip, &outcome.heat_flow,
-                            &outcome.friction_heat, &outcome.charge_flow}) {
-    std::copy_n(next, by_node->size(), by_node->begin());
-    next += by_node->size();
-  }
-}
 
 template <int dim>
 class CondensedRoute : public Route {
@@ -83,326 +40,44 @@ class CondensedRoute : public Route {
 
  private:
   void take_contact_back();
-  void condense_onto_slips();
-  double error_of_slips() const;
+  double error_of_contact() const { return contact_ ? contact_->error() : 0; }
   void refine();
   void measure(std::span<const double> right_side, std::span<const double> state,
                const StepOutcome &outcome);
   StepOutcome solve(double time, std::span<const double> right_side, std::span<const double> before,
                     std::span<double> state);
-  void advance_contact(double time, const VectorXd &s, std::span<const double> before,
-                       std::span<const double> state, VectorXd &c, StepOutcome &outcome);
-  CoupledSolution solve_contact(double time, const VectorXd &s, const VectorXd &start);
-  VectorXd sharpen(double time, const VectorXd &s, CoupledSolution &solution);
-  void require_solved(double time, const InterfaceProgramme &programme,
-                      const InterfaceSolution &solution) const;
-  CoupledSolution solve_with_exchange(double time, const VectorXd &s, const VectorXd &start);
-  CoupledSolution solve_programme(const InterfaceProgramme &programme, const VectorXd &start,
-                                  const InterfaceSettings &settings) const;
-  CoupledSolution solve_leaning(const InterfaceProgramme &programme, const VectorXd &first,
-                                const InterfaceSettings &settings) const;
-  InterfaceSettings settings(KeptFactor *factor) const;
-  void condense_exchanges();
-  bool exchanges() const { return exchange_ && exchange_->size() > 0; }
-  bool is_carried_off(const InterfaceProgramme &programme, const InterfaceSolution &solution) const;
-  [[noreturn]] void give_up(double time, const InterfaceSolution &solution) const;
 
   void describe(RouteReport &report) const override;
   void refine_again() override { refine(); }
   void save_memory(output::SavedNumbers &numbers) const override;
   void restore_memory(const output::SavedNumbers &numbers) override;
-  void forget_matrices() override { factor_ = whole_factor_ = {}; }
+  void forget_matrices() override {
+    if (contact_)
+      contact_->forget_matrices();
+  }
 
   const Model<dim> &model_;
-  std::string left_to_contact_;  // rigid motions
-  std::vector<bool> is_prescribed_;
   ConnectedBody<dim> condensed_;
-  std::optional<ContactNodes<dim>> contact_;
-  MatrixXd slip_stiffness_;  // T^T S T, T the directions of the contact's unknowns
-  KeptFactor factor_;
-  VectorXd last_increment_;
-  // Where temperatures or potentials are unknowns of the contact, too: the matrix with their rows.
-  std::optional<ExchangeNodes<dim>> exchange_;
-  MatrixXd whole_stiffness_;
-  KeptFactor whole_factor_;
-  int negative_at_contact_ = 0;  // pivots in their rows
-  double error_of_slips_ = 0;    // the contact's own share of the forward error
+  std::optional<CondensedContact<dim>> contact_;
 };
 
 template <int dim>
-CondensedRoute<dim>::CondensedRoute(const Model<dim> &model)
-    : model_(model),
-      left_to_contact_(casefile::left_to_contact(model.asked)),
-      is_prescribed_(body::mask_of(model.prescribed, model.n_unknowns())),
-      condensed_(model) {
-  if (!model.interface.empty()) {
-    contact_.emplace(model, is_prescribed_);
-    exchange_.emplace(model);
-  }
+CondensedRoute<dim>::CondensedRoute(const Model<dim> &model) : model_(model), condensed_(model) {
   Stopwatch watch;
-  parallel::on_first([&] { condense_onto_slips(); });
+  if (!model.interface.empty())
+    contact_.emplace(model, condensed_);
   so_far_.condense_seconds = watch.lap();
-  error_of_slips_ = error_of_slips();
-  if (!(error_of_slips_ <= worth_refining))
+  if (!(error_of_contact() <= worth_refining))
     refine();
-}
-
-// What round-off of the size of S's entries does to the solution of T^T S T. Where that is singular
-// by itself, as only the contact holds the body, it says nothing.
-template <int dim>
-double CondensedRoute<dim>::error_of_slips() const {
-  double error = 0;
-  const std::vector<Index> entries = contact_ ? contact_->movable() : std::vector<Index>{};
-  if (parallel::is_first() && !entries.empty() && left_to_contact_.empty())
-    error = std::numeric_limits<double>::epsilon() /
-            dense::inverse_condition(slip_stiffness_(entries, entries));
-  parallel::from_first(std::span(&error, 1));
-  return error;
 }
 
 template <int dim>
 void CondensedRoute<dim>::refine() {
   Stopwatch watch;
   condensed_.refine();
-  parallel::on_first([&] { condense_onto_slips(); });
+  if (contact_)
+    contact_->condense();
   so_far_.condense_seconds += watch.lap();
-  error_of_slips_ = error_of_slips();
-}
-
-template <int dim>
-void CondensedRoute<dim>::condense_onto_slips() {
-  forget_matrices();
-  if (!contact_)
-    return;
-  last_increment_ = VectorXd::Zero(contact_->n_unknowns());
-  if (exchanges())
-    return condense_exchanges();
-  const Eigen::SparseMatrix<double> &directions = contact_->directions();
-  slip_stiffness_ = directions.transpose() * (condensed_.stiffness() * directions);
-  slip_stiffness_ = (slip_stiffness_ + slip_stiffness_.transpose()).eval() / 2;
-}
-
-// Rows of S and T are displacements, then what is exchanged.
-template <int dim>
-void CondensedRoute<dim>::condense_exchanges() {
-  const MatrixXd &s = condensed_.stiffness();
-  const Eigen::SparseMatrix<double> &directions = contact_->directions();
-  const Index n = directions.cols(), m = exchange_->size();
-  const auto scale = exchange_->scale().asDiagonal();
-  whole_stiffness_.resize(n + m, n + m);
-  whole_stiffness_.topLeftCorner(n, n) =
-      directions.transpose() *
-      MatrixXd(s.topLeftCorner(directions.rows(), directions.rows()) * directions);
-  whole_stiffness_.topRightCorner(n, m) =
-      directions.transpose() * MatrixXd(s.topRightCorner(directions.rows(), m) * scale);
-  whole_stiffness_.bottomLeftCorner(m, n) = whole_stiffness_.topRightCorner(n, m).transpose();
-  whole_stiffness_.bottomRightCorner(m, m) = scale * s.bottomRightCorner(m, m) * scale;
-  whole_stiffness_ = (whole_stiffness_ + whole_stiffness_.transpose()).eval() / 2;
-  slip_stiffness_ = whole_stiffness_.topLeftCorner(n, n);
-  // All or none: not quasi-definite it would be of no use.
-  const dense::Cholesky factor(-whole_stiffness_.bottomRightCorner(m, m));
-  negative_at_contact_ = factor.is_definite() ? static_cast<int>(m) : 0;
-}
-
-template <int dim>
-InterfaceSettings CondensedRoute<dim>::settings(KeptFactor *factor) const {
-  return {model_.asked.solver.tolerance, model_.asked.solver.max_iterations,
-          left_to_contact_.empty(), factor};
-}
-
-template <int dim>
-CoupledSolution CondensedRoute<dim>::solve_programme(const InterfaceProgramme &programme,
-                                                     const VectorXd &start,
-                                                     const InterfaceSettings &settings) const {
-  if (contact_->is_coupled() && !left_to_contact_.empty())
-    return solve_leaning(programme, start, settings);
-  return solve_coupled({programme, contact_->couplings()}, start, settings);
-}
-
-// Where only the contact holds the body, Newton's method may meet a singular matrix on its way.
-// Weak springs between contact and foundation lead it to where the contact holds.
-template <int dim>
-CoupledSolution CondensedRoute<dim>::solve_leaning(const InterfaceProgramme &programme,
-                                                   const VectorXd &first,
-                                                   const InterfaceSettings &settings) const {
-  CoupledSolution solution = solve_coupled({programme, contact_->couplings()}, first, settings);
-  int iterations = solution.interface.iterations;
-  VectorXd start = VectorXd::Zero(first.size());
-  for (const double weak : {1e-2, 1e-4, 1e-6}) {
-    if (solution.interface.converged && !is_carried_off(programme, solution.interface))
-      break;
-    MatrixXd stiffness = programme.stiffness;
-    stiffness.diagonal() *= 1 + weak;
-    const InterfaceProgramme sprung{stiffness, programme.force, programme.points,
-                                    programme.force_scale};
-    InterfaceSettings definite = settings;
-    definite.is_definite = true;
-    definite.factor = nullptr;
-    start = solve_coupled({sprung, contact_->couplings()}, start, definite).interface.increment;
-    solution = solve_coupled({programme, contact_->couplings()}, start, settings);
-    iterations += solution.interface.iterations;
-  }
-  solution.interface.iterations = iterations;
-  return solution;
-}
-
-// Where nothing acts on the body, nothing moves: from elsewhere Newton's method would come there by
-// ever smaller steps, and end at forces that no balance can tell from real ones.
-VectorXd unless_unloaded(VectorXd start, const VectorXd &force) {
-  if (force.isZero(0))
-    start.head(force.size()).setZero();
-  return start;
-}
-
-// Of held exchanges each has a matrix of its own, of which nothing is kept.
-template <int dim>
-CoupledSolution CondensedRoute<dim>::solve_with_exchange(double time, const VectorXd &s,
-                                                         const VectorXd &start) {
-  const MatrixXd &all = condensed_.stiffness();
-  const Eigen::SparseMatrix<double> &directions = contact_->directions();
-  const Index n_rows = directions.rows(), n = directions.cols(), m = exchange_->size();
-  const VectorXd resisted = all.leftCols(n_rows) * contact_->stuck();
-  const VectorXd terms = s.cwiseAbs().cwiseMax(resisted.cwiseAbs());
-  VectorXd force(n + m);
-  force << directions.transpose() * (s - resisted).head(n_rows),
-      exchange_->scale().cwiseProduct((s - resisted).tail(m));
-  const std::vector<ExchangePoint> exchanges = exchange_->points(*contact_);
-  const ExchangeProgramme programme{
-      {whole_stiffness_, force, contact_->points(), terms.head(n_rows).maxCoeff(),
-       exchange_->fields(n, exchange_->scale().cwiseProduct(terms.tail(m)))},
-      contact_->couplings(),
-      exchanges};
-  const auto solve_held = [&](const InterfaceProgramme &held, const VectorXd &from) {
-    return solve_programme(held, from, settings(nullptr));
-  };
-  const VectorXd from = unless_unloaded(start, force.head(n));
-  CoupledSolution solution =
-      solve_exchanging(programme, from, settings(&whole_factor_), solve_held);
-  // Newton's method on the whole may lose a body that only its contact holds; with what crosses
-  // held, springs lead back.
-  if (!left_to_contact_.empty() &&
-      (!solution.interface.converged || is_carried_off(programme.whole, solution.interface)))
-    solution = solve_exchanging(programme, from, settings(&whole_factor_), solve_held, false);
-  require_solved(time, programme.whole, solution.interface);
-  return solution;
-}
-
-template <int dim>
-void CondensedRoute<dim>::require_solved(double time, const InterfaceProgramme &programme,
-                                         const InterfaceSolution &solution) const {
-  if (is_carried_off(programme, solution)) {
-    const std::string unheld = unheld_motions(model_, *contact_, solution.status);
-    let_go(time, unheld.empty() ? left_to_contact_ : unheld);
-  }
-  if (!solution.converged)
-    give_up(time, solution);
-}
-
-template <int dim>
-CoupledSolution CondensedRoute<dim>::solve_contact(double time, const VectorXd &s,
-                                                   const VectorXd &start) {
-  if (exchanges())
-    return solve_with_exchange(time, s, start);
-  const VectorXd resisted = condensed_.stiffness() * contact_->stuck();
-  const VectorXd force = contact_->directions().transpose() * (s - resisted);
-  const double scale = larger(s.cwiseAbs().maxCoeff<Eigen::PropagateNaN>(),
-                              resisted.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
-  const InterfaceProgramme programme{slip_stiffness_, force, contact_->points(), scale};
-  CoupledSolution solution =
-      solve_programme(programme, unless_unloaded(start, force), settings(&factor_));
-  require_solved(time, programme, solution.interface);
-  return solution;
-}
-
-// The displacements of the contact. Where they are the small difference of larger ones (of what
-// sticking to a foundation that slips away, or closing a gap, would take), the programme is solved
-// once more, and points that slip or are open are measured from where they were.
-template <int dim>
-VectorXd CondensedRoute<dim>::sharpen(double time, const VectorXd &s, CoupledSolution &solution) {
-  const Index n = contact_->n_unknowns();
-  if (contact_->loses_digits(solution)) {
-    contact_->measure_from_before(solution);
-    CoupledSolution sharp = solve_contact(time, s, solution.interface.increment);
-    sharp.interface.iterations += solution.interface.iterations;
-    sharp.stage = solution.stage;
-    sharp.slip_jumped = solution.slip_jumped;
-    solution = std::move(sharp);
-  }
-  // Adding the increment to the very values of the last step keeps a sticking point in its place
-  // exactly.
-  VectorXd c = contact_->displacements(solution.interface.increment.head(n));
-  contact_->measure_from_stuck(solution);
-  return c;
-}
-
-// Where nothing holds the body, round-off of its stiffness does: loads then move it by so much that
-// the round-off of the forces that hold it is a part of them that counts.
-template <int dim>
-bool CondensedRoute<dim>::is_carried_off(const InterfaceProgramme &programme,
-                                         const InterfaceSolution &solution) const {
-  constexpr double counts = 1e-7;
-  return !left_to_contact_.empty() && programme.force_scale > 0 &&
-         std::numeric_limits<double>::epsilon() * size_of_forces(programme, solution.increment) >
-             counts * programme.force_scale;
-}
-
-template <int dim>
-void CondensedRoute<dim>::give_up(double time, const InterfaceSolution &solution) const {
-  if (!std::isfinite(solution.residual))
-    throw SolveError(fmt::format(
-        "the contact problem at t = {:g} s has forces that are not finite numbers: look "
-        "for a load, a prescribed value or a constant that is too large by many powers "
-        "of ten, often a unit",
-        time));
-  if (!left_to_contact_.empty())
-    give_up_leaning(time, solution, left_to_contact_);
-  if (!solution.is_definite || !(error_of_slips_ <= 1e-2))
-    throw SolveError(fmt::format(
-        "the contact problem at t = {:g} s is too badly conditioned to be solved: round-off leaves "
-        "no digit of the slips certain; {}",
-        time, ill_conditioned_advice));
-  std::set<std::size_t> nodes;  // one node may have several unknowns
-  for (const std::size_t i : solution.unsettled)
-    nodes.insert(contact_->node_of(i));
-  const std::vector<std::size_t> unsettled(nodes.begin(), nodes.end());
-  const std::string where =
-      unsettled.empty() ? "what crosses of heat or charge by the contact's state is unsettled"
-                        : fmt::format("{} nodes are unsettled, among them{}", unsettled.size(),
-                                      first_places(unsettled.size(), [&](std::size_t i) {
-                                        return model_.interface[unsettled[i]].point;
-                                      }));
-  throw UnsettledStep(fmt::format(
-      "the contact iteration did not converge at t = {:g} s: residual {:.3g} of the largest force "
-      "after {} iterations, wanted {:.3g}; {}; raise solver.max_iterations or solver.tolerance, or "
-      "take smaller time steps{}",
-      time, solution.residual, solution.iterations, model_.asked.solver.tolerance, where,
-      exchanges() ? ", or let conductances fade over a longer ramp" : ""));
-}
-
-// On the first rank, which holds the condensed stiffness: c and what is known with it.
-template <int dim>
-void CondensedRoute<dim>::advance_contact(double time, const VectorXd &s,
-                                          std::span<const double> before,
-                                          std::span<const double> state, VectorXd &c,
-                                          StepOutcome &outcome) {
-  contact_->begin_step(time, before, state);
-  exchange_->begin_step(time, state);
-  VectorXd start(last_increment_.size() + exchange_->size());
-  start << last_increment_, exchange_->entries(before);
-  CoupledSolution solution = solve_contact(time, s, start);
-  const VectorXd displacements = sharpen(time, s, solution);
-  const VectorXd crossing = solution.interface.increment.tail(exchange_->size());
-  exchange_->end_step(
-      exchange_->scale().cwiseProduct(crossing),
-      [&](std::size_t node) { return contact_->state_for_exchange(node, solution); }, outcome);
-  solution.interface.increment.conservativeResize(contact_->n_unknowns());
-  solution.interface.force.conservativeResize(contact_->n_unknowns());
-  last_increment_ = solution.interface.increment;
-  c << displacements, exchange_->scale().cwiseProduct(crossing);
-  const VectorXd held = condensed_.stiffness() * c - s;
-  outcome.contact_forces = held.head(contact_->directions().rows());
-  outcome.slip_jumped = solution.slip_jumped;
-  contact_->end_step(solution, outcome);
 }
 
 template <int dim>
@@ -413,19 +88,8 @@ StepOutcome CondensedRoute<dim>::solve(double time, std::span<const double> righ
   so_far_.substitution_seconds += watch.lap();
   StepOutcome outcome;
   VectorXd c = s;
-  if (!model_.interface.empty()) {
-    outcome.contact_forces = outcome.friction_forces =
-        VectorXd::Zero(contact_->directions().rows());
-    exchange_->prepare(outcome);
-    outcome.status.resize(model_.interface.size());
-    const auto n_nodes = static_cast<Index>(model_.interface.size());
-    if (contact_->is_coupled())
-      outcome.friction_bound = VectorXd::Zero(n_nodes);
-    if (model_.laws.remembers_slip())
-      outcome.accumulated_slip = VectorXd::Zero(n_nodes);
-    parallel::on_first([&] { advance_contact(time, s, before, state, c, outcome); });
-    share(outcome);
-  }
+  if (contact_)
+    outcome = contact_->advance(time, s, before, state, c);
   so_far_.contact_seconds += watch.lap();
   parallel::from_first(std::span(c.data(), static_cast<std::size_t>(c.size())));
   condensed_.expand(c, state);
@@ -438,14 +102,15 @@ StepOutcome CondensedRoute<dim>::solve(double time, std::span<const double> righ
 template <int dim>
 StepOutcome CondensedRoute<dim>::advance(double time, std::span<const double> right_side,
                                          std::span<const double> before, std::span<double> state) {
-  const VectorXd start = last_increment_;
+  const VectorXd start = contact_ ? contact_->last_increment() : VectorXd();
   StepOutcome outcome = solve(time, right_side, before, state);
   if (is_refined() || outgrew_measured<dim>(model_.sharing(), state)) {
     measure(right_side, state, outcome);
     if (is_refined() || !(so_far_.forward_error > worth_refining))
       return outcome;
     refine();
-    last_increment_ = start;
+    if (contact_)
+      contact_->start_from(start);
     take_contact_back();
     outcome = solve(time, right_side, before, state);
     forget_errors();
@@ -456,10 +121,8 @@ StepOutcome CondensedRoute<dim>::advance(double time, std::span<const double> ri
 
 template <int dim>
 void CondensedRoute<dim>::take_contact_back() {
-  if (!contact_)
-    return;
-  contact_->take_back();
-  exchange_->take_back();
+  if (contact_)
+    contact_->take_back();
 }
 
 template <int dim>
@@ -478,12 +141,8 @@ Accuracy CondensedRoute<dim>::accuracy(std::span<const double> right_side,
   condensation::CondensedBody<dim> &body = condensed_.body();
   const double inside = body.is_refined() ? body.left_by_refinement()
                                           : body.forward_error(model_.cells, right_side, state);
-  VectorXd q = outcome.contact_forces;
-  if (exchanges()) {
-    q.conservativeResize(q.size() + exchange_->size());
-    q.tail(exchange_->size()) = exchange_->rows(outcome);
-  }
-  return {body.backward_error(right_side, state, q), larger(inside, error_of_slips_)};
+  const VectorXd q = contact_ ? contact_->reactions(outcome) : VectorXd();
+  return {body.backward_error(right_side, state, q), larger(inside, error_of_contact())};
 }
 
 template <int dim>
@@ -493,30 +152,22 @@ void CondensedRoute<dim>::describe(RouteReport &report) const {
   report.unknowns = condensed_.body().n_unknowns();
   report.electric_and_thermal_unknowns = condensed_.body().n_electric_and_thermal();
   report.negative_pivots = condensed_.body().statistics().negative_pivots;
-  if (exchanges())
-    report.negative_pivots += negative_at_contact_;
+  if (contact_)
+    report.negative_pivots += contact_->negative_pivots();
 }
 
 template <int dim>
 void CondensedRoute<dim>::save_memory(output::SavedNumbers &numbers) const {
   condensed_.save(numbers);
-  numbers.put("last increment", last_increment_);
-  if (contact_) {
+  if (contact_)
     contact_->save(numbers);
-    exchange_->save(numbers);
-  }
 }
 
 template <int dim>
 void CondensedRoute<dim>::restore_memory(const output::SavedNumbers &numbers) {
   condensed_.restore(numbers);
-  if (parallel::is_first()) {
-    numbers.fill("last increment", last_increment_);
-  }
-  if (parallel::is_first() && contact_) {
+  if (contact_)
     contact_->restore(numbers);
-    exchange_->restore(numbers);
-  }
 }
 
 }  // namespace
