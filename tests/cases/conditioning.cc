@@ -119,6 +119,14 @@ TEST(IllConditioned, FrictionalEndOfAThinPlateFailsWithTheReason) {
               ::testing::HasSubstr("very thin"));
 }
 
+// Of the body alone the error is 1e-12. Thinner by ten, nothing is left of the slips.
+TEST(IllConditioned, FrictionalEndOfAPlateTellsTheErrorOfItsSlips) {
+  const RunCase run("tests/cases/ill_conditioned/contact.toml", {"mesh.box.max=[1,1e-3]"});
+  const nlohmann::json summary = run.summary();
+  EXPECT_GT(summary["forward_error"], 1e-6);
+  EXPECT_LT(summary["forward_error"], 1e-3);
+}
+
 /// A bar of three equal parts, pulled by 1000 N; the middle one is softer by 1e11. Its temperature,
 /// nothing is coupled to, stores 1e5 times the energy of the deformation.
 casefile::Case hot_bar(const std::vector<std::string> &overrides) {
