@@ -146,11 +146,12 @@ std::string CondensedBody<dim>::weak_pivot_in_words(const body::Discretisation<d
 template <int dim>
 std::vector<Node> CondensedBody<dim>::nodes_in_order() const {
   const std::size_t n_nodes = operator_.graph().n_nodes();
-  std::vector<int> unknowns(n_nodes, 0);
+  NodeUnknowns unknowns{std::vector<int>(n_nodes, 0), std::vector<int>(n_nodes, 0)};
   for (std::size_t v = 0; v < unknown_of_.size(); ++v)
-    unknowns[unknown_of_[v] / Fields<dim>::count] += !is_contact_variable(v);
+    ++(is_contact_variable(v) ? unknowns.kept
+                              : unknowns.eliminated)[unknown_of_[v] / Fields<dim>::count];
 
-  const std::vector<int> node_position = nested_dissection(operator_.graph(), unknowns);
+  const std::vector<int> node_position = nested_dissection(operator_.graph(), unknowns, dim);
   std::vector<Node> node_at(n_nodes);
   for (Node i = 0; i < n_nodes; ++i)
     node_at[node_position[i]] = i;

@@ -92,14 +92,6 @@ double operations_of(double pivots, double below) {
   return (height * height * height - below * below * below) / 3;
 }
 
-// Seconds that a front takes in a run of some tens of steps: its calls, its operations, its share
-// of the factor in factorisation and substitutions, what it hands on. Fitted to measured fronts
-// (docs/measurements.md).
-double cost(double pivots, double below) {
-  const double entries = pivots * below + pivots * pivots / 2;
-  return 2e-5 + 4e-11 * operations_of(pivots, below) + 1e-8 * entries + 1e-9 * below * below;
-}
-
 // The tree of fronts while they are merged; a front goes by the number of its first group's chain.
 class Tree {
  public:
@@ -168,8 +160,8 @@ void Tree::merge_children(int p) {
     return below_[a] > below_[b] || (below_[a] == below_[b] && a < b);
   });
   for (const int c : children)
-    if (cost(pivots_[c] + pivots_[p], below_[p]) <=
-        cost(pivots_[c], below_[c]) + cost(pivots_[p], below_[p]))
+    if (Front::seconds(pivots_[c] + pivots_[p], below_[p]) <=
+        Front::seconds(pivots_[c], below_[c]) + Front::seconds(pivots_[p], below_[p]))
       absorb(c, p);
 }
 
@@ -335,6 +327,13 @@ std::vector<double> diagonal_of(const GroupedMatrix &matrix) {
 
 double Front::operations() const {
   return operations_of(pivots, below);
+}
+
+// Its calls, its operations, its share of the factor in factorisation and substitutions, what it
+// hands on: fitted to measured fronts (docs/measurements.md).
+double Front::seconds(double pivots, double below) {
+  const double entries = pivots * below + pivots * pivots / 2;
+  return 2e-5 + 4e-11 * operations_of(pivots, below) + 1e-8 * entries + 1e-9 * below * below;
 }
 
 Elimination::Elimination(const GroupedMatrix &matrix) : diagonal(diagonal_of(matrix)) {

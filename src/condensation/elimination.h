@@ -24,6 +24,8 @@ struct Front {
   }
   /// Multiplications and additions that eliminate its pivots.
   double operations() const;
+  /// What a front of such a size takes in a run of some tens of steps.
+  static double seconds(double pivots, double below);
 };
 
 /// The multifrontal elimination of a quasi-definite matrix before any number is known (Liu, SIAM

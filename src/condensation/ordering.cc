@@ -1,11 +1,9 @@
 #include "condensation/ordering.h"
 
-#include <metis.h>
-
 #include <algorithm>
 
+#include "condensation/dissection.h"
 #include "parallel/ranks.h"
-#include "tourmaline/error.h"
 
 namespace tourmaline::condensation {
 
@@ -42,52 +40,14 @@ NodeGraph merged(const std::vector<Node> &rows, std::size_t n_nodes) {
   return graph;
 }
 
-// The nodes that have unknowns: METIS does not come to an end with many that weigh nothing.
-std::vector<idx_t> weighing(const std::vector<int> &unknowns) {
-  std::vector<idx_t> nodes;
-  for (std::size_t i = 0; i < unknowns.size(); ++i)
-    if (unknowns[i] > 0)
-      nodes.push_back(static_cast<idx_t>(i));
-  return nodes;
-}
-
-// The others come behind them, as they may.
-std::vector<int> dissected(const NodeGraph &graph, const std::vector<int> &unknowns) {
-  static_assert(sizeof(idx_t) == sizeof(int));
-  const std::vector<idx_t> nodes = weighing(unknowns);
-  auto n = static_cast<idx_t>(nodes.size());
-  std::vector<int> all(unknowns.size(), -1);
-  for (idx_t i = 0; i < n; ++i)
-    all[nodes[i]] = i;
-  std::vector<idx_t> start{0}, neighbour, weight, order(n), position(n);
-  neighbour.reserve(graph.column.size());
-  for (const idx_t node : nodes) {
-    for (std::size_t e = graph.row[node]; e < graph.row[node + std::size_t{1}]; ++e)
-      if (const int other = all[graph.column[e]]; other >= 0 && other != all[node])
-        neighbour.push_back(other);
-    start.push_back(static_cast<idx_t>(neighbour.size()));
-    weight.push_back(unknowns[node]);
-  }
-  idx_t options[METIS_NOPTIONS];
-  METIS_SetDefaultOptions(options);
-  options[METIS_OPTION_SEED] = 1;  // same case, same bytes
-  if (n > 0 && METIS_NodeND(&n, start.data(), neighbour.data(), weight.data(), options,
-                            order.data(), position.data()) != METIS_OK)
-    throw MachineError("METIS could not order the unknowns (memory?)");
-  int behind = n;
-  for (int &place : all)
-    place = place >= 0 ? position[place] : behind++;
-  return all;
-}
-
 }  // namespace
 
-std::vector<int> nested_dissection(const NodeGraph &graph, const std::vector<int> &unknowns) {
+std::vector<int> nested_dissection(const NodeGraph &graph, const NodeUnknowns &unknowns, int dim) {
   if (parallel::n_ranks() == 1)
-    return dissected(graph, unknowns);
+    return dissected(graph, unknowns, dim);
   const std::vector<Node> rows = parallel::joined_on_first(packed(graph));
   std::vector<int> position(graph.n_nodes());
-  parallel::on_first([&] { position = dissected(merged(rows, graph.n_nodes()), unknowns); });
+  parallel::on_first([&] { position = dissected(merged(rows, graph.n_nodes()), unknowns, dim); });
   parallel::from_first(std::span<int>(position));
   return position;
 }

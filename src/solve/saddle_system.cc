@@ -134,11 +134,11 @@ void SaddleSystem<dim>::add_crossing_pattern(condensation::SymmetricMatrix &matr
 template <int dim>
 std::vector<int> SaddleSystem<dim>::elimination_order() const {
   const std::size_t n_nodes = operator_.graph().n_nodes();
-  std::vector<int> unknowns(n_nodes, 0);
+  condensation::NodeUnknowns unknowns{std::vector<int>(n_nodes, 0), std::vector<int>(n_nodes, 0)};
   for (const std::size_t i : unknown_of_)
-    ++unknowns[i / Fields<dim>::count];
+    ++unknowns.eliminated[i / Fields<dim>::count];
   const std::vector<int> node_position =
-      condensation::nested_dissection(operator_.graph(), unknowns);
+      condensation::nested_dissection(operator_.graph(), unknowns, dim);
   std::vector<std::vector<int>> variables_at(n_nodes);  // by place of the node
   for (std::size_t v = 0; v < unknown_of_.size(); ++v)
     variables_at[node_position[unknown_of_[v] / Fields<dim>::count]].push_back(static_cast<int>(v));

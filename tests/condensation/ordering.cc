@@ -47,7 +47,8 @@ TEST(NestedDissection, GivesEveryNodeAPlaceAndTheFactorFewerEntriesThanTheBandOf
   constexpr int n = 60;
   const body::NodeGraph graph = grid(n);
   const std::size_t n_nodes = graph.n_nodes();
-  const std::vector<int> position = nested_dissection(graph, std::vector<int>(n_nodes, 4));
+  const std::vector<int> position =
+      nested_dissection(graph, {std::vector<int>(n_nodes, 4), std::vector<int>(n_nodes, 0)}, 2);
   EXPECT_EQ(std::set<int>(position.begin(), position.end()).size(), n_nodes);
   std::vector<int> as_numbered(n_nodes);
   std::iota(as_numbered.begin(), as_numbered.end(), 0);
