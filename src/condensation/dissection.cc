@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "condensation/elimination.h"
+#include "condensation/pages.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::condensation {
@@ -21,7 +22,7 @@ using body::NodeGraph;
 using Nodes = std::vector<Node>;
 
 constexpr double seconds_by_edge = 1e-7;      // of METIS looking for a separator
-constexpr double share_of_search = 1. / 200;  // of what elimination is expected to take, by level
+constexpr double share_of_search = 1. / 100;  // of what elimination is expected to take, by level
 constexpr int most_tries = 16;
 
 using Options = std::array<idx_t, METIS_NOPTIONS>;
@@ -41,6 +42,8 @@ void check(int outcome) {
 // Some of the nodes in METIS's form.
 struct MetisGraph {
   std::vector<idx_t> start{0}, neighbour, weight;
+
+  idx_t n_nodes() const { return static_cast<idx_t>(weight.size()); }
 };
 
 // Separates nodes into two parts that have no edge between them.
@@ -48,19 +51,27 @@ struct Split {
   Nodes first, second, separator;
 };
 
+// METIS ends the program where it finds no memory for a separator.
+void expect_room(const MetisGraph &graph) {
+  const Pages room(10 * graph.neighbour.size() + 40 * graph.weight.size());
+}
+
 class Dissection {
  public:
   Dissection(const NodeGraph &graph, const NodeUnknowns &unknowns, int dim);
   std::vector<int> places();
 
  private:
-  void order(const Nodes &nodes, int begin);
+  void order(const Nodes &nodes, int begin, double girth);
   void order_by_metis(const Nodes &nodes, int begin);
-  int tries(const Nodes &nodes);
-  Split best_split(const Nodes &nodes, int tries);
-  double seconds(const Split &split, double around);
-  double expected_seconds(double unknowns, double around) const;
+  int tries(const Nodes &nodes, double girth);
+  Split split(const Nodes &nodes, double &girth);
+  Split candidate(const Nodes &nodes, MetisGraph &graph, int seed) const;
+  double seconds(const Split &split, double around, double girth);
+  double expected_seconds(double unknowns, double around, double girth) const;
+  double separator_of_cube(double unknowns) const;
   MetisGraph part(const Nodes &nodes);
+  std::size_t edges_of(const Nodes &nodes) const;
   double unknowns_of(const Nodes &nodes) const;
   double unknowns_around(const Nodes &nodes);
   void mark(const Nodes &nodes);
@@ -91,34 +102,32 @@ std::vector<int> Dissection::places() {
     (unknowns_.eliminated[i] > 0 ? nodes : others).push_back(i);
   unknowns_by_node_ =
       unknowns_of(nodes) / static_cast<double>(std::max<std::size_t>(nodes.size(), 1));
-  order(nodes, 0);
+  order(nodes, 0, 1);
   auto behind = static_cast<int>(nodes.size());
   for (const Node node : others)
     place_[node] = behind++;
   return std::move(place_);
 }
 
-// Places from `begin` on, the separator's last.
-void Dissection::order(const Nodes &nodes, int begin) {
+// Places from `begin` on, the separator's last. `girth` is what a separator has of one of a cube,
+// or square, that is as large.
+void Dissection::order(const Nodes &nodes, int begin, double girth) {
   if (nodes.empty())
     return;
-  const int n_tries = tries(nodes);
-  if (n_tries <= 1)
+  const Split best = tries(nodes, girth) > 1 ? split(nodes, girth) : Split();
+  if (best.first.empty())
     return order_by_metis(nodes, begin);
-  const Split split = best_split(nodes, n_tries);
-  if (split.first.empty() || split.second.empty())
-    return order_by_metis(nodes, begin);
-  order(split.first, begin);
-  begin += static_cast<int>(split.first.size());
-  order(split.second, begin);
-  begin += static_cast<int>(split.second.size());
-  for (const Node node : split.separator)
+  order(best.first, begin, girth);
+  begin += static_cast<int>(best.first.size());
+  order(best.second, begin, girth);
+  begin += static_cast<int>(best.second.size());
+  for (const Node node : best.separator)
     place_[node] = begin++;
 }
 
 void Dissection::order_by_metis(const Nodes &nodes, int begin) {
   MetisGraph graph = part(nodes);
-  auto n = static_cast<idx_t>(nodes.size());
+  idx_t n = graph.n_nodes();
   std::vector<idx_t> order(n), place(n);
   check(METIS_NodeND(&n, graph.start.data(), graph.neighbour.data(), graph.weight.data(),
                      options(1).data(), order.data(), place.data()));
@@ -127,66 +136,82 @@ void Dissection::order_by_metis(const Nodes &nodes, int begin) {
 }
 
 // How many separators may be looked for.
-int Dissection::tries(const Nodes &nodes) {
-  auto edges = static_cast<double>(nodes.size());
-  for (const Node node : nodes)
-    edges += static_cast<double>(neighbours(node).size());
-  const double expected = expected_seconds(unknowns_of(nodes), unknowns_around(nodes));
-  return static_cast<int>(
-      std::min<double>(share_of_search * expected / (seconds_by_edge * edges), most_tries));
+int Dissection::tries(const Nodes &nodes, double girth) {
+  const double one = seconds_by_edge * static_cast<double>(nodes.size() + edges_of(nodes));
+  const double expected = expected_seconds(unknowns_of(nodes), unknowns_around(nodes), girth);
+  return static_cast<int>(std::min<double>(share_of_search * expected / one, most_tries));
+}
+
+// The best of those that may be looked for; of none that is worth it nothing. The first tells the
+// girth.
+Split Dissection::split(const Nodes &nodes, double &girth) {
+  MetisGraph graph = part(nodes);
+  const double around = unknowns_around(nodes);
+  Split best = candidate(nodes, graph, 1);
+  girth = unknowns_of(best.separator) / separator_of_cube(unknowns_of(nodes));
+  const int n_tries = tries(nodes, girth);
+  if (n_tries <= 1)
+    return {};
+  double least = seconds(best, around, girth);
+  for (int seed = 2; seed <= n_tries; ++seed) {
+    Split other = candidate(nodes, graph, seed);
+    if (const double taken = seconds(other, around, girth); taken < least * (1 - 1e-9)) {
+      least = taken;
+      best = std::move(other);
+    }
+  }
+  return least < INFINITY ? best : Split();
 }
 
 // Parts of unlike size may have the smaller separator between them.
-Split Dissection::best_split(const Nodes &nodes, int tries) {
-  MetisGraph graph = part(nodes);
-  idx_t n = static_cast<idx_t>(nodes.size()), weight = 0;
+Split Dissection::candidate(const Nodes &nodes, MetisGraph &graph, int seed) const {
+  Options chosen = options(seed);
+  chosen[METIS_OPTION_UFACTOR] = std::array{600, 200, 400, 100}[seed % 4];  // thousandths
+  idx_t n = graph.n_nodes(), weight = 0;
   std::vector<idx_t> side(n);
-  Split best;
-  const double around = unknowns_around(nodes);
-  double least = INFINITY;
-  for (int t = 0; t < tries; ++t) {
-    Options chosen = options(t + 1);
-    chosen[METIS_OPTION_UFACTOR] = std::array{200, 400, 100, 600}[t % 4];  // thousandths
-    check(METIS_ComputeVertexSeparator(&n, graph.start.data(), graph.neighbour.data(),
-                                       graph.weight.data(), chosen.data(), &weight, side.data()));
-    Split split;
-    for (idx_t i = 0; i < n; ++i)
-      (side[i] == 0   ? split.first
-       : side[i] == 1 ? split.second
-                      : split.separator)
-          .push_back(nodes[i]);
-    if (const double taken = seconds(split, around); taken < least) {
-      least = taken;
-      best = std::move(split);
-    }
-  }
-  return best;
+  expect_room(graph);
+  check(METIS_ComputeVertexSeparator(&n, graph.start.data(), graph.neighbour.data(),
+                                     graph.weight.data(), chosen.data(), &weight, side.data()));
+  Split split;
+  for (idx_t i = 0; i < n; ++i)
+    (side[i] == 0   ? split.first
+     : side[i] == 1 ? split.second
+                    : split.separator)
+        .push_back(nodes[i]);
+  return split;
 }
 
-double Dissection::seconds(const Split &split, double around) {
+double Dissection::seconds(const Split &split, double around, double girth) {
+  if (split.first.empty() || split.second.empty())
+    return INFINITY;
   double sum = Front::seconds(unknowns_of(split.separator), around);
   for (const Nodes *side : {&split.first, &split.second})
-    sum += expected_seconds(unknowns_of(*side), unknowns_around(*side));
+    sum += expected_seconds(unknowns_of(*side), unknowns_around(*side), girth);
   return sum;
 }
 
-// Of so many unknowns with so many others around them that come later: as of a cube or a square,
-// which is halved until little is left.
-double Dissection::expected_seconds(double unknowns, double around) const {
+// Of so many unknowns with so many others around them that come later, halved until little is left.
+// As parts are no cubes, more than half of what is around one is around its halves: fitted.
+double Dissection::expected_seconds(double unknowns, double around, double girth) const {
   double sum = 0;
   for (double parts = 1; unknowns > 100; parts *= 2) {
-    const double separator = unknowns_by_node_ * std::pow(unknowns / unknowns_by_node_, exponent_);
+    const double separator = std::min(girth * separator_of_cube(unknowns), unknowns);
     sum += parts * Front::seconds(separator, around);
     unknowns = (unknowns - separator) / 2;
-    around = around / 2 + separator;
+    around = 0.7 * around + separator;
   }
   return sum;
+}
+
+double Dissection::separator_of_cube(double unknowns) const {
+  return unknowns_by_node_ * std::pow(unknowns / unknowns_by_node_, exponent_);
 }
 
 MetisGraph Dissection::part(const Nodes &nodes) {
   static_assert(sizeof(idx_t) == sizeof(int));
   mark(nodes);
   MetisGraph part;
+  part.neighbour.reserve(edges_of(nodes));
   for (const Node node : nodes) {
     for (const Node other : neighbours(node))
       if (other != node && mark_[other] == marked_)
@@ -195,6 +220,13 @@ MetisGraph Dissection::part(const Nodes &nodes) {
     part.weight.push_back(unknowns_.eliminated[node]);
   }
   return part;
+}
+
+std::size_t Dissection::edges_of(const Nodes &nodes) const {
+  std::size_t sum = 0;
+  for (const Node node : nodes)
+    sum += neighbours(node).size();
+  return sum;
 }
 
 double Dissection::unknowns_of(const Nodes &nodes) const {
