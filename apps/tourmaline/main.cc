@@ -29,6 +29,7 @@
 #include "report/page.h"
 #include "run/dense_kernels.h"
 #include "run/expected_cost.h"
+#include "run/lone_error.h"
 #include "run/process.h"
 #include "run/survey.h"
 #include "sweep_command.h"
@@ -54,9 +55,15 @@ struct Asked {
   double megabytes = 0;
 };
 
+// A rank alone may not find its files.
 tourmaline::casefile::Case case_of(const Asked &asked) {
-  return tourmaline::casefile::read_file(
-      asked.file, asked.overrides, tourmaline::mesh::mesh_file_reader({.trusted = asked.trust}));
+  try {
+    return tourmaline::casefile::read_file(
+        asked.file, asked.overrides, tourmaline::mesh::mesh_file_reader({.trusted = asked.trust}));
+  } catch (const tourmaline::Error &error) {
+    tourmaline::run::require_error_of_all(error);
+    throw;
+  }
 }
 
 void run(const Asked &asked) {

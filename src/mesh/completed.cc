@@ -180,6 +180,7 @@ void check_places(const MeshFile &mesh, double shift) {
 void complete_facets(MeshFile &mesh, const Indices &faces, const ElementTable &table) {
   const std::size_t each = mesh.vertices_per_facet();
   const ElementTable listed(mesh.facets, each);
+  mesh.inside.clear();
   for (std::size_t facet = 0; facet < mesh.n_facets(); ++facet) {
     const auto same = table.find(std::span(mesh.facets).subspan(facet * each, each));
     if (same.empty())

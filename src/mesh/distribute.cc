@@ -4,8 +4,8 @@
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria_description.h>
 
-#include <cstdint>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <utility>
 
 #include "parallel/ranks.h"
@@ -40,14 +40,11 @@ std::unique_ptr<dealii::Triangulation<dim>> shares_of(
 // Of the first rank.
 template <int dim>
 void share_names(Mesh<dim> &mesh) {
-  std::vector<double> numbers;
-  if (parallel::is_first()) {
-    const auto bytes = nlohmann::json::to_msgpack({mesh.boundaries, mesh.inner, mesh.simplices});
-    numbers.assign(bytes.begin(), bytes.end());
-  }
-  parallel::from_first(numbers);
-  const auto names =
-      nlohmann::json::from_msgpack(std::vector<std::uint8_t>(numbers.begin(), numbers.end()));
+  std::string bytes;
+  if (parallel::is_first())
+    nlohmann::json::to_msgpack({mesh.boundaries, mesh.inner, mesh.simplices}, bytes);
+  parallel::from_first(bytes);
+  const auto names = nlohmann::json::from_msgpack(bytes);
   names[0].get_to(mesh.boundaries);
   names[1].get_to(mesh.inner);
   names[2].get_to(mesh.simplices);

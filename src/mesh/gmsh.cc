@@ -17,6 +17,7 @@
 #include "mesh/gmsh_format.h"
 #include "mesh/gmsh_listing.h"
 #include "mesh_bytes.h"
+#include "parallel/ranks.h"
 #include "sandbox.h"
 #include "tourmaline/error.h"
 
@@ -318,14 +319,29 @@ std::shared_ptr<const MeshFile> read_file(casefile::MeshCase asked, const Readin
   return mesh;
 }
 
+// One rank reads: libgmsh takes much more memory than the mesh, and all are to have the same one.
+std::shared_ptr<const MeshFile> read_for_all(const casefile::MeshCase &asked, const Reading &how) {
+  std::shared_ptr<const MeshFile> mesh;
+  std::string bytes;
+  parallel::on_first([&] {
+    mesh = read_file(asked, how);
+    if (parallel::n_ranks() > 1)
+      bytes = bytes_of(*mesh);
+  });
+  parallel::from_first(bytes);
+  if (!mesh)
+    mesh = std::make_shared<const MeshFile>(mesh_of(bytes));
+  return mesh;
+}
+
 }  // namespace
 
 std::shared_ptr<const MeshFile> read_mesh_file(const casefile::MeshCase &asked) {
-  return read_file(asked, {});
+  return read_for_all(asked, {});
 }
 
 casefile::MeshFileReader mesh_file_reader(const Reading &how) {
-  return [how](const casefile::MeshCase &asked) { return read_file(asked, how); };
+  return [how](const casefile::MeshCase &asked) { return read_for_all(asked, how); };
 }
 
 }  // namespace tourmaline::mesh

@@ -39,6 +39,9 @@ class Writer {
     for (const T &value : values)
       (*this)(value);
   }
+  void operator()(const std::vector<bool> &values) {
+    (*this)(std::vector<char>(values.begin(), values.end()));
+  }
 };
 
 [[noreturn]] void fail_damaged() {
@@ -76,6 +79,11 @@ class Reader {
     for (T &value : values)
       (*this)(value);
   }
+  void operator()(std::vector<bool> &values) {
+    std::vector<char> bytes;
+    (*this)(bytes);
+    values.assign(bytes.begin(), bytes.end());
+  }
   bool is_at_end() const { return at_ == end_; }
 
  private:
@@ -107,6 +115,7 @@ void visit(Visitor &v, Mesh &mesh) {
     v(groups->sets);
     v(groups->set_of);
   }
+  v(mesh.inside);
 }
 
 }  // namespace
@@ -138,7 +147,8 @@ bool is_consistent(const MeshFile &mesh) {
          mesh.facets.size() % mesh.vertices_per_facet() == 0 &&
          all_below(mesh.cells, mesh.points.size()) && all_below(mesh.facets, mesh.points.size()) &&
          is_consistent(mesh.regions, mesh.n_cells()) &&
-         is_consistent(mesh.boundaries, mesh.n_facets());
+         is_consistent(mesh.boundaries, mesh.n_facets()) &&
+         (mesh.inside.empty() || mesh.inside.size() == mesh.n_facets());
 }
 
 }  // namespace

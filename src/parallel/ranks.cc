@@ -2,6 +2,7 @@
 
 #include <mpi.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <new>
@@ -153,6 +154,19 @@ void from_first(std::span<double> values) {
 void from_first(std::vector<double> &values) {
   values.resize(from_first(static_cast<int>(values.size())));
   from_first(std::span<double>(values));
+}
+
+// Of any size: MPI counts in int.
+void from_first(std::string &bytes) {
+  if (n_ranks() == 1)
+    return;
+  std::size_t size = bytes.size();
+  MPI_Bcast(&size, 1, MPI_UNSIGNED_LONG, 0, MPI_COMM_WORLD);
+  bytes.resize(size);
+  constexpr std::size_t most = std::size_t{1} << 30;
+  for (std::size_t at = 0; at < size; at += most)
+    MPI_Bcast(bytes.data() + at, static_cast<int>(std::min(most, size - at)), MPI_CHAR, 0,
+              MPI_COMM_WORLD);
 }
 
 void from_first(std::span<int> values) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 /// The processes (MPI ranks) of a run. Cells, and with them matrices and integrals, are shared out,
@@ -31,9 +32,10 @@ double sum(double value);
 std::size_t sum(std::size_t value);
 void largest(std::span<double> values);
 
-/// All ranks get what the first one holds; of the second kind, `values` is resized.
+/// All ranks get what the first one holds; what has a size of its own is resized.
 void from_first(std::span<double> values);
 void from_first(std::vector<double> &values);
+void from_first(std::string &bytes);
 void from_first(std::span<int> values);
 int from_first(int value);
 

@@ -34,7 +34,7 @@ template <int dim>
 void Evolution<dim>::begin() {
   foundations_.begin(state_);
   if (motion_.is_inertial()) {
-    solve::settle(model_, foundations_, state_);
+    solve::settle(model_, route_->is_iterative(), foundations_, state_);
     route_->route().begin(state_);
     if (electrodes_)
       electrodes_->begin(state_);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <utility>
 
 #include "body/interpolation.h"
 #include "case/electrodes.h"
@@ -146,6 +147,22 @@ std::vector<double> interpolated(const InitialCase &initial, const RecordedState
   return state;
 }
 
+// Of the whole body, whatever this rank has of it.
+std::vector<Vector3> all_points(const std::vector<Vector3> &points,
+                                const body::NodeSharing &sharing) {
+  if (sharing.is_whole())
+    return points;
+  std::vector<double> coordinates;
+  for (const Vector3 &point : points)
+    coordinates.insert(coordinates.end(), point.begin(), point.end());
+  coordinates = sharing.on_first(std::move(coordinates));
+  parallel::from_first(coordinates);
+  std::vector<Vector3> all(sharing.n_all());
+  for (std::size_t i = 0; i < all.size(); ++i)
+    std::copy_n(&coordinates[3 * i], 3, all[i].begin());
+  return all;
+}
+
 template <int dim>
 double largest(const std::vector<double> &state, int component) {
   double most = 0;
@@ -219,7 +236,7 @@ void require_unknowns(const casefile::Case &asked, const std::vector<double> &st
 template <int dim>
 void level_electrodes(const solve::Model<dim> &model, std::vector<double> &state) {
   constexpr double round_off = 1e-9;
-  const double size = largest<dim>(state, Fields<dim>::potential);
+  const double size = model.sharing().largest(largest<dim>(state, Fields<dim>::potential));
   for (std::size_t e = 0; e < model.electrodes.size(); ++e) {
     const std::vector<body::Node> &nodes = model.electrodes[e];
     const double voltage = state[unknown<dim>(nodes.front(), Fields<dim>::potential)];
@@ -273,7 +290,7 @@ double size_of_terms(const solve::Model<dim> &model, const std::vector<body::Nod
   for (const body::Node node : nodes)
     volt[unknown<dim>(node, Fields<dim>::potential)] = 1;
   const std::vector<double> of_volt = model.product(volt, false);
-  const double highest = largest<dim>(state, Fields<dim>::potential);
+  const double highest = model.sharing().largest(largest<dim>(state, Fields<dim>::potential));
   double size = 0;
   for (const body::Node node : nodes) {
     const std::size_t i = unknown<dim>(node, Fields<dim>::potential);
@@ -337,23 +354,25 @@ std::vector<double> state_of_other(solve::Model<dim> &model) {
   require_recorded(model, other);
   require_one_theory(model, other);
   RecordedState from = recorded_state<dim>(initial);
-  const bool is_same_mesh = are_nodes_of<dim>(from, model.body.points());
+  const std::vector<Vector3> points = all_points(model.body.points(), model.sharing());
+  const bool is_same_mesh = are_nodes_of<dim>(from, points);
   if (!is_same_mesh)
-    from.unknowns = interpolated<dim>(initial, from, model.body.points());
-  if (!is_same_mesh || from.points.size() > model.body.n_nodes())
+    from.unknowns = interpolated<dim>(initial, from, points);
+  if (!is_same_mesh || from.points.size() > points.size())
     require_whole(model, from);
-  from.unknowns.resize(model.n_unknowns());
+  from.unknowns.resize(points.size() * Fields<dim>::count);
   require_unknowns<dim>(model.asked, from.unknowns);
-  level_electrodes(model, from.unknowns);
+  std::vector<double> state = model.sharing().part_of(std::move(from.unknowns));
+  level_electrodes(model, state);
   if (casefile::all_voltages_given(model.asked))
-    return std::move(from.unknowns);
+    return state;
   const RecordedRow last(initial);
   for (const casefile::ElectrodeCase &electrode : model.asked.electrodes)
     require_same_source(initial, electrode, other, last);
   initial.charges = charges_of(model.asked, last);
   if (is_same_mesh && have_same_cells(model.asked.mesh, other.mesh))
-    require_same_charges(model, from.unknowns, initial.charges);
-  return std::move(from.unknowns);
+    require_same_charges(model, state, initial.charges);
+  return state;
 }
 
 }  // namespace

@@ -46,8 +46,7 @@ template <int dim>
 solve::Model<dim> announced(const casefile::Case &asked, bool iterative,
                             output::Progress &progress) {
   progress.stage("mesh and operator");
-  return solve::Model<dim>(asked,
-                           iterative && !may_be_factorised(asked) && solve::shares_nodes(asked));
+  return solve::Model<dim>(asked, iterative && !may_be_factorised(asked));
 }
 
 // Evaluates the case's formulas once before anything is written: a formula that is undefined

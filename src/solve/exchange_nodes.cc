@@ -77,6 +77,13 @@ contact::Exchange::Value charge_exchange_at_start(const Model<dim> &model,
       ->at(state[body::unknown<dim>(at.node, Fields<dim>::potential)], contact);
 }
 
+std::vector<std::size_t> unknowns_of(const std::vector<ExchangeSite> &sites) {
+  std::vector<std::size_t> unknowns;
+  for (const ExchangeSite &site : sites)
+    unknowns.push_back(site.unknown);
+  return unknowns;
+}
+
 template <int dim>
 std::vector<std::size_t> contact_unknowns(const Model<dim> &model,
                                           const std::vector<ExchangeSite> &sites) {
@@ -84,8 +91,8 @@ std::vector<std::size_t> contact_unknowns(const Model<dim> &model,
   for (const contact::InterfaceNode<dim> &at : model.interface)
     for (int c = 0; c < dim; ++c)
       unknowns.push_back(body::unknown<dim>(at.node, c));
-  for (const ExchangeSite &site : sites)
-    unknowns.push_back(site.unknown);
+  const std::vector<std::size_t> exchanged = unknowns_of(sites);
+  unknowns.insert(unknowns.end(), exchanged.begin(), exchanged.end());
   return unknowns;
 }
 

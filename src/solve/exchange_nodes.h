@@ -21,6 +21,8 @@ struct ExchangeSite {
   std::size_t unknown = 0;  ///< of the body
 };
 
+std::vector<std::size_t> unknowns_of(const std::vector<ExchangeSite> &sites);
+
 /// Those that are free: temperatures, then potentials, each by node.
 template <int dim>
 std::vector<ExchangeSite> exchange_sites(const Model<dim> &model);

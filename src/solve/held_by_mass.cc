@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "case/holding.h"
+#include "parallel/ranks.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::solve {
@@ -15,17 +17,20 @@ using casefile::Support;
 
 namespace {
 
+// Of this rank.
 template <int dim>
-std::vector<Node> nodes_with_mass(const Model<dim> &model) {
-  std::vector<Node> nodes;
+std::vector<Vector3> places_with_mass(const Model<dim> &model) {
+  std::vector<Vector3> places;
   for (Node node = 0; node < model.body.n_nodes(); ++node)
-    if (model.op.rate_forces()->diagonal()[node] > 0)
-      nodes.push_back(node);
-  return nodes;
+    if (model.counts(body::unknown<dim>(node, 0)) && model.op.rate_forces()->diagonal()[node] > 0)
+      places.push_back(model.body.points()[node]);
+  return places;
 }
 
 // Of all points three that are as far from a line as any: what they hold all of them hold.
 std::vector<Vector3> spanning(const std::vector<Vector3> &points) {
+  if (points.empty())
+    return {};
   using Point = Eigen::Vector3d;
   const auto at = [&](std::size_t i) { return Point(points[i].data()); };
   const auto farthest = [&](const auto &distance) {
@@ -41,6 +46,18 @@ std::vector<Vector3> spanning(const std::vector<Vector3> &points) {
   const std::size_t third =
       farthest([&](const Point &p) { return (p - first).cross(line).norm(); });
   return {points[0], points[second], points[third]};
+}
+
+// Of the points of all ranks, on all of them.
+std::vector<Vector3> spanning_all(const std::vector<Vector3> &mine) {
+  std::vector<double> coordinates;
+  for (const Vector3 &point : spanning(mine))
+    coordinates.insert(coordinates.end(), point.begin(), point.end());
+  coordinates = parallel::joined(coordinates);
+  std::vector<Vector3> points(coordinates.size() / 3);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    std::copy_n(&coordinates[3 * i], 3, points[i].begin());
+  return spanning(points);
 }
 
 template <int dim>
@@ -63,13 +80,12 @@ std::vector<Support> supports_beside_mass(const Model<dim> &model) {
 
 template <int dim>
 void require_mass_that_holds(const Model<dim> &model) {
-  std::vector<Vector3> points;
-  for (const Node node : nodes_with_mass(model))
-    points.push_back(model.body.points()[node]);
+  const std::vector<Vector3> mine = places_with_mass(model), points = spanning_all(mine);
+  const double count = model.sharing().sum(static_cast<double>(mine.size()));
   if (points.empty())
     return;
   std::vector<Support> supports;
-  for (const Vector3 &point : spanning(points))
+  for (const Vector3 &point : points)
     for (std::size_t c = 0; c < dim; ++c)
       supports.emplace_back(Support{point, {}}).direction[c] = 1;
   if (casefile::free_motions(model.asked, supports).empty())
@@ -82,8 +98,8 @@ void require_mass_that_holds(const Model<dim> &model) {
         "[time] contact_mass: contact nodes give their mass to other nodes of their cells, and of "
         "these there {}, which {} not resist {}; nothing else holds the body against it; take "
         "finer cells, or contact_mass = \"consistent\"",
-        points.size() == 1 ? "is one" : fmt::format("are {}", points.size()),
-        points.size() == 1 ? "does" : "do", free));
+        count == 1 ? "is one" : fmt::format("are {:.0f}", count), count == 1 ? "does" : "do",
+        free));
 }
 
 template void require_mass_that_holds<2>(const Model<2> &);

@@ -44,17 +44,13 @@ std::vector<body::Prescribed> prescribed_in(const body::Discretisation<dim> &bod
 
 }  // namespace
 
-bool shares_nodes(const casefile::Case &asked) {
-  return parallel::n_ranks() > 1 && !asked.time.is_dynamic() && !asked.initial.from;
-}
-
 template <int dim>
 struct Model<dim>::Built {
   Built(const casefile::Case &asked, const std::function<mesh::Mesh<dim>()> &make_mesh,
         bool shares_nodes)
       : composition(asked),
         body(mesh::shared_out<dim>(make_mesh), asked.mesh.degree, body::geometry_of(asked)) {
-    if (shares_nodes)
+    if (shares_nodes && parallel::n_ranks() > 1)
       body.share_nodes(body::nodes_with_conditions(body, asked));
     mesh_seconds = watch.lap();
   }

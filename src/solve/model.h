@@ -17,14 +17,10 @@
 
 namespace tourmaline::solve {
 
-/// Whether nodes can be shared out to the ranks where the case is solved iteratively: not where the
-/// start of a motion is settled, by a factorisation, and no state of another run.
-bool shares_nodes(const casefile::Case &asked);
-
 /// Everything a step needs that does not change from step to step: the case as mathematics.
 template <int dim>
 struct Model {
-  /// `shares_nodes`: a rank has a part of the nodes alone (`body::NodeSharing`).
+  /// `shares_nodes`: of several ranks each has a part of the nodes alone (`body::NodeSharing`).
   explicit Model(const casefile::Case &asked_for, bool shares_nodes = false);
   /// On a mesh of the caller's, whose boundaries the case names, of one material; `asked_for.mesh`
   /// says only the degree.

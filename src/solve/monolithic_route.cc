@@ -46,13 +46,6 @@ std::vector<contact::MultiplierPoint<dim>> multiplier_points(const Model<dim> &m
   return contact::facet_multipliers(model.body, model.asked.contacts.front().on, is_prescribed);
 }
 
-std::vector<std::size_t> unknowns_of(const std::vector<ExchangeSite> &sites) {
-  std::vector<std::size_t> unknowns;
-  for (const ExchangeSite &site : sites)
-    unknowns.push_back(site.unknown);
-  return unknowns;
-}
-
 template <int dim>
 class MonolithicRoute : public Route {
  public:

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <memory>
 
-#include "condensation/condensed_body.h"
 #include "dense/decompositions.h"
 #include "larger.h"
-#include "parallel/ranks.h"
 #include "solve/exchange_nodes.h"
+#include "solve/free_body.h"
 #include "solve/free_electrodes.h"
 #include "solve/start_of_motion.h"
 
@@ -62,14 +61,15 @@ void prescribe_at_start(const Model<dim> &model, std::vector<double> &state) {
 template <int dim>
 class Settling {
  public:
-  Settling(const Model<dim> &model, FoundationCircuits<dim> &foundations,
+  Settling(const Model<dim> &model, bool iteratively, FoundationCircuits<dim> &foundations,
            std::vector<double> &state)
       : model_(model),
         state_(state),
         electrodes_(model, state),
         foundations_(foundations),
         sites_(charge_sites(model)),
-        is_free_(state.size(), false) {
+        is_free_(state.size(), false),
+        iteratively_(iteratively) {
     prescribe_at_start(model, state);
     touches_ = touching(model, state);
     is_prescribed_ = body::mask_of(model.prescribed, state.size());
@@ -92,6 +92,7 @@ class Settling {
 
  private:
   void release(std::size_t n) {
+    body_.reset();
     for (int c = 0; c < dim; ++c) {
       const std::size_t i = unknown<dim>(model_.interface[n].node, c);
       is_free_[i] =
@@ -115,8 +116,11 @@ class Settling {
     return value;
   }
 
+  // Rows of massless nodes have what resists rates of u only of damping, by which they go as far as
+  // in one step.
   void solve() {
-    factorise();
+    if (!body_)
+      body_ = free_body(model_, is_free_, sites_, iteratively_);
     VectorXd potentials(electrodes_.size() + foundations_.potentials().size());
     if (potentials.size() == 0)
       return follow();
@@ -154,55 +158,19 @@ class Settling {
     return lacks;
   }
 
-  // The condensed body of what is free alone. Rows of massless nodes have what resists rates of u
-  // only of damping, by which they go as far as in one step.
-  void factorise() {
-    std::vector<body::Prescribed> held;
-    for (std::size_t i = 0; i < state_.size(); ++i)
-      if (!is_free_[i])
-        held.push_back({i, model_.body.points()[i / Fields<dim>::count], 0., ""});
-    body_.reset();
-    if (held.size() == state_.size())
-      return;
-    std::vector<std::size_t> exchanged;
-    for (const ExchangeSite &site : sites_)
-      exchanged.push_back(site.unknown);
-    body_.emplace(model_.body, model_.op, model_.step, held, exchanged,
-                  condensation::choice_of(model_.asked.solver));
-  }
-
   // What is free goes to its equilibrium with all else at hand.
   void follow() {
     const std::vector<double> lacks = left();
-    bool is_settled = true;
+    double most = 0;
     for (std::size_t i = 0; i < lacks.size(); ++i)
-      is_settled = is_settled && (!is_free_[i] || lacks[i] == 0);
-    if (is_settled)
+      if (is_free_[i])
+        most = larger(most, std::abs(lacks[i]));
+    if (model_.sharing().largest(most) == 0)
       return;
-    std::vector<double> right_side(state_.size());
-    model_.op.multiply(model_.step, state_, right_side);
-    for (std::size_t i = 0; i < lacks.size(); ++i)
-      right_side[i] += lacks[i];
-    const VectorXd s = body_->reduce(right_side, state_);
-    body_->expand(exchanged_potentials(s), state_);
-  }
-
-  // S c = s + flow at c, of which the right side has that at hand; it is linear in c.
-  VectorXd exchanged_potentials(VectorXd s) const {
-    std::vector<double> potentials(sites_.size());
-    VectorXd slope(s.size());
-    for (std::size_t k = 0; k < sites_.size(); ++k) {
-      const auto row = static_cast<Index>(k);
-      slope[row] = crossing(sites_[k]).by_value;
-      s[row] -= slope[row] * state_[sites_[k].unknown];
-    }
-    parallel::on_first([&] {
-      if (s.size() > 0)
-        VectorXd::Map(potentials.data(), s.size()) =
-            dense::Cholesky(MatrixXd(slope.asDiagonal()) - body_->stiffness()).solve(VectorXd(-s));
-    });
-    parallel::from_first(std::span<double>(potentials));
-    return VectorXd::Map(potentials.data(), s.size());
+    std::vector<double> slopes;
+    for (const ExchangeSite &site : sites_)
+      slopes.push_back(crossing(site).by_value);
+    body_->answer(lacks, slopes, state_);
   }
 
   // What crosses by a state that has moved since, as nodes without mass went.
@@ -241,19 +209,20 @@ class Settling {
   FoundationCircuits<dim> &foundations_;
   std::vector<ExchangeSite> sites_;
   std::vector<bool> is_free_, is_prescribed_, touches_;
-  std::optional<condensation::CondensedBody<dim>> body_;  // empty: nothing is free
+  bool iteratively_;
+  std::unique_ptr<FreeBody<dim>> body_;
 };
 
 }  // namespace
 
 template <int dim>
-void settle(const Model<dim> &model, FoundationCircuits<dim> &foundations,
+void settle(const Model<dim> &model, bool iteratively, FoundationCircuits<dim> &foundations,
             std::vector<double> &state) {
-  Settling<dim>(model, foundations, state).run();
+  Settling<dim>(model, iteratively, foundations, state).run();
   foundations.begin_settled();
 }
 
-template void settle<2>(const Model<2> &, FoundationCircuits<2> &, std::vector<double> &);
-template void settle<3>(const Model<3> &, FoundationCircuits<3> &, std::vector<double> &);
+template void settle<2>(const Model<2> &, bool, FoundationCircuits<2> &, std::vector<double> &);
+template void settle<3>(const Model<3> &, bool, FoundationCircuits<3> &, std::vector<double> &);
 
 }  // namespace tourmaline::solve

@@ -14,9 +14,10 @@ namespace tourmaline::solve {
 /// and given potentials get their values at t = 0. Electrodes and foundations whose potential is
 /// not given float: they keep the charge that they have in the case's state, but for what their
 /// capacitors bring at once, Q + Y V = j for a step of 0 (`Circuit`). `foundations` has begun at
-/// the case's state, and goes on from the settled one. All ranks call it.
+/// the case's state, and goes on from the settled one. By a factorisation of what is free, or
+/// iteratively without one. All ranks call it. Throws SolveError.
 template <int dim>
-void settle(const Model<dim> &model, FoundationCircuits<dim> &foundations,
+void settle(const Model<dim> &model, bool iteratively, FoundationCircuits<dim> &foundations,
             std::vector<double> &state);
 
 }  // namespace tourmaline::solve

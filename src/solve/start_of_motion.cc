@@ -1,7 +1,14 @@
 #include "solve/start_of_motion.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "parallel/ranks.h"
+#include "solve/conjugate_gradients.h"
+#include "tourmaline/error.h"
 
 namespace tourmaline::solve {
 
@@ -60,46 +67,24 @@ std::vector<bool> with_mass(const Model<dim> &model) {
   return free;
 }
 
-// M a = force in the free components by conjugate gradients with the diagonal, whose condition
-// number is that of one cell: some tens of iterations for any mesh.
+// M a = force in the free components; the condition number of M with its diagonal is that of one
+// cell: some tens of iterations for any mesh.
 template <int dim>
-void solve_mass(const Model<dim> &model, const std::vector<bool> &free,
-                const std::vector<double> &force, std::vector<double> &acceleration) {
-  const std::vector<double> &diagonal = model.op.rate_forces()->diagonal();
-  const std::size_t n = force.size();
-  std::vector<double> r(n, 0.), p(n, 0.), z(n, 0.);
-  const auto precondition = [&] {
-    double rz = 0;
-    for (std::size_t i = 0; i < n; ++i)
-      if (free[i]) {
-        z[i] = r[i] / diagonal[i / Fields<dim>::count];
-        rz += r[i] * z[i];
-      }
-    return rz;
-  };
-  for (std::size_t i = 0; i < n; ++i)
-    if (free[i])
-      r[i] = force[i];
-  double rz = precondition();
-  const double enough = 1e-32 * rz;
-  p = z;
+void solve_mass(const Model<dim> &model, std::vector<double> force,
+                std::vector<double> &acceleration) {
+  FreeUnknowns free{model.sharing(), with_mass(model), std::vector<double>(force.size()),
+                    [&](const std::vector<double> &a) {
+                      return model.op.rate_product(body::RateForces<dim>::Kind::inertia, a);
+                    }};
+  for (std::size_t i = 0; i < force.size(); ++i)
+    free.diagonal[i] = model.op.rate_forces()->diagonal()[i / Fields<dim>::count];
   constexpr int most = 1000;
-  for (int iteration = 0; iteration < most && rz > enough; ++iteration) {
-    const std::vector<double> product =
-        model.op.rate_product(body::RateForces<dim>::Kind::inertia, p);
-    double curvature = 0;
-    for (std::size_t i = 0; i < n; ++i)
-      curvature += p[i] * product[i];
-    for (std::size_t i = 0; i < n; ++i)
-      if (free[i]) {
-        acceleration[i] += rz / curvature * p[i];
-        r[i] -= rz / curvature * product[i];
-      }
-    const double next = precondition();
-    for (std::size_t i = 0; i < n; ++i)
-      p[i] = z[i] + next / rz * p[i];
-    rz = next;
-  }
+  const double enough = 1e-32 * free.size_of(force);
+  if (!conjugate_gradients(free, std::move(force), enough, most, acceleration))
+    throw SolveError(fmt::format(
+        "the acceleration at t = 0 did not converge in {} iterations; look at the cells, of which "
+        "some may have next to no size, and at the densities",
+        most));
 }
 
 }  // namespace
@@ -126,12 +111,14 @@ template <int dim>
 std::vector<double> initial_velocity(const Model<dim> &model) {
   std::vector<double> velocity(model.n_unknowns(), 0.);
   const casefile::FormulaVector &asked = model.asked.initial.velocity;
-  for (Node node = 0; node < model.body.n_nodes(); ++node)
-    for (int c = 0; c < static_cast<int>(asked.size()); ++c)
-      velocity[unknown<dim>(node, c)] = asked[c].value(model.body.points()[node], 0);
-  for (const body::Prescribed &p : model.prescribed)
-    if (field_of<dim>(p.unknown) == 0)
-      velocity[p.unknown] = prescribed_rates(model, p, 0).velocity;
+  parallel::together([&] {
+    for (Node node = 0; node < model.body.n_nodes(); ++node)
+      for (int c = 0; c < static_cast<int>(asked.size()); ++c)
+        velocity[unknown<dim>(node, c)] = asked[c].value(model.body.points()[node], 0);
+    for (const body::Prescribed &p : model.prescribed)
+      if (field_of<dim>(p.unknown) == 0)
+        velocity[p.unknown] = prescribed_rates(model, p, 0).velocity;
+  });
   return velocity;
 }
 
@@ -153,7 +140,7 @@ std::vector<double> initial_acceleration(const Model<dim> &model, std::span<cons
   subtract(model.op.rate_product(Forces::Kind::damping, velocity));
   subtract(model.op.rate_product(Forces::Kind::backward_damping, velocity));
   subtract(model.op.rate_product(Forces::Kind::inertia, acceleration));
-  solve_mass(model, with_mass(model), force, acceleration);
+  solve_mass(model, std::move(force), acceleration);
   return acceleration;
 }
 

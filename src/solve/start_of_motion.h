@@ -21,7 +21,8 @@ struct PrescribedRates {
 template <int dim>
 PrescribedRates prescribed_rates(const Model<dim> &model, const body::Prescribed &p, double time);
 
-/// The case's, by unknown; where displacements are prescribed, that of the prescribed motion.
+/// The case's, by unknown; where displacements are prescribed, that of the prescribed motion. All
+/// ranks call it.
 template <int dim>
 std::vector<double> initial_velocity(const Model<dim> &model);
 

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "larger.h"
 #include "parallel/ranks.h"
+#include "solve/conjugate_gradients.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::solve {
@@ -127,55 +129,36 @@ void SteadyHeat<dim>::require_unwarmed(double time, const std::vector<double> &h
       model_.asked.source, time));
 }
 
-// Conjugate gradients with the diagonal of G: products with G are cheap.
 template <int dim>
 void SteadyHeat<dim>::iterate(double time, const std::vector<double> &heat,
                               std::vector<double> &x) const {
   constexpr double tolerance = 1e-14;
-  const std::size_t size = heat.size();
-  std::vector<double> residual(size), direction(size, 0.), of_direction(model_.n_unknowns(), 0.);
-  const auto product = [&](const std::vector<double> &state) { return model_.op.conducted(state); };
-  const auto projected = [&](std::size_t node, double value) { return is_free_[node] ? value : 0; };
-  const auto counts = [&](std::size_t i) { return model_.sharing().counts(static_cast<Node>(i)); };
-  const auto size_of = [&](const std::vector<double> &r) {
-    double sum = 0;
-    for (std::size_t i = 0; i < size; ++i)
-      sum += counts(i) && is_free_[i] ? r[i] * r[i] / diagonal_[i] : 0;
-    return model_.sharing().sum(sum);
+  const auto by_unknown = [&](const std::vector<double> &by_node) {
+    std::vector<double> all(x.size(), 0.);
+    for (Node node = 0; node < by_node.size(); ++node)
+      all[theta(node)] = by_node[node];
+    return all;
   };
-  std::vector<double> of_x = product(x);
-  for (std::size_t i = 0; i < size; ++i)
-    residual[i] = projected(i, heat[i] - of_x[i]);
-  std::vector<double> terms(size);
-  for (std::size_t i = 0; i < size; ++i)
-    terms[i] = std::abs(heat[i]) + diagonal_[i] * std::abs(x[theta(static_cast<Node>(i))]);
-  double rho = size_of(residual);
-  const double wanted = tolerance * tolerance * (size_of(terms) + rho);
-  const std::size_t most = 20 * model_.sharing().n_all() + 100;
-  for (std::size_t k = 0; rho > wanted; ++k) {
-    if (k == most)
-      throw SolveError(
-          fmt::format("the steady temperature at t = {:g} did not converge in {} "
-                      "iterations; take solver.body = \"direct\"",
-                      time, most));
-    for (std::size_t i = 0; i < size; ++i)
-      of_direction[theta(static_cast<Node>(i))] = direction[i] +=
-          is_free_[i] ? residual[i] / diagonal_[i] : 0;
-    const std::vector<double> taken = product(of_direction);
-    double curvature = 0;
-    for (std::size_t i = 0; i < size; ++i)
-      curvature += counts(i) ? projected(i, direction[i] * taken[i]) : 0;
-    curvature = model_.sharing().sum(curvature);
-    const double along = rho / curvature;
-    for (std::size_t i = 0; i < size; ++i) {
-      x[theta(static_cast<Node>(i))] += along * direction[i];
-      residual[i] -= projected(i, along * taken[i]);
-    }
-    const double next = size_of(residual), conjugate = next / rho;
-    rho = next;
-    for (std::size_t i = 0; i < size; ++i)
-      direction[i] *= conjugate;
+  const auto product = [&](const std::vector<double> &of) {
+    return by_unknown(model_.op.conducted(of));
+  };
+  FreeUnknowns free{model_.sharing(), std::vector<bool>(x.size(), false), by_unknown(diagonal_),
+                    product};
+  std::vector<double> residual = by_unknown(heat), terms(x.size(), 0.);
+  const std::vector<double> of_x = product(x);
+  for (Node node = 0; node < heat.size(); ++node) {
+    const std::size_t i = theta(node);
+    free.is_free[i] = is_free_[node];
+    residual[i] -= of_x[i];
+    terms[i] = std::abs(heat[node]) + diagonal_[node] * std::abs(x[i]);
   }
+  const double enough = tolerance * tolerance * (free.size_of(terms) + free.size_of(residual));
+  const std::size_t most = 20 * model_.sharing().n_all() + 100;
+  if (!conjugate_gradients(free, std::move(residual), enough, most, x))
+    throw SolveError(
+        fmt::format("the steady temperature at t = {:g} did not converge in {} "
+                    "iterations; take solver.body = \"direct\"",
+                    time, most));
 }
 
 template <int dim>

@@ -73,6 +73,9 @@ class SharedNodes : public Ranks {
             {"elastic_energy", "electric_energy", "thermal_energy", "coupling_energy"},
             {"stored_energy_rate", "load_power", "electric_power", "thermal_power",
              "conduction_loss", "friction_dissipation", "time_step_loss"},
+            {"kinetic_energy"},
+            {"inertia_x", "inertia_y"},
+            {"viscous_dissipation"},
             {"heat_top", "heat_bottom", "heat_right", "stored_heat_rate", "heat_source"},
             {"charge_top", "electrode_sensor_charge"},
             {"electrode_sensor_voltage"},
@@ -122,6 +125,31 @@ TEST_P(SharedNodes, WithDampingAndAnElectrodeInACircuit) {
                        " --set 'region[0].material.stiffness_damping=0.2'"
                        " --set 'region[0].material.mass_damping=10'"
                        " --set 'electrode=[{name=\"sensor\",on=\"left\",resistor=1e7}]'");
+}
+
+// Nodes without mass have come off their foundation, and potentials go to their equilibrium.
+TEST_P(SharedNodes, InMotion) {
+  expect_same_solution(
+      file_of(layers) +
+      " --set time.regime=dynamic --set time.end=4e-6 --set time.steps=8"
+      " --set initial.velocity='[0.3, -0.2]' --set initial.potential='1e5*x*y'"
+      " --set initial.displacement='[0, \"1e-4*(x - 0.005)\"]'"
+      " --set 'boundary[0]={on=\"top\",potential=0,temperature=\"2*t\"}'"
+      " --set boundary[1].traction='[1e5, -1e5]'"
+      " --set region[0].material.stiffness_damping=1e-8"
+      " --set 'contact.electric={law=\"exchange\",coefficient=1e-5,foundation_potential=3}'"
+      " --set 'electrode=[{name=\"sensor\",on=\"left\",resistor=1e7}]'");
+}
+
+TEST_P(SharedNodes, FromTheStateOfAnotherRunOnTheSameMeshAndOnAnother) {
+  const Outcome first = run_on(1, file_of(layers) + iteratively, folder_ / "first");
+  ASSERT_EQ(first.status, 0) << first.said;
+  for (const char *cells : {"14, 7", "11, 8"}) {
+    SCOPED_TRACE(cells);
+    expect_same_solution(file_of(layers) + " --set 'initial={from=\"" +
+                         (folder_ / "first").string() + "\"}' --set mesh.box.cells='[" + cells +
+                         "]'");
+  }
 }
 
 TEST_P(SharedNodes, OfAStaticBodyWhoseTemperaturesAreSteady) {

@@ -30,7 +30,8 @@ struct Reading {
 /// binary), or a geometry (.geo, STEP, IGES, BREP), which is meshed with cells of at most
 /// `mesh.size`. Physical groups name boundaries and regions; a group without a name goes by its
 /// number, and in a CAD file, which has no groups, faces and solids go by their labels or by
-/// "surface 1", "volume 1", ... Throws CaseError.
+/// "surface 1", "volume 1", ... Throws CaseError. With several MPI ranks all call it; the first one
+/// reads, and all get the mesh, or the error.
 std::shared_ptr<const casefile::MeshFile> read_mesh_file(const casefile::MeshCase &asked);
 
 /// The same with other rules.
