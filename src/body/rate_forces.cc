@@ -184,15 +184,19 @@ RateForces<dim>::RateForces(const Discretisation<dim> &body,
   if (is_there(body.sharing(), assembly.stranded))
     add_stranded(body, assembly);
   node_masses_.assign(assembly.graph.n_nodes(), 0.);
-  diagonal_ = node_masses_;
+  held_back_ = diagonal_ = node_masses_;
   for (Node i = 0; i < assembly.graph.n_nodes(); ++i)
     for (std::size_t e = assembly.graph.row[i]; e < assembly.graph.row[i + 1]; ++e) {
       node_masses_[i] += mass_[e];
-      if (assembly.graph.column[e] == i)
-        diagonal_[i] = mass_[e];
+      if (assembly.graph.column[e] != i)
+        continue;
+      diagonal_[i] = mass_[e];
+      if (!backward_damping_.empty())
+        held_back_[i] = backward_damping_[e].trace();
     }
   body.sharing().add_up(node_masses_);
   body.sharing().add_up(diagonal_);
+  body.sharing().add_up(held_back_);
   // Whether there is any damping is known to all ranks, whoever's cells are damped.
   for (std::vector<Block> *blocks : {&damping_, &backward_damping_})
     if (parallel::sum(blocks->empty() ? 0. : 1.) > 0) {

@@ -57,6 +57,8 @@ class RateForces {
   bool is_dynamic() const { return is_dynamic_; }
   bool is_damped() const { return is_damped_; }
   bool is_massless(Node node) const { return massless_[node]; }
+  /// Whether C_2 resists displacements of the node, which cannot jump then.
+  bool holds_back(Node node) const { return is_damped_ && held_back_[node] > 0; }
   /// Of the step at place `entry` of the graph.
   Block step_block(std::size_t entry, double step) const;
   /// Adds the product of the step's matrix with the displacements of x to those of y.
@@ -78,6 +80,7 @@ class RateForces {
   std::vector<double> mass_;                       // by entry of the graph, as the others
   std::vector<Block> damping_, backward_damping_;  // empty: none here
   std::vector<double> node_masses_, diagonal_;
+  std::vector<double> held_back_;  // by node, the trace of C_2's diagonal block of all ranks
 };
 
 }  // namespace tourmaline::body

@@ -122,7 +122,7 @@ void run_in(const casefile::Case &asked, const std::filesystem::path &directory,
   start_process(asked.solver.threads);
   require_sense(asked, options);
   check(asked);
-  require_other_folder(asked.initial, directory);
+  parallel::on_first([&] { require_other_folder(asked.initial, directory); });
   std::unique_ptr<output::FolderLock> lock;  // of the first rank
   Resumption from = find_in(directory, asked, options, lock);
   if (options.start == Start::checkpoint)

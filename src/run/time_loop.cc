@@ -42,6 +42,14 @@ void put_page_in(const std::filesystem::path &directory) {
   }
 }
 
+// Empty on the other ranks, which have its error.
+template <class Make>
+auto made_on_first(const Make &make) {
+  decltype(make()) made;
+  parallel::on_first([&] { made = make(); });
+  return made;
+}
+
 template <int dim>
 solve::Model<dim> announced(const casefile::Case &asked, bool iterative,
                             output::Progress &progress) {
@@ -57,8 +65,8 @@ TimeLoop<dim>::TimeLoop(const casefile::Case &asked, const std::filesystem::path
                         const RunOptions &options, std::optional<output::Checkpoint> checkpoint,
                         std::unique_ptr<output::FolderLock> lock)
     : checkpoint_(std::move(checkpoint)),
-      inputs_(parallel::is_first() ? inputs_of(asked, options.friction_name) : ""),
-      contents_(parallel::is_first() ? contents_of(asked) : decltype(contents_){}),
+      inputs_(made_on_first([&] { return inputs_of(asked, options.friction_name); })),
+      contents_(made_on_first([&] { return contents_of(asked); })),
       friction_name_(options.friction_name),
       quiet_(options.quiet),
       progress_(asked.time.tolerance ? 0 : asked.time.steps, asked.time.end,

@@ -91,13 +91,15 @@ class Settling {
   }
 
  private:
+  // What damping holds back cannot jump.
   void release(std::size_t n) {
+    const body::Node node = model_.interface[n].node;
+    const body::RateForces<dim> &rates = *model_.op.rate_forces();
+    if (!rates.is_massless(node) || rates.holds_back(node))
+      return;
     body_.reset();
-    for (int c = 0; c < dim; ++c) {
-      const std::size_t i = unknown<dim>(model_.interface[n].node, c);
-      is_free_[i] =
-          !is_prescribed_[i] && model_.op.rate_forces()->is_massless(model_.interface[n].node);
-    }
+    for (int c = 0; c < dim; ++c)
+      is_free_[unknown<dim>(node, c)] = !is_prescribed_[unknown<dim>(node, c)];
   }
 
   // With what crosses the contact by its state.
@@ -116,8 +118,6 @@ class Settling {
     return value;
   }
 
-  // Rows of massless nodes have what resists rates of u only of damping, by which they go as far as
-  // in one step.
   void solve() {
     if (!body_)
       body_ = free_body(model_, is_free_, sites_, iteratively_);

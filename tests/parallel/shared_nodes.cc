@@ -129,16 +129,26 @@ TEST_P(SharedNodes, WithDampingAndAnElectrodeInACircuit) {
 
 // Nodes without mass have come off their foundation, and potentials go to their equilibrium.
 TEST_P(SharedNodes, InMotion) {
-  expect_same_solution(
-      file_of(layers) +
-      " --set time.regime=dynamic --set time.end=4e-6 --set time.steps=8"
-      " --set initial.velocity='[0.3, -0.2]' --set initial.potential='1e5*x*y'"
-      " --set initial.displacement='[0, \"1e-4*(x - 0.005)\"]'"
-      " --set 'boundary[0]={on=\"top\",potential=0,temperature=\"2*t\"}'"
-      " --set boundary[1].traction='[1e5, -1e5]'"
-      " --set region[0].material.stiffness_damping=1e-8"
-      " --set 'contact.electric={law=\"exchange\",coefficient=1e-5,foundation_potential=3}'"
-      " --set 'electrode=[{name=\"sensor\",on=\"left\",resistor=1e7}]'");
+  for (const char *damping : {"0", "1e-8"}) {
+    SCOPED_TRACE(damping);
+    expect_same_solution(
+        file_of(layers) +
+        " --set time.regime=dynamic --set time.end=4e-6 --set time.steps=8"
+        " --set initial.velocity='[0.3, -0.2]' --set initial.potential='1e5*x*y'"
+        " --set initial.displacement='[0, \"1e-4*(x - 0.005)\"]'"
+        " --set 'boundary[0]={on=\"top\",potential=0,temperature=\"2*t\"}'"
+        " --set boundary[1].traction='[1e5, -1e5]'"
+        " --set 'contact.electric={law=\"exchange\",coefficient=1e-5,foundation_potential=3}'"
+        " --set 'electrode=[{name=\"sensor\",on=\"left\",resistor=1e7}]'"
+        " --set region[0].material.stiffness_damping=" +
+        damping);
+  }
+}
+
+TEST_P(SharedNodes, AStateThatIsNotThereIsToldOnce) {
+  expect_told_once(file_of(layers) + iteratively + " --set 'initial={from=\"nowhere\"}'", 2,
+                   "there is no such folder");
+  expect_told_once(file_of(layers) + " --set 'initial={from=\"several\"}'", 2, "several");
 }
 
 TEST_P(SharedNodes, FromTheStateOfAnotherRunOnTheSameMeshAndOnAnother) {
