@@ -18,10 +18,8 @@ struct Block {
   double sign;
 };
 
-// That one thread takes at a time, whatever their number is.
-int rows_of_a_product(int height) {
-  return height < 2048 ? 512 : 1024;
-}
+// Rows that one thread takes at a time, whatever their number is.
+constexpr int rows_of_a_product = 512;
 
 template <typename Task>
 void in_chunks(int begin, int end, int rows, parallel::Team &team, const Task &task) {
@@ -83,14 +81,13 @@ void subtract_from_rest(const Trapezoid &l, const std::vector<Block> &blocks, co
     int panel, begin;
   };
   std::vector<Tile> tiles;
-  const int rows = rows_of_a_product(rest.height);
   for (int p = 0; p < rest.panels(); ++p)
-    for (int row = rest.first(p); row < rest.height; row += rows)
+    for (int row = rest.first(p); row < rest.height; row += rows_of_a_product)
       tiles.push_back({p, row});
   const int n = static_cast<int>(tiles.size()), k = l.columns;
   team.share_out(n, [&](int t, int) {
     const auto [p, begin] = tiles[t];
-    const int end = std::min(rest.height, begin + rows);
+    const int end = std::min(rest.height, begin + rows_of_a_product);
     for (const Block &by : blocks)
       subtract(l, by, rest.at(begin, rest.first(p)), rest.leading(p), k + begin, k + end,
                k + rest.first(p), k + rest.last(p));
@@ -100,8 +97,7 @@ void subtract_from_rest(const Trapezoid &l, const std::vector<Block> &blocks, co
 }  // namespace
 
 Trapezoid Trapezoid::at(double *data, int height, int columns) {
-  const int width = height < 1024 ? 32 : height < 2048 ? 128 : 256;
-  return {data, height, columns, std::max(1, std::min(columns, width))};
+  return {data, height, columns, std::max(1, std::min(columns, height < 1024 ? 32 : 128))};
 }
 
 std::size_t Trapezoid::begin(int panel) const {
@@ -121,20 +117,19 @@ double *Trapezoid::column_from_row_0(int column) const {
 
 int factorise(const Trapezoid &l, const Trapezoid &rest, int positive, parallel::Team &team) {
   std::vector<Block> done;
-  const int rows = rows_of_a_product(l.height);
   for (int p = 0; p < l.panels(); ++p) {
     const int first = l.first(p), last = l.last(p), leading = l.leading(p);
-    in_chunks(first, l.height, rows, team, [&](int r0, int r1) {
+    in_chunks(first, l.height, rows_of_a_product, team, [&](int r0, int r1) {
       for (const Block &by : done)
         subtract(l, by, l.at(r0, first), leading, r0, r1, first, last);
     });
     for (const Block &block : blocks_of(l, p, positive)) {
       if (const int wrong = factorise_diagonal(l, block); wrong > 0)
         return block.first + wrong - 1;
-      in_chunks(block.last, l.height, rows, team,
+      in_chunks(block.last, l.height, rows_of_a_product, team,
                 [&](int r0, int r1) { divide_below(l, block, r0, r1); });
       if (block.last < last)
-        in_chunks(block.last, l.height, rows, team, [&](int r0, int r1) {
+        in_chunks(block.last, l.height, rows_of_a_product, team, [&](int r0, int r1) {
           subtract(l, block, l.at(r0, block.last), leading, r0, r1, block.last, last);
         });
       done.push_back(block);

@@ -339,7 +339,7 @@ void expect_same_bits(int height, int columns, int positive) {
 
 TEST(Trapezoid, HasTheSameBitsForAnyNumberOfThreads) {
   expect_same_bits(1300, 300, 170);
-  expect_same_bits(3300, 700, 330);  // what is left has wide panels, too
+  expect_same_bits(3300, 700, 330);
 }
 
 }  // namespace
