@@ -39,7 +39,6 @@ class ChosenRoute {
   solve::StepOutcome advance(int n, std::span<const double> right_side,
                              std::span<const double> state, std::span<double> next);
 
-  bool is_iterative() const { return iterative_; }
   solve::Route &route() { return *route_; }
   const solve::Route &route() const { return *route_; }
   /// Of steps of so many sizes.

@@ -24,17 +24,25 @@ template <int dim>
 void Evolution<dim>::make_ready(bool iterative, output::Progress &progress, int first) {
   if (model_.asked.time.is_static() && model_.asked.model.thermal)
     steady_heat_.emplace(model_, iterative);
+  if (first == 1)
+    settle(iterative);
   route_.emplace(model_, iterative, progress, first);
   const bool eliminates_them = !iterative && model_.asked.solver.method == "condensed";
   if (!eliminates_them && !casefile::all_voltages_given(model_.asked))
     electrodes_.emplace(model_);
 }
 
+// Before there is a route, whose system would take its memory beside the one that is solved here.
+template <int dim>
+void Evolution<dim>::settle(bool iterative) {
+  foundations_.begin(state_);
+  if (motion_.is_inertial())
+    solve::settle(model_, iterative, foundations_, state_);
+}
+
 template <int dim>
 void Evolution<dim>::begin() {
-  foundations_.begin(state_);
   if (motion_.is_inertial()) {
-    solve::settle(model_, route_->is_iterative(), foundations_, state_);
     route_->route().begin(state_);
     if (electrodes_)
       electrodes_->begin(state_);

@@ -35,7 +35,7 @@ class Evolution {
   explicit Evolution(solve::Model<dim> &model);
   Evolution(const Evolution &) = delete;
 
-  /// Factorises; before the first step. As ChosenRoute.
+  /// Factorises; before the first step, for which the initial state is settled. As ChosenRoute.
   void make_ready(bool iterative, output::Progress &progress, int first);
   /// To where the first step can start from.
   void begin();
@@ -73,6 +73,7 @@ class Evolution {
   void restore(const output::SavedNumbers &numbers);
 
  private:
+  void settle(bool iterative);
   void prescribe(double time, std::vector<double> &state);
   void sum_right_side(TakenStep &step);
   void add_remembered(std::vector<double> &right_side);
