@@ -136,10 +136,10 @@ std::vector<double> BodyBySolutions<dim>::freed(std::vector<double> residual) co
 }
 
 template <int dim>
-std::vector<krylov::NodeTangent<dim>> BodyBySolutions<dim>::held() const {
+NodeSystem<dim> BodyBySolutions<dim>::all_held() const {
   ContactTangent nothing;
   nothing.known = VectorXd::Zero(contact_.n_unknowns());
-  return NodeSystem<dim>(contact_, model_, nothing).tangents;
+  return NodeSystem<dim>(contact_, model_, nothing);
 }
 
 template <int dim>
@@ -252,6 +252,24 @@ std::optional<ContactBody::Moved> BodyBySolutions<dim>::response(const NodeSyste
     return std::nullopt;
   const auto transposed = contact_.directions().transpose();
   return Moved{transposed * at_contact(moved_), transposed * at_contact(product(moved_)), {}};
+}
+
+template <int dim>
+std::optional<Eigen::MatrixXd> BodyBySolutions<dim>::matrix() {
+  const Index n = contact_.n_unknowns();
+  const NodeSystem<dim> system = all_held();
+  body_.system().set_contact(system.tangents);
+  body_.system().refresh();
+  Eigen::MatrixXd matrix(n, n);
+  for (Index k = 0; k < n; ++k) {
+    const auto moved = response(system, VectorXd::Unit(n, k), VectorXd::Zero(n), error_of_matrix);
+    if (!moved)
+      return std::nullopt;
+    matrix.col(k) = moved->resisted;
+  }
+  iterations_ += static_cast<int>(n);
+  begin_anew();
+  return (matrix + matrix.transpose()) / 2;
 }
 
 template <int dim>

@@ -40,7 +40,7 @@ class BodyBySolutions : public ContactBody, private SlipResponse {
   /// What contact and prescribed unknowns leave free of a residual of the body.
   std::vector<double> freed(std::vector<double> residual) const;
   /// Conditions that hold the contact nodes.
-  std::vector<krylov::NodeTangent<dim>> held() const;
+  std::vector<krylov::NodeTangent<dim>> held() const { return all_held().tangents; }
   /// Puts these unknowns of the contact into the state.
   void put(const Eigen::VectorXd &d);
   /// The state has these unknowns of the contact.
@@ -59,6 +59,12 @@ class BodyBySolutions : public ContactBody, private SlipResponse {
   /// Springs from contact to foundation, over the stiffness of the contact's points: a means to
   /// find a start.
   void set_springs(double springs) { springs_ = springs; }
+
+  /// A [N/m], from one solution of the body's equations by unknown. Nothing where one failed.
+  std::optional<Eigen::MatrixXd> matrix();
+  /// About that of A, over the size of its entries. Where little but the contact holds the body, A
+  /// is told from a singular matrix.
+  static constexpr double error_of_matrix = 1e-13;
 
   /// Nodal forces [N], dim by contact node.
   Eigen::VectorXd at_contact(std::span<const double> vector) const;
@@ -90,6 +96,7 @@ class BodyBySolutions : public ContactBody, private SlipResponse {
   std::vector<double> product(std::span<const double> x) const {
     return model_.product(x, body_.is_refined());
   }
+  NodeSystem<dim> all_held() const;
   std::vector<double> set_system(const NodeSystem<dim> &system, std::span<const double> moved,
                                  const Eigen::VectorXd &force, std::vector<double> residual);
   bool correct(const NodeSystem<dim> &system, const Eigen::VectorXd &known,

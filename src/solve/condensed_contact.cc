@@ -16,6 +16,7 @@
 #include "solve/first_places.h"
 #include "solve/judgement.h"
 #include "solve/leaning.h"
+#include "solve/leaning_programme.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::solve {
@@ -137,35 +138,8 @@ CoupledSolution CondensedContact<dim>::solve_programme(const InterfaceProgramme 
                                                        const VectorXd &start,
                                                        const InterfaceSettings &settings) const {
   if (nodes_.is_coupled() && !left_to_contact_.empty())
-    return solve_leaning(programme, start, settings);
+    return solve_leaning({programme, nodes_.couplings()}, start, settings);
   return solve_coupled({programme, nodes_.couplings()}, start, settings);
-}
-
-// Where only the contact holds the body, Newton's method may meet a singular matrix on its way.
-// Weak springs between contact and foundation lead it to where the contact holds.
-template <int dim>
-CoupledSolution CondensedContact<dim>::solve_leaning(const InterfaceProgramme &programme,
-                                                     const VectorXd &first,
-                                                     const InterfaceSettings &settings) const {
-  CoupledSolution solution = solve_coupled({programme, nodes_.couplings()}, first, settings);
-  int iterations = solution.interface.iterations;
-  VectorXd start = VectorXd::Zero(first.size());
-  for (const double weak : {1e-2, 1e-4, 1e-6}) {
-    if (solution.interface.converged && !is_carried_off(programme, solution.interface))
-      break;
-    MatrixXd stiffness = programme.stiffness;
-    stiffness.diagonal() *= 1 + weak;
-    const InterfaceProgramme sprung{stiffness, programme.force, programme.points,
-                                    programme.force_scale};
-    InterfaceSettings definite = settings;
-    definite.is_definite = true;
-    definite.factor = nullptr;
-    start = solve_coupled({sprung, nodes_.couplings()}, start, definite).interface.increment;
-    solution = solve_coupled({programme, nodes_.couplings()}, start, settings);
-    iterations += solution.interface.iterations;
-  }
-  solution.interface.iterations = iterations;
-  return solution;
 }
 
 // Of held exchanges each has a matrix of its own, of which nothing is kept.
@@ -204,7 +178,7 @@ CoupledSolution CondensedContact<dim>::solve_with_exchange(double time, const Ve
 template <int dim>
 void CondensedContact<dim>::require_solved(double time, const InterfaceProgramme &programme,
                                            const InterfaceSolution &solution) const {
-  if (is_carried_off(programme, solution)) {
+  if (is_lost(programme, solution)) {
     const std::string unheld = unheld_motions(model_, nodes_, solution.status);
     let_go(time, unheld.empty() ? left_to_contact_ : unheld);
   }
@@ -249,15 +223,10 @@ VectorXd CondensedContact<dim>::sharpen(double time, const VectorXd &s, CoupledS
   return c;
 }
 
-// Where nothing holds the body, round-off of its stiffness does: loads then move it by so much that
-// the round-off of the forces that hold it is a part of them that counts.
 template <int dim>
-bool CondensedContact<dim>::is_carried_off(const InterfaceProgramme &programme,
-                                           const InterfaceSolution &solution) const {
-  constexpr double counts = 1e-7;
-  return !left_to_contact_.empty() && programme.force_scale > 0 &&
-         std::numeric_limits<double>::epsilon() * size_of_forces(programme, solution.increment) >
-             counts * programme.force_scale;
+bool CondensedContact<dim>::is_lost(const InterfaceProgramme &programme,
+                                    const InterfaceSolution &solution) const {
+  return !left_to_contact_.empty() && is_carried_off(programme, solution);
 }
 
 template <int dim>

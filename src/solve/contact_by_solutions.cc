@@ -1,11 +1,14 @@
 #include "solve/contact_by_solutions.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
 
+#include "larger.h"
 #include "solve/leaning.h"
+#include "solve/leaning_programme.h"
 #include "solve/natural_map.h"
 
 namespace tourmaline::solve {
@@ -60,11 +63,6 @@ void ContactBySolutions<dim>::begin_step(double time, std::span<const double> be
   seen_.begin_step(time, state, tolerance_);
 }
 
-template <int dim>
-std::string ContactBySolutions<dim>::unheld() const {
-  return unheld_motions(model_, contact_, solution_.interface.status);
-}
-
 // False where friction is too stiff for the linear iteration.
 template <int dim>
 bool ContactBySolutions<dim>::newton_step(const ContactTangent &tangent,
@@ -94,6 +92,7 @@ bool ContactBySolutions<dim>::find_fast() {
     if (k > 0 && contact_is_solved && body_.is_solved(residual)) {
       if (tangent.known.isZero(0)) {
         solution_ = map.solution(x);
+        solution_.interface.converged = true;
         return true;
       }
       seen_.put(x.d + tangent.known);  // held points exactly where they are held
@@ -112,25 +111,64 @@ bool ContactBySolutions<dim>::find_fast() {
 template <int dim>
 CoupledSolution ContactBySolutions<dim>::solve_from(const VectorXd &start) {
   seen_.begin_anew();
-  const InterfaceSettings settings{tolerance_, model_.asked.solver.max_iterations, !is_leaning_};
+  InterfaceSettings settings{tolerance_, model_.asked.solver.max_iterations, !is_leaning_};
+  if (has_few_unknowns())
+    settings.in_all = static_cast<int>(contact_.n_unknowns()) / 4;
   return solve_coupled(coupled(), start, settings);
 }
 
 // Where only the contact holds the body, a linear system on the way may have no solution. Weak
 // springs between contact and foundation lead to where the contact holds.
 template <int dim>
-void ContactBySolutions<dim>::find_safely(const VectorXd &start) {
-  count_.safe_steps += !is_without_points();  // without them there is only the body to go on with
+void ContactBySolutions<dim>::find_by_solutions(const VectorXd &start) {
   solution_ = solve_from(start);
   VectorXd sprung = start;
   for (const double weak : {1e-2, 1e-4, 1e-6}) {
-    if (solution_.interface.converged || !is_leaning_)
+    if (!is_leaning_ || has_few_unknowns() || !is_lost())
       break;
     seen_.set_springs(weak);
     sprung = solve_from(sprung).interface.increment;
     seen_.set_springs(0);
     solution_ = solve_from(sprung);
   }
+}
+
+// That of an earlier step may be of another step size or of other slopes of what crosses.
+template <int dim>
+void ContactBySolutions<dim>::find_by_matrix(const VectorXd &start) {
+  const bool was_there = matrix_.has_value();
+  if (was_there)
+    settle_by_matrix(start);
+  if (was_there && !is_lost())
+    return;
+  matrix_ = seen_.matrix();
+  if (matrix_)
+    settle_by_matrix(start);
+}
+
+// As that of a condensed body. What A's error leaves is seen in the forces where its solution
+// leads, and the next one takes it into account, until that gains little.
+template <int dim>
+void ContactBySolutions<dim>::settle_by_matrix(const VectorXd &start) {
+  const InterfaceSettings settings{model_.asked.solver.tolerance,
+                                   model_.asked.solver.max_iterations, !is_leaning_};
+  VectorXd d = start, force = seen_.force(d);
+  double before = std::numeric_limits<double>::infinity(), error = before;
+  do {
+    before = error;
+    const VectorXd loads = force + *matrix_ * d;
+    const InterfaceProgramme programme{
+        *matrix_, loads, contact_.points(), seen_.largest_force(), {}, seen_.error_of_matrix};
+    const CoupledProgramme coupled{programme, contact_.couplings()};
+    solution_ =
+        is_leaning_ ? solve_leaning(coupled, d, settings) : solve_coupled(coupled, d, settings);
+    if (!solution_.interface.converged)
+      return;
+    d = solution_.interface.increment;
+    force = seen_.force(d);
+    error = (force - loads + *matrix_ * d).template lpNorm<Eigen::Infinity>();
+    solution_.interface.converged = seen_.is_within(d, error, tolerance_);
+  } while (!solution_.interface.converged && error < before / 10);
 }
 
 // What crosses the contact by its state is held, the step solved, and so on.
@@ -166,18 +204,45 @@ bool ContactBySolutions<dim>::settle_contact() {
   return true;
 }
 
-// Both stages begin with the state that is predicted.
+// Without any load round-off is all that the forces of a body are that its foundation carries.
+template <int dim>
+std::string ContactBySolutions<dim>::carried_off() const {
+  constexpr double counts = 1e-7;
+  if (!is_leaning_)
+    return "";
+  const auto [largest, round_off] = body_.nodal_forces();
+  const bool is_lost = round_off > counts * larger(largest, body_.first_nodal_forces().largest);
+  return is_lost ? unheld_motions(model_, contact_, solution_.interface.status) : "";
+}
+
+// A few unknowns are worth a matrix, which takes as many solutions, if nothing less helps.
+template <int dim>
+void ContactBySolutions<dim>::find_safely(const VectorXd &start,
+                                          const std::function<void()> &begin) {
+  count_.safe_steps += !is_without_points();  // without them there is only the body to go on with
+  begin();
+  if (!matrix_)
+    find_by_solutions(start);
+  if (matrix_ || (has_few_unknowns() && is_lost())) {
+    begin();
+    find_by_matrix(start);
+  }
+}
+
+// Every stage begins with the state that is predicted.
 template <int dim>
 bool ContactBySolutions<dim>::find() {
   const VectorXd start = seen_.unknowns();
   const std::vector<double> state(state_.begin(), state_.end());
-  is_found_safely_ = !find_fast();
-  if (is_found_safely_) {
-    std::copy(state.begin(), state.end(), state_.begin());
-    find_safely(start);
-    if (!solution_.interface.converged)
-      return false;
-  }
+  is_found_safely_ = !find_fast() || !carried_off().empty();
+  if (is_found_safely_)
+    find_safely(start, [&] {
+      std::copy(state.begin(), state.end(), state_.begin());
+      seen_.take(start);
+      seen_.begin_anew();
+    });
+  if (!solution_.interface.converged)
+    return false;
   if (!contact_.is_coupled())
     solution_.stage = ContactStage::convex;
   return true;
@@ -227,12 +292,18 @@ template <int dim>
 void ContactBySolutions<dim>::save(output::SavedNumbers &numbers) const {
   contact_.save(numbers);
   exchange_.save(numbers);
+  if (matrix_)
+    numbers.put("contact matrix", *matrix_);
 }
 
 template <int dim>
 void ContactBySolutions<dim>::restore(const output::SavedNumbers &numbers) {
   contact_.restore(numbers);
   exchange_.restore(numbers);
+  if (numbers.size("contact matrix") > 0) {
+    matrix_.emplace(contact_.n_unknowns(), contact_.n_unknowns());
+    numbers.fill("contact matrix", *matrix_);
+  }
 }
 
 template class ContactBySolutions<2>;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <Eigen/Dense>
+#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -37,8 +40,9 @@ class ContactBySolutions {
   const InterfaceSolution &solution() const { return solution_.interface; }
   int iterations() const { return seen_.iterations(); }
   Vector3 place(std::size_t point) const { return model_.interface[contact_.node_of(point)].point; }
-  /// As of `unheld_motions`, by the contact as it was found.
-  std::string unheld() const;
+  /// The rigid motions by which the loads carry the body off, that only its contact holds, with the
+  /// contact as it was found; empty: none.
+  std::string carried_off() const;
   /// b - K x, or the same cell by cell, in what is free when the step is solved.
   std::vector<double> freed(std::vector<double> residual) const {
     return seen_.freed(std::move(residual));
@@ -59,10 +63,15 @@ class ContactBySolutions {
     return [this](std::size_t node) { return contact_.state_for_exchange(node, solution_); };
   }
   CoupledContact coupled() { return {seen_, contact_.points(), contact_.couplings()}; }
+  bool is_lost() const { return !solution_.interface.converged || !carried_off().empty(); }
   bool find_fast();
   bool newton_step(const ContactTangent &tangent, std::vector<double> residual);
   CoupledSolution solve_from(const Eigen::VectorXd &start);
-  void find_safely(const Eigen::VectorXd &start);
+  bool has_few_unknowns() const { return contact_.n_unknowns() <= 1000; }
+  void find_safely(const Eigen::VectorXd &start, const std::function<void()> &begin);
+  void find_by_solutions(const Eigen::VectorXd &start);
+  void find_by_matrix(const Eigen::VectorXd &start);
+  void settle_by_matrix(const Eigen::VectorXd &start);
   bool is_without_points() const { return contact_.points().empty(); }
 
   const Model<dim> &model_;
@@ -72,7 +81,8 @@ class ContactBySolutions {
   const double tolerance_;
   ContactNodes<dim> contact_;
   HeldExchanges<dim> exchange_;
-  BodyBySolutions<dim> seen_;  // by the contact
+  BodyBySolutions<dim> seen_;              // by the contact
+  std::optional<Eigen::MatrixXd> matrix_;  // A, once it was needed
   // Of the step at hand:
   std::span<double> state_;
   double time_ = 0;

@@ -52,7 +52,8 @@ class Cascade {
   // one after the other along the edges of contact and slip, in proportion more.
   void begin_attempt(int programmes = 1) {
     const auto thousands = static_cast<int>(programme_.points.size() / 1000);
-    count_.begin_attempt(settings_.max_iterations * programmes * std::max(1, thousands));
+    count_.begin_attempt(std::min(settings_.max_iterations * programmes * std::max(1, thousands),
+                                  settings_.in_all - count_.made));
   }
 
   const CoupledContact programme_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <limits>
 #include <vector>
 
 #include "contact/local_law.h"
@@ -44,6 +45,8 @@ struct InterfaceProgramme {
   double force_scale = 0;  ///< size of the terms that f was summed from [N]: bounds its round-off
   /// With these A is quasi-definite, and the programme is not one that can be minimised.
   std::vector<FieldRows> fields = {};
+  double stiffness_error =
+      std::numeric_limits<double>::epsilon();  ///< over the size of A's entries
 
   /// Rows of points.
   Eigen::Index n_forces() const { return fields.empty() ? force.size() : fields.front().begin; }
@@ -63,6 +66,8 @@ struct InterfaceSettings {
   /// Rounds of sweeps and Newton steps without a residual a tenth of what it was, after which there
   /// will be no more of them; 0: any number.
   int patience = 0;
+  /// Linear systems of all attempts at one problem; each may take `max_iterations` of them.
+  int in_all = std::numeric_limits<int>::max();
 };
 
 struct InterfaceSolution {

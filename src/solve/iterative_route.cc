@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "case/holding.h"
-#include "larger.h"
 #include "solve/body_equations.h"
 #include "solve/contact_by_solutions.h"
 #include "solve/first_places.h"
@@ -131,18 +130,9 @@ void IterativeRoute<dim>::predict(std::span<const double> before) {
   two_before_.assign(before.begin(), before.end());
 }
 
-// Where nothing holds the body, round-off of its stiffness does: loads then move it by so much that
-// the round-off of the forces that hold it is a part of them that counts.
 template <int dim>
 void IterativeRoute<dim>::check_held() const {
-  constexpr double counts = 1e-7;
-  if (left_to_contact_.empty())
-    return;
-  const auto [largest, round_off] = body_.nodal_forces();
-  if (!(round_off > counts * larger(largest, body_.first_nodal_forces().largest)))
-    return;
-  // Without any load round-off is all that the forces of a body are that its foundation carries.
-  if (const std::string motions = contact_.unheld(); !motions.empty())
+  if (const std::string motions = contact_.carried_off(); !motions.empty())
     let_go(time_, motions);
 }
 
@@ -225,13 +215,18 @@ void IterativeRoute<dim>::give_up_contact() const {
     give_up_leaning(time_, solution, left_to_contact_);
   }
   const std::vector<std::size_t> &unsettled = solution.unsettled;
+  const std::string where =
+      unsettled.empty() ? "the body's answers are not those that its matrix told"
+                        : fmt::format("{} points are unsettled, among them{}", unsettled.size(),
+                                      first_places(unsettled.size(), [&](std::size_t i) {
+                                        return contact_.place(unsettled[i]);
+                                      }));
   throw UnsettledStep(fmt::format(
       "the contact iteration did not converge at t = {:g} s: residual {:.3g} of the largest force "
-      "after {} Newton iterations, wanted {:.3g}; {} points are unsettled, among them{}; raise "
+      "after {} Newton iterations, wanted {:.3g}; {}; raise "
       "solver.max_iterations or solver.linear_tolerance, take smaller time steps, or take "
       "solver.body = \"direct\"",
-      time_, solution.residual, contact_.iterations(), contact_tolerance_, unsettled.size(),
-      first_places(unsettled.size(), [&](std::size_t i) { return contact_.place(unsettled[i]); })));
+      time_, solution.residual, contact_.iterations(), contact_tolerance_, where));
 }
 
 }  // namespace

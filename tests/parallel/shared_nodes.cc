@@ -127,6 +127,24 @@ TEST_P(SharedNodes, WithDampingAndAnElectrodeInACircuit) {
                        " --set 'electrode=[{name=\"sensor\",on=\"left\",resistor=1e7}]'");
 }
 
+// The loads carry it off Newton's method, and the contact's matrix is made on all ranks.
+TEST_P(SharedNodes, OfABodyThatOnlyItsContactHolds) {
+  expect_same_solution(file_of(R"toml(
+mesh.box = { min = [0, 0], max = [0.1, 0.1], cells = [10, 10], cell = "triangle" }
+material.library = "BaTiO3-Liu2014"
+time = { regime = "static", end = 2, steps = 4 }
+boundary = [
+  { on = "right", traction = ["-2e3*(1 + t)", 0], potential = 0, temperature = 0 },
+  { on = "top", traction = ["-500*t", "-700*sin(4*t)"] } ]
+[contact]
+on = "left"
+foundation_displacement = ["2e-10*min(4*t, 1)", "6e-10*sin(2*t)"]
+normal = "unilateral"
+friction = { law = "coulomb", coefficient = 0.8 }
+heat = { law = "exchange", coefficient = 100, foundation_temperature = -27 }
+)toml"));
+}
+
 // Nodes without mass have come off their foundation, and potentials go to their equilibrium.
 TEST_P(SharedNodes, InMotion) {
   for (const char *damping : {"0", "1e-8"}) {

@@ -106,42 +106,78 @@ heat = { law = "insulated", friction_share = 0.5 }
 electric = { law = "leak", coefficient = 1e-8, foundation_potential = 3 }
 )toml";
 
-class SeveralSizes : public ::testing::TestWithParam<const char *> {
- protected:
-  static casefile::Case asked() { return casefile::read_text(rubbed, "rubbed.toml", {GetParam()}); }
+State step(solve::Model<2> &model, ChosenRoute<2> &route, int n, const State &before) {
+  route.begin_step(n);
+  State right_side(model.n_unknowns(), 0.), next = before;
+  model.loads.integrate(model.time(n), right_side);
+  body::add_history<2>(model.products_by_field(before, false), right_side);
+  route.advance(n, right_side, before, next);
+  return next;
+}
 
-  static State step(solve::Model<2> &model, ChosenRoute<2> &route, int n, const State &before) {
-    route.begin_step(n);
-    State right_side(model.n_unknowns(), 0.), next = before;
-    model.loads.integrate(model.time(n), right_side);
-    body::add_history<2>(model.products_by_field(before, false), right_side);
-    route.advance(n, right_side, before, next);
-    return next;
-  }
-
-  output::Progress progress_{11, 1, true};
+struct WhatWasKept {
+  output::SavedNumbers last;
+  int factorisations = 0, factorisations_anew = 0;
 };
 
 // A new route has made everything anew; the other one has kept what it could.
-TEST_P(SeveralSizes, GoOnToTheSameBitsWhateverWasKept) {
-  solve::Model<2> one(asked()), other(asked());
-  ChosenRoute<2> kept(one, GetParam() == std::string("solver.body=iterative"), progress_);
+WhatWasKept expect_same_bits(const casefile::Case &asked, bool iteratively) {
+  output::Progress progress{11, 1, true};
+  solve::Model<2> one(asked), other(asked);
+  ChosenRoute<2> kept(one, iteratively, progress);
   std::optional<ChosenRoute<2>> made;
+  WhatWasKept of_all;
   State here(one.n_unknowns(), 0.), there = here;
   for (int n = 1; n <= one.steps.count(); ++n) {
-    output::SavedNumbers saved;
+    of_all.last = {};
     if (made)
-      made->save(saved);
+      made->save(of_all.last);
     const bool goes_on = made.has_value();
-    made.emplace(other, GetParam() == std::string("solver.body=iterative"), progress_, n);
+    made.emplace(other, iteratively, progress, n);
     if (goes_on)
-      made->restore(saved);
+      made->restore(of_all.last);
     here = step(one, kept, n, here);
     there = step(other, *made, n, there);
     EXPECT_EQ(here, there) << "step " << n;
   }
-  EXPECT_EQ(kept.report(one.steps.sizes(3)).factorisations,
-            made->report(other.steps.sizes(3)).factorisations);
+  of_all.factorisations = kept.report(one.steps.sizes(3)).factorisations;
+  of_all.factorisations_anew = made->report(other.steps.sizes(3)).factorisations;
+  return of_all;
+}
+
+class SeveralSizes : public ::testing::TestWithParam<const char *> {
+ protected:
+  static casefile::Case asked() { return casefile::read_text(rubbed, "rubbed.toml", {GetParam()}); }
+
+  output::Progress progress_{11, 1, true};
+};
+
+TEST_P(SeveralSizes, GoOnToTheSameBitsWhateverWasKept) {
+  const WhatWasKept of_all =
+      expect_same_bits(asked(), GetParam() == std::string("solver.body=iterative"));
+  EXPECT_EQ(of_all.factorisations, of_all.factorisations_anew);
+}
+
+// Only the contact holds this body.
+TEST(ContactsMatrix, OnceItWasNeededIsHandedOn) {
+  const WhatWasKept of_all = expect_same_bits(casefile::read_text(R"toml(
+mesh.box = { min = [0, 0], max = [0.1, 0.1], cells = [4, 4], cell = "triangle" }
+material.library = "BaTiO3-Liu2014"
+time.interval = [{ until = 1, steps = 4 }, { until = 2, steps = 2 }]
+solver.body = "iterative"
+boundary = [
+  { on = "right", traction = ["-2e3*(1 + t)", 0], potential = 0, temperature = 0 },
+  { on = "top", traction = ["-500*t", "-700*sin(4*t)"] } ]
+[contact]
+on = "left"
+foundation_displacement = ["2e-10*min(4*t, 1)", "6e-10*sin(2*t)"]
+normal = "unilateral"
+friction = { law = "coulomb", coefficient = 0.8 }
+heat = { law = "exchange", coefficient = 100, foundation_temperature = -27 }
+)toml",
+                                                                  "leaning.toml", {}),
+                                              true);
+  EXPECT_EQ(of_all.last.size("contact matrix"), 100U);  // 5 nodes in the plane
 }
 
 TEST_P(SeveralSizes, AreReportedTogether) {
