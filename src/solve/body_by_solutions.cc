@@ -260,6 +260,7 @@ std::optional<Eigen::MatrixXd> BodyBySolutions<dim>::matrix() {
   const NodeSystem<dim> system = all_held();
   body_.system().set_contact(system.tangents);
   body_.system().refresh();
+  iterations_ += static_cast<int>(n);
   Eigen::MatrixXd matrix(n, n);
   for (Index k = 0; k < n; ++k) {
     const auto moved = response(system, VectorXd::Unit(n, k), VectorXd::Zero(n), error_of_matrix);
@@ -267,7 +268,6 @@ std::optional<Eigen::MatrixXd> BodyBySolutions<dim>::matrix() {
       return std::nullopt;
     matrix.col(k) = moved->resisted;
   }
-  iterations_ += static_cast<int>(n);
   begin_anew();
   return (matrix + matrix.transpose()) / 2;
 }

@@ -64,7 +64,7 @@ class BodyBySolutions : public ContactBody, private SlipResponse {
   std::optional<Eigen::MatrixXd> matrix();
   /// About that of A, over the size of its entries. Where little but the contact holds the body, A
   /// is told from a singular matrix.
-  static constexpr double error_of_matrix = 1e-13;
+  static constexpr double error_of_matrix = 1e-12;
 
   /// Nodal forces [N], dim by contact node.
   Eigen::VectorXd at_contact(std::span<const double> vector) const;

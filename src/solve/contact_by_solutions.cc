@@ -4,9 +4,11 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "larger.h"
+#include "parallel/ranks.h"
 #include "solve/leaning.h"
 #include "solve/leaning_programme.h"
 #include "solve/natural_map.h"
@@ -109,11 +111,10 @@ bool ContactBySolutions<dim>::find_fast() {
 }
 
 template <int dim>
-CoupledSolution ContactBySolutions<dim>::solve_from(const VectorXd &start) {
+CoupledSolution ContactBySolutions<dim>::solve_from(const VectorXd &start, int in_all) {
   seen_.begin_anew();
   InterfaceSettings settings{tolerance_, model_.asked.solver.max_iterations, !is_leaning_};
-  if (has_few_unknowns())
-    settings.in_all = static_cast<int>(contact_.n_unknowns()) / 4;
+  settings.in_all = in_all;
   return solve_coupled(coupled(), start, settings);
 }
 
@@ -124,7 +125,7 @@ void ContactBySolutions<dim>::find_by_solutions(const VectorXd &start) {
   solution_ = solve_from(start);
   VectorXd sprung = start;
   for (const double weak : {1e-2, 1e-4, 1e-6}) {
-    if (!is_leaning_ || has_few_unknowns() || !is_lost())
+    if (!is_leaning_ || !is_lost())
       break;
     seen_.set_springs(weak);
     sprung = solve_from(sprung).interface.increment;
@@ -135,19 +136,23 @@ void ContactBySolutions<dim>::find_by_solutions(const VectorXd &start) {
 
 // That of an earlier step may be of another step size or of other slopes of what crosses.
 template <int dim>
-void ContactBySolutions<dim>::find_by_matrix(const VectorXd &start) {
-  const bool was_there = matrix_.has_value();
-  if (was_there)
+void ContactBySolutions<dim>::find_by_matrix(const VectorXd &start, const Begin &begin) {
+  if (matrix_) {
+    begin();
     settle_by_matrix(start);
-  if (was_there && !is_lost())
-    return;
+    if (!is_lost())
+      return;
+  }
+  begin();
+  solution_.interface.converged = false;
   matrix_ = seen_.matrix();
   if (matrix_)
     settle_by_matrix(start);
 }
 
 // As that of a condensed body. What A's error leaves is seen in the forces where its solution
-// leads, and the next one takes it into account, until that gains little.
+// leads, and the next one takes it into account, until that gains little. All ranks go the first
+// one's way: their processors may round otherwise.
 template <int dim>
 void ContactBySolutions<dim>::settle_by_matrix(const VectorXd &start) {
   const InterfaceSettings settings{model_.asked.solver.tolerance,
@@ -162,13 +167,20 @@ void ContactBySolutions<dim>::settle_by_matrix(const VectorXd &start) {
     const CoupledProgramme coupled{programme, contact_.couplings()};
     solution_ =
         is_leaning_ ? solve_leaning(coupled, d, settings) : solve_coupled(coupled, d, settings);
-    if (!solution_.interface.converged)
+    if (parallel::from_first(solution_.interface.converged) == 0) {
+      solution_.interface.converged = false;
       return;
+    }
     d = solution_.interface.increment;
+    parallel::from_first(std::span(d.data(), static_cast<std::size_t>(d.size())));
+    solution_.interface.increment = d;
     force = seen_.force(d);
     error = (force - loads + *matrix_ * d).template lpNorm<Eigen::Infinity>();
+    parallel::from_first(std::span(&error, 1));
     solution_.interface.converged = seen_.is_within(d, error, tolerance_);
-  } while (!solution_.interface.converged && error < before / 10);
+    if (!solution_.interface.converged)
+      solution_.interface.residual = error / seen_.largest_force();
+  } while (!seen_.is_within(d, error, next_to_nothing * tolerance_) && error < before / 10);
 }
 
 // What crosses the contact by its state is held, the step solved, and so on.
@@ -215,18 +227,23 @@ std::string ContactBySolutions<dim>::carried_off() const {
   return is_lost ? unheld_motions(model_, contact_, solution_.interface.status) : "";
 }
 
-// A few unknowns are worth a matrix, which takes as many solutions, if nothing less helps.
+// A few unknowns are worth a matrix, which takes as many solutions, if fewer do not help. What that
+// tells of a body that is carried off is final.
 template <int dim>
-void ContactBySolutions<dim>::find_safely(const VectorXd &start,
-                                          const std::function<void()> &begin) {
+void ContactBySolutions<dim>::find_safely(const VectorXd &start, const Begin &begin) {
+  constexpr Eigen::Index few = 1000;
   count_.safe_steps += !is_without_points();  // without them there is only the body to go on with
   begin();
-  if (!matrix_)
-    find_by_solutions(start);
-  if (matrix_ || (has_few_unknowns() && is_lost())) {
+  if (const Eigen::Index n = contact_.n_unknowns(); n <= few) {
+    if (!matrix_)
+      solution_ = solve_from(start, static_cast<int>(n) / 4);
+    if (matrix_ || is_lost())
+      find_by_matrix(start, begin);
+    if (solution_.interface.converged)
+      return;
     begin();
-    find_by_matrix(start);
   }
+  find_by_solutions(start);
 }
 
 // Every stage begins with the state that is predicted.
@@ -241,7 +258,7 @@ bool ContactBySolutions<dim>::find() {
       seen_.take(start);
       seen_.begin_anew();
     });
-  if (!solution_.interface.converged)
+  if (is_found_safely_ && is_lost())
     return false;
   if (!contact_.is_coupled())
     solution_.stage = ContactStage::convex;
@@ -300,6 +317,7 @@ template <int dim>
 void ContactBySolutions<dim>::restore(const output::SavedNumbers &numbers) {
   contact_.restore(numbers);
   exchange_.restore(numbers);
+  matrix_.reset();
   if (numbers.size("contact matrix") > 0) {
     matrix_.emplace(contact_.n_unknowns(), contact_.n_unknowns());
     numbers.fill("contact matrix", *matrix_);

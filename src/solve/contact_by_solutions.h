@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -66,11 +67,12 @@ class ContactBySolutions {
   bool is_lost() const { return !solution_.interface.converged || !carried_off().empty(); }
   bool find_fast();
   bool newton_step(const ContactTangent &tangent, std::vector<double> residual);
-  CoupledSolution solve_from(const Eigen::VectorXd &start);
-  bool has_few_unknowns() const { return contact_.n_unknowns() <= 1000; }
-  void find_safely(const Eigen::VectorXd &start, const std::function<void()> &begin);
+  CoupledSolution solve_from(const Eigen::VectorXd &start,
+                             int in_all = std::numeric_limits<int>::max());
+  using Begin = std::function<void()>;  // goes back to the state that is predicted
+  void find_safely(const Eigen::VectorXd &start, const Begin &begin);
   void find_by_solutions(const Eigen::VectorXd &start);
-  void find_by_matrix(const Eigen::VectorXd &start);
+  void find_by_matrix(const Eigen::VectorXd &start, const Begin &begin);
   void settle_by_matrix(const Eigen::VectorXd &start);
   bool is_without_points() const { return contact_.points().empty(); }
 

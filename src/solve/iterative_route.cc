@@ -216,14 +216,14 @@ void IterativeRoute<dim>::give_up_contact() const {
   }
   const std::vector<std::size_t> &unsettled = solution.unsettled;
   const std::string where =
-      unsettled.empty() ? "the body's answers are not those that its matrix told"
-                        : fmt::format("{} points are unsettled, among them{}", unsettled.size(),
+      unsettled.empty() ? ""
+                        : fmt::format("; {} points are unsettled, among them{}", unsettled.size(),
                                       first_places(unsettled.size(), [&](std::size_t i) {
                                         return contact_.place(unsettled[i]);
                                       }));
   throw UnsettledStep(fmt::format(
       "the contact iteration did not converge at t = {:g} s: residual {:.3g} of the largest force "
-      "after {} Newton iterations, wanted {:.3g}; {}; raise "
+      "after {} Newton iterations, wanted {:.3g}{}; raise "
       "solver.max_iterations or solver.linear_tolerance, take smaller time steps, or take "
       "solver.body = \"direct\"",
       time_, solution.residual, contact_.iterations(), contact_tolerance_, where));
