@@ -227,11 +227,12 @@ std::string ContactBySolutions<dim>::carried_off() const {
   return is_lost ? unheld_motions(model_, contact_, solution_.interface.status) : "";
 }
 
-// A few unknowns are worth a matrix, which takes as many solutions, if fewer do not help. What that
-// tells of a body that is carried off is final.
+// A few unknowns are worth a matrix, which takes as many solutions, if fewer do not help: 1,000
+// with as many iterations as are allowed by default. What that tells of a body that is carried off
+// is final.
 template <int dim>
 void ContactBySolutions<dim>::find_safely(const VectorXd &start, const Begin &begin) {
-  constexpr Eigen::Index few = 1000;
+  const Eigen::Index few = Eigen::Index{10} * model_.asked.solver.max_iterations;
   count_.safe_steps += !is_without_points();  // without them there is only the body to go on with
   begin();
   if (const Eigen::Index n = contact_.n_unknowns(); n <= few) {
