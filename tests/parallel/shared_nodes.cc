@@ -1,6 +1,7 @@
 // Iterative solutions on ranks that have a part of the nodes each: whatever the program knows, with
 // the numbers of one rank.
 
+#include "../cases/leaning_body.h"
 #include "../cases/slipping_block.h"
 #include "ranks.h"
 
@@ -129,20 +130,9 @@ TEST_P(SharedNodes, WithDampingAndAnElectrodeInACircuit) {
 
 // The loads carry it off Newton's method, and the contact's matrix is made on all ranks.
 TEST_P(SharedNodes, OfABodyThatOnlyItsContactHolds) {
-  expect_same_solution(file_of(R"toml(
-mesh.box = { min = [0, 0], max = [0.1, 0.1], cells = [6, 6], cell = "triangle" }
-material.library = "BaTiO3-Liu2014"
-time = { regime = "static", end = 2, steps = 4 }
-boundary = [
-  { on = "right", traction = ["-2e3*(1 + t)", 0], potential = 0, temperature = 0 },
-  { on = "top", traction = ["-500*t", "-700*sin(4*t)"] } ]
-[contact]
-on = "left"
-foundation_displacement = ["2e-10*min(4*t, 1)", "6e-10*sin(2*t)"]
-normal = "unilateral"
-friction = { law = "coulomb", coefficient = 0.8 }
-heat = { law = "exchange", coefficient = 10, foundation_temperature = -27 }
-)toml"));
+  expect_same_solution(
+      file_of(leaning_body(R"(time = { regime = "static", end = 2, steps = 4 })")) +
+      " --set mesh.box.cells=[6,6] --set contact.heat.coefficient=10");
 }
 
 // Nodes without mass have come off their foundation, and potentials go to their equilibrium.

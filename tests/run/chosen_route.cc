@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <optional>
 
+#include "../cases/leaning_body.h"
 #include "solve/condensed_route.h"
 #include "tourmaline/case/reader.h"
 
@@ -158,25 +159,11 @@ TEST_P(SeveralSizes, GoOnToTheSameBitsWhateverWasKept) {
   EXPECT_EQ(of_all.factorisations, of_all.factorisations_anew);
 }
 
-// Only the contact holds this body.
 TEST(ContactsMatrix, OnceItWasNeededIsHandedOn) {
-  const WhatWasKept of_all = expect_same_bits(casefile::read_text(R"toml(
-mesh.box = { min = [0, 0], max = [0.1, 0.1], cells = [4, 4], cell = "triangle" }
-material.library = "BaTiO3-Liu2014"
-time.interval = [{ until = 1, steps = 4 }, { until = 2, steps = 2 }]
-solver.body = "iterative"
-boundary = [
-  { on = "right", traction = ["-2e3*(1 + t)", 0], potential = 0, temperature = 0 },
-  { on = "top", traction = ["-500*t", "-700*sin(4*t)"] } ]
-[contact]
-on = "left"
-foundation_displacement = ["2e-10*min(4*t, 1)", "6e-10*sin(2*t)"]
-normal = "unilateral"
-friction = { law = "coulomb", coefficient = 0.8 }
-heat = { law = "exchange", coefficient = 100, foundation_temperature = -27 }
-)toml",
-                                                                  "leaning.toml", {}),
-                                              true);
+  const std::string text = verified::leaning_body(
+      "time.interval = [{ until = 1, steps = 4 }, { until = 2, steps = 2 }]");
+  const WhatWasKept of_all =
+      expect_same_bits(casefile::read_text(text, "leaning.toml", {"solver.body=iterative"}), true);
   EXPECT_EQ(of_all.last.size("contact matrix"), 100U);  // 5 nodes in the plane
 }
 
