@@ -305,7 +305,9 @@ void declare(Visitor &v, SolverCase &solver, const std::vector<ContactCase> &con
          .description =
              "Newton iterations after which an attempt at a step fails: the only one where "
              "the step is convex, one of several where friction depends on the pressure; from "
-             "2,000 points on (two a contact node) so many for each thousand",
+             "2,000 points on (two a contact node) so many for each thousand; with body = "
+             "\"iterative\" a contact of at most ten times as many unknowns gets a matrix of its "
+             "own where less does not help",
          .range = at_least(1)},
         &solver.max_iterations);
   v.key({.name = "threads",

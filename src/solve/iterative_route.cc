@@ -56,7 +56,6 @@ class IterativeRoute : public Route {
   typename Model<dim>::Vector carried_to(double time) const;
   void predict(std::span<const double> before);
   void settle();
-  void check_held() const;
   void measure();
   double forward_error();
   [[noreturn]] void give_up_contact() const;
@@ -131,12 +130,6 @@ void IterativeRoute<dim>::predict(std::span<const double> before) {
 }
 
 template <int dim>
-void IterativeRoute<dim>::check_held() const {
-  if (const std::string motions = contact_.carried_off(); !motions.empty())
-    let_go(time_, motions);
-}
-
-template <int dim>
 void IterativeRoute<dim>::settle() {
   if (!contact_.settle())
     give_up_contact();
@@ -173,7 +166,6 @@ StepOutcome IterativeRoute<dim>::advance(double time, std::span<const double> ri
   body_.begin_step(right_side, state);
   contact_.begin_step(time, before, state);
   settle();
-  check_held();
   if (is_refined() || this->template outgrew_measured<dim>(model_.sharing(), state))
     measure();
   see_backward_error(body_.backward_error(contact_.freed(body_.residual())));
@@ -211,7 +203,8 @@ template <int dim>
 void IterativeRoute<dim>::give_up_contact() const {
   const InterfaceSolution &solution = contact_.solution();
   if (!left_to_contact_.empty()) {
-    check_held();
+    if (const std::string motions = contact_.carried_off(); !motions.empty())
+      let_go(time_, motions);
     give_up_leaning(time_, solution, left_to_contact_);
   }
   const std::vector<std::size_t> &unsettled = solution.unsettled;

@@ -1,53 +1,16 @@
 // Label: analytic. What holds of contact that opens, yields or rubs by its pressure whatever the
-// numbers are: in another frame, beside a plane of symmetry, one cell deep, of several regions,
-// on another route the same body does the same.
+// numbers are: in another frame, beside a plane of symmetry, one cell deep or of several regions
+// the same body does the same.
 
 #include <fmt/format.h>
 
-#include <functional>
-
 #include "closed_balances.h"
 #include "contact_status.h"
-#include "equal_quantities.h"
 #include "run_case.h"
+#include "same_answer.h"
 
 namespace tourmaline::verified {
 namespace {
-
-void expect_balances(const RunCase &run, double tolerance = 1e-10) {
-  const Table history = run.history();
-  expect_closed_balances(history, tolerance);
-  const double size =
-      std::max(largest(history, "stored_energy_rate"),
-               std::max(largest(history, "load_power"), largest(history, "friction_dissipation")));
-  for (const double loss : history.numbers("time_step_loss"))
-    EXPECT_GE(loss, -1e-12 * size);
-}
-
-std::vector<Quantity> along_axes(int dim, const std::vector<std::string> &names,
-                                 const std::vector<std::string> &with = {}) {
-  std::vector<Quantity> quantities;
-  for (const std::string &name : names) {
-    quantities.emplace_back();
-    for (int c = 0; c < dim; ++c)
-      quantities.back().push_back(name + "xyz"[c]);
-  }
-  quantities.front().insert(quantities.front().end(), with.begin(), with.end());
-  return quantities;
-}
-
-void expect_same_answer(const RunCase &one, const RunCase &other, int dim,
-                        double tolerance = 1e-9) {
-  auto nodes = along_axes(dim, {"u_"});
-  nodes.push_back({"potential"});
-  nodes.push_back({"temperature"});
-  expect_equal_quantities(one.nodes(), other.nodes(), nodes, tolerance);
-  auto contact = along_axes(dim, {"tangential_traction_", "slip_"}, {"normal_traction"});
-  contact.back().push_back("normal_displacement");
-  contact.back().push_back("gap");
-  expect_equal_quantities(one.contact(), other.contact(), contact, tolerance);
-  EXPECT_EQ(one.contact().columns.at("status"), other.contact().columns.at("status"));
-}
 
 using Overrides = std::vector<std::string>;
 
@@ -375,108 +338,6 @@ TEST(Device, TheResistorTakesWhatTheCurrentOfTheRubbedBodyDrives) {
   EXPECT_GT(largest(voltage), 1);
   for (std::size_t n = 0; n < voltage.size(); ++n)
     EXPECT_NEAR(voltage[n], -2e5 * current[n], 1e-9 * largest(voltage)) << n;
-}
-
-// 6. Bilateral contact with a gap and a foundation that moves: every route.
-
-const char *const plane_routes = R"toml(
-mesh.box = { min = [0, 0], max = [0.02, 0.01], cells = [10, 5] }
-material = { library = "BaTiO3-Liu2014", pyroelectric = [0, 1e-4] }
-time = { end = 1, steps = 5 }
-boundary = [ { on = "top", displacement = [0, 0], potential = 0, temperature = 0 } ]
-[contact]
-on = "bottom"
-gap = "1e-7*sin(200*x)"
-foundation_displacement = ["3e-7*sin(4*t)", "1e-7*t^2 + 1e-5*x*t"]
-friction = { law = "tresca", bound = "1e6*(1 + 30*x)" }
-heat = { law = "exchange", coefficient = 2e4, foundation_temperature = "20*t" }
-)toml";
-
-const char *const solid_routes = R"toml(
-mesh.box = { min = [0, 0, 0], max = [0.02, 0.015, 0.01], cells = [5, 4, 3], cell = "hexahedron" }
-material = { library = "BaTiO3-Liu2014", pyroelectric = [0, 0, 1e-4] }
-time = { end = 1, steps = 4 }
-boundary = [ { on = "top", displacement = [0, 0, 0], potential = 0, temperature = 0 } ]
-[contact]
-on = "bottom"
-gap = "1e-7*sin(200*x)*cos(100*y)"
-foundation_displacement = ["3e-7*sin(4*t) - 2e-5*y*t", "2e-5*x*t", "1e-7*t^2 + 1e-5*x*t"]
-friction = { law = "tresca", bound = "1e6*(1 + 30*x)" }
-heat = { law = "exchange", coefficient = 2e4, foundation_temperature = "20*t" }
-)toml";
-
-TEST(EveryRoute, HoldsAPlaneBodyAtTheGapOfAFoundationThatMoves) {
-  const RunCase condensed = run_text(plane_routes);
-  EXPECT_TRUE(has_status(condensed.contact(), "stick"));
-  EXPECT_TRUE(has_status(condensed.contact(), "slip"));
-  EXPECT_LT(largest(condensed.contact(), "gap"), 1e-18);
-  expect_balances(condensed);
-  const RunCase monolithic =
-      run_text(plane_routes, {"solver.method=monolithic", "solver.tolerance=1e-12"});
-  expect_same_answer(monolithic, condensed, 2);
-  expect_balances(monolithic, 1e-9);
-}
-
-TEST(EveryRoute, HoldsASolidAtTheGapOfAFoundationThatMoves) {
-  const RunCase condensed = run_text(solid_routes);
-  EXPECT_TRUE(has_status(condensed.contact(), "stick"));
-  EXPECT_TRUE(has_status(condensed.contact(), "slip"));
-  expect_balances(condensed);
-  const RunCase monolithic =
-      run_text(solid_routes, {"solver.method=monolithic", "solver.tolerance=1e-12"});
-  expect_same_answer(monolithic, condensed, 3);
-  const RunCase iterative =
-      run_text(solid_routes, {"solver.body=iterative", "solver.linear_tolerance=1e-13"});
-  expect_same_answer(iterative, condensed, 3);
-  expect_balances(iterative, 1e-9);
-}
-
-// A step that begins where the body has been left behind begins without contact.
-TEST(EveryRoute, CarriesABodyThatOnlyItsContactHoldsAlongWithTheFoundation) {
-  for (const char *moved : {"contact.foundation_displacement=['5e-9*t','3e-9*t']",
-                            "contact.foundation_displacement=['2e-8*sin(9*t)','-1e-8*sin(7*t)']"}) {
-    const auto run = [&](std::vector<std::string> overrides) {
-      overrides.emplace_back(moved);
-      return run_text(R"toml(
-mesh.box = { min = [0, 0], max = [0.02, 0.004], cells = [3, 3], cell = "quadrilateral" }
-material = { library = "BaTiO3-Liu2014", pyroelectric = [0, 1e-4] }
-time = { end = 1, steps = 5 }
-boundary = [ { on = "top", traction = ["-1e4*sin(t)", "-3e5*t"], potential = 0, temperature = 0 } ]
-contact = { on = "bottom", normal = "unilateral", friction = { law = "coulomb", coefficient = 0.6 } }
-)toml",
-                      overrides);
-    };
-    const RunCase condensed = run({});
-    EXPECT_TRUE(has_status(condensed.contact(), "stick"));
-    for (const char *route : {"solver.body=iterative", "solver.method=monolithic"})
-      expect_same_answer(run({route}), condensed, 2);
-  }
-}
-
-// So many unknowns of the contact that the condensed route keeps a factor of them.
-TEST(EveryRoute, AgreesOnAContactOfAThousandNodes) {
-  const auto run = [](const std::string &laws, std::vector<std::string> overrides = {}) {
-    return run_text(R"toml(
-mesh.box = { min = [0, 0], max = [0.2, 0.002], cells = [1100, 2], cell = "quadrilateral" }
-mesh.modes = "incompatible"
-material = { library = "BaTiO3-Liu2014", pyroelectric = [0, 1e-4] }
-time = { end = 1, steps = 3 }
-boundary = [ { on = "top", potential = 0, temperature = 0, displacement = [
-  "1e-6*t*(1 + sin(200*x))", "-2e-7*t*(0.2 + cos(300*x))"] } ]
-[contact]
-on = "bottom"
-heat = { law = "exchange", coefficient = 2e4, foundation_temperature = "20*t" }
-)toml" + laws,
-                    overrides);
-  };
-  for (const std::string laws : {coulomb, "friction = { law = \"tresca\", bound = 1e6 }"}) {
-    SCOPED_TRACE(laws);
-    const RunCase condensed = run(laws);
-    EXPECT_GT(condensed.history().numbers("slip").back(), laws == coulomb ? 500 : 1000);
-    expect_balances(condensed);
-    const RunCase monolithic = run(laws, {"solver.method=monolithic", "solver.tolerance=1e-12"});
-    expect_same_answer(condensed, monolithic, 2);
-  }
 }
 
 // What forces that would close the gap leave of round-off is no lack of energy.
