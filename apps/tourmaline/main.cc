@@ -315,9 +315,13 @@ int answer(int argc, char **argv) {
   try {
     if (uses_dense_kernels(argc, argv))
       tourmaline::run::start_again_with_better_kernels(argv);
+    // Of all else that it is asked for one process does all.
+    const bool runs = argc > 1 && std::string_view(argv[1]) == "run";
+    if (!runs && !tourmaline::parallel::speaks())
+      return done;
     // MPI runs until an error has been told: a rank that ended before the first one has spoken
     // would take it along.
-    if (tourmaline::parallel::is_launched())
+    if (runs && tourmaline::parallel::is_launched())
       tourmaline::run::start_process(1);
     return obey(argc, argv);
   } catch (const tourmaline::CaseError &error) {

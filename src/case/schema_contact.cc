@@ -241,7 +241,7 @@ void declare(Visitor &v, HeatExchangeCase &heat) {
   v.optional(ramp_key("k_c fades as the contact opens,", exchange), heat.ramp);
   v.optional({.name = "friction_share",
               .description = "share of the power of friction that warms the body at the contact; "
-                             "the foundation has the rest",
+                             "the foundation has the rest; there must be friction",
               .range = from_to(0., 1.),
               .default_words = "friction makes no heat",
               .also = {"frictional_heating", "share"}},

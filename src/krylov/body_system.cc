@@ -279,7 +279,6 @@ void BodySystem<dim>::save(output::SavedNumbers &numbers) const {
   const body::NodeSharing &sharing = parts_->op.sharing();
   numbers.put("preconditioned contact", numbers_of(parts_->preconditioned, sharing));
   numbers.put("matrix' contact", numbers_of(parts_->matrices.contact(), sharing));
-  numbers.put("preconditioners", {static_cast<double>(parts_->set_ups)});
 }
 
 // The second contact leaves the preconditioner of the first, as it did before.
@@ -289,7 +288,6 @@ void BodySystem<dim>::restore(const output::SavedNumbers &numbers, std::size_t c
   const body::NodeSharing &sharing = parts_->op.sharing();
   set_contact(contact_of<dim>(numbers.get("preconditioned contact", size), sharing));
   set_contact(contact_of<dim>(numbers.get("matrix' contact", size), sharing));
-  parts_->set_ups = static_cast<int>(numbers.get("preconditioners", 1)[0]);
 }
 
 template <int dim>

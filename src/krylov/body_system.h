@@ -75,7 +75,7 @@ class BodySystem {
   void restore(const output::SavedNumbers &numbers, std::size_t contact_nodes);
 
   double set_up_seconds() const;  ///< assembly and preconditioners
-  int set_ups() const;            ///< preconditioners made so far
+  int set_ups() const;            ///< preconditioners made
 
  private:
   struct Parts;

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "krylov/petsc.h"
+#include "tourmaline/error.h"
 
 namespace tourmaline::krylov {
 
@@ -36,6 +37,17 @@ PetscReal largest_eigenvalue(Mat blocks, Mat matrix) {
   return *std::max_element(real.begin(), real.begin() + n);
 }
 
+// The user may have asked for another one.
+void require_multigrid(PC preconditioner) {
+  PetscBool is_multigrid = PETSC_FALSE;
+  check(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(preconditioner), &is_multigrid,
+                                  PCMG, PCGAMG, PCML, ""));
+  if (is_multigrid == PETSC_FALSE)
+    throw MachineError(
+        "PETSC_OPTIONS give the displacements a preconditioner that is no multigrid (-u_pc_type); "
+        "gamg, ml and mg are, and take solver.body = \"direct\" where these do not serve");
+}
+
 // Calls `of_row` with each of this rank's rows that has entries, their number, columns and values.
 void for_each_row(Mat matrix, const auto &of_row) {
   PetscInt begin = 0, end = 0, n = 0;
@@ -56,6 +68,7 @@ FollowingMultigrid::FollowingMultigrid(KSP solver, Mat change) {
   PC multigrid = nullptr;
   PetscInt n_levels = 0;
   check(KSPGetPC(solver, &multigrid));
+  require_multigrid(multigrid);
   check(PCMGGetLevels(multigrid, &n_levels));
   check(PetscObjectReference(reinterpret_cast<PetscObject>(change)));
   for (PetscInt i = n_levels - 1; i >= 0; --i) {

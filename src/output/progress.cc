@@ -46,6 +46,11 @@ void Progress::step(const HistoryRow &row) {
                all);
 }
 
+void Progress::part(const std::string &what, int done, int all) {
+  if (!quiet_ && due())
+    line_.draw(fmt::format("{}  {}/{}", what, done, all), done, all);
+}
+
 double Progress::seconds_left(double share, Clock::time_point now) const {
   if (share <= first_share_)
     return -1;  // One end of a step gives no duration; the first step may also carry set-up.

@@ -27,6 +27,9 @@ class Progress {
   /// Names the work that goes on until the next call ("mesh", "factorise"); drawn at once.
   void stage(const std::string &what);
 
+  /// Reports work within a step, of which so much is done; drawn as often as steps.
+  void part(const std::string &what, int done, int all);
+
   /// There are so many steps after all.
   void expect(int steps) { steps_ = steps; }
   /// Reports a finished step; drawn at most ten times a second.

@@ -66,11 +66,12 @@ void Account::put_iterations(const solve::RouteReport &report, output::Summary &
         static_cast<std::int64_t>(stages_[static_cast<std::size_t>(stage)]);
   if (slip_jumps_ > 0)
     summary.iterations["steps_with_slip_jumps"] = slip_jumps_;
-  if (report.krylov_iterations > 0) {
+  if (report.is_iterative) {
     summary.iterations["krylov_total"] = static_cast<std::int64_t>(report.krylov_iterations);
     summary.iterations["krylov_max"] = report.krylov_largest;
     summary.iterations["preconditioners"] = report.preconditioners;
     summary.iterations["safe_steps"] = report.safe_steps;
+    summary.iterations["contact_columns"] = report.contact_columns;
   }
 }
 

@@ -14,7 +14,7 @@ namespace tourmaline::run {
 
 template <int dim>
 Adrift<dim>::Adrift(const solve::Model<dim> &model)
-    : model_(model), left_to_contact_(solve::left_to_contact(model)) {}
+    : model_(model), left_to_contact_(solve::resisted_by_contact_alone(model)) {}
 
 // Friction that slips holds, too: whether it lets go is for the balance of forces to say.
 template <int dim>

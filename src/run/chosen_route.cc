@@ -35,7 +35,17 @@ ChosenRoute<dim>::ChosenRoute(solve::Model<dim> &model, bool iterative, output::
     : model_(model), progress_(progress), iterative_(iterative) {
   model_.set_step(model_.steps.size(first));
   progress_.stage(iterative_ ? "preconditioner" : "factorisation");
-  route_ = make_route(model_, iterative_);
+  route_ = made_route();
+}
+
+// What takes long within its steps stands in the progress line.
+template <int dim>
+std::unique_ptr<solve::Route> ChosenRoute<dim>::made_route() {
+  std::unique_ptr<solve::Route> route = make_route(model_, iterative_);
+  route->tell([&progress = progress_](const char *what, int done, int all) {
+    progress.part(what, done, all);
+  });
+  return route;
 }
 
 template <int dim>
@@ -76,12 +86,12 @@ void ChosenRoute<dim>::take_size(double step) {
   make_room();
   progress_.stage(iterative_ ? "preconditioner" : "factorisation");
   try {
-    route_ = make_route(model_, iterative_);
+    route_ = made_route();
   } catch (const MachineError &) {  // the estimate is one
     if (kept_.empty())
       throw;
     kept_.clear();
-    route_ = make_route(model_, iterative_);
+    route_ = made_route();
   }
 }
 
@@ -161,7 +171,7 @@ void ChosenRoute<dim>::factorise_after_all(int n, const SolveError &error) {
   iterative_ = false;
   direct_from_ = n;
   progress_.stage("factorisation");
-  route_ = make_route(model_, iterative_);
+  route_ = made_route();
   if (slip.size() > 0)
     route_->go_on_from(slip);
 }

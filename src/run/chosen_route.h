@@ -53,6 +53,7 @@ class ChosenRoute {
 
  private:
   void factorise_after_all(int n, const SolveError &error);
+  std::unique_ptr<solve::Route> made_route();
   std::unique_ptr<solve::Route> kept_of(double step);
   void take_size(double step);
   void make_room();

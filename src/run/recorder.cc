@@ -54,7 +54,10 @@ Vector<dim> tangential(const Vector<dim> &v, const Vector<dim> &normal) {
 
 template <int dim>
 Recorder<dim>::Recorder(const solve::Model<dim> &model, output::ResultFolder &folder)
-    : model_(model), folder_(folder), judgement_(solve::left_to_contact(model)), probes_(model) {
+    : model_(model),
+      folder_(folder),
+      judgement_(solve::resisted_by_contact_alone(model)),
+      probes_(model) {
   for (std::size_t c = 0; c < model.laws.size(); ++c)
     linear_.push_back({model.laws[c].linear(contact::Crossing::heat),
                        model.laws[c].linear(contact::Crossing::charge)});

@@ -159,24 +159,16 @@ bool BodyBySolutions<dim>::is_within(const VectorXd &, double residual, double t
   return relative_to(residual, size_) <= tolerance;
 }
 
-// The linear system of Newton's method, and the right side of what is left when the contact has
-// `moved`: from nodal `force` [N] in its free directions, and from what the free unknowns beside it
-// leave of their equations, `residual`.
+// The linear system of Newton's method, and the right side of what is left when the contact nodes
+// have `moved`: from nodal `force` [N] in its free directions, and from what the free unknowns
+// beside it leave of their equations, `residual`. Mostly nothing has moved, which saves a product.
 template <int dim>
 std::vector<double> BodyBySolutions<dim>::set_system(const NodeSystem<dim> &system,
-                                                     std::span<const double> moved,
-                                                     const VectorXd &force,
+                                                     const VectorXd &moved, const VectorXd &force,
                                                      std::vector<double> residual) {
-  const std::vector<double> resisted = product(moved);
-  for (std::size_t i = 0; i < residual.size(); ++i)
-    residual[i] -= resisted[i];
-  const VectorXd resisting = at_contact(resisted), x = at_contact(moved);
   VectorXd coupled = contact_.directions() * force;
-  for (std::size_t i = 0; i < system.couplings.size(); ++i) {
-    const auto at = Eigen::seqN(dim * static_cast<Index>(i), dim);
-    coupled(at) -= system.couplings[i].of_force * resisting(at) +
-                   (system.couplings[i].of_displacement + system.tangents[i].stiffness) * x(at);
-  }
+  if (!moved.isZero(0))
+    take_off(moved, system, coupled, residual);
   add_at_contact(coupled, residual);
   body_.system().set_contact(system.tangents);
   if (system.is_coupled())
@@ -185,18 +177,32 @@ std::vector<double> BodyBySolutions<dim>::set_system(const NodeSystem<dim> &syst
   return residual;
 }
 
+// What the body and the contact's tangents answer to nodes that have `moved`.
+template <int dim>
+void BodyBySolutions<dim>::take_off(const VectorXd &moved, const NodeSystem<dim> &system,
+                                    VectorXd &coupled, std::vector<double> &residual) const {
+  std::vector<double> whole(state_.size(), 0.);
+  add_at_contact(moved, whole);
+  const std::vector<double> resisted = product(whole);
+  std::ranges::transform(residual, resisted, residual.begin(), std::minus<>());
+  const VectorXd resisting = at_contact(resisted);
+  for (std::size_t i = 0; i < system.couplings.size(); ++i) {
+    const auto at = Eigen::seqN(dim * static_cast<Index>(i), dim);
+    coupled(at) -= system.couplings[i].of_force * resisting(at) +
+                   (system.couplings[i].of_displacement + system.tangents[i].stiffness) * moved(at);
+  }
+}
+
 // Adds to the state the `known` increments of the contact and what follows from them and the rest.
 template <int dim>
 bool BodyBySolutions<dim>::correct(const NodeSystem<dim> &system, const VectorXd &known,
                                    const VectorXd &force, std::vector<double> residual,
                                    double reduction) {
-  std::vector<double> moved(state_.size(), 0.);
-  add_at_contact(contact_.directions() * known, moved);
+  const VectorXd moved = contact_.directions() * known;
   const bool solved =
       body_.correct(set_system(system, moved, force, std::move(residual)), reduction);
   body_.system().set_coupling({});
-  for (std::size_t i = 0; i < state_.size(); ++i)
-    state_[i] += moved[i];
+  add_at_contact(moved, state_);
   return solved;
 }
 
@@ -204,7 +210,7 @@ template <int dim>
 double BodyBySolutions<dim>::forward_error(const ContactTangent &tangent,
                                            std::vector<double> residual) {
   const NodeSystem<dim> system(contact_, model_, with_springs(tangent));
-  const std::vector<double> nothing(state_.size(), 0.);
+  const VectorXd nothing = VectorXd::Zero(contact_.directions().rows());
   const double error =
       body_.forward_error(set_system(system, nothing, system.force, freed(std::move(residual))));
   body_.system().set_coupling({});
@@ -241,13 +247,12 @@ std::optional<ContactBody::Moved> BodyBySolutions<dim>::response(const NodeSyste
                                                                  const VectorXd &known,
                                                                  const VectorXd &force,
                                                                  double reduction) {
-  moved_.assign(state_.size(), 0.);
-  add_at_contact(contact_.directions() * known, moved_);
+  const VectorXd moved = contact_.directions() * known;
   const bool solved = body_.solve(
-      set_system(system, moved_, force, std::vector<double>(state_.size(), 0.)), reduction);
+      set_system(system, moved, force, std::vector<double>(state_.size(), 0.)), reduction);
   body_.system().set_coupling({});
-  std::transform(moved_.begin(), moved_.end(), body_.increment().begin(), moved_.begin(),
-                 std::plus<>());
+  moved_ = body_.increment();
+  add_at_contact(moved, moved_);
   if (!solved)
     return std::nullopt;
   const auto transposed = contact_.directions().transpose();
@@ -255,18 +260,20 @@ std::optional<ContactBody::Moved> BodyBySolutions<dim>::response(const NodeSyste
 }
 
 template <int dim>
-std::optional<Eigen::MatrixXd> BodyBySolutions<dim>::matrix() {
+std::optional<Eigen::MatrixXd> BodyBySolutions<dim>::matrix(
+    const std::function<void(Index)> &made) {
   const Index n = contact_.n_unknowns();
   const NodeSystem<dim> system = all_held();
   body_.system().set_contact(system.tangents);
   body_.system().refresh();
-  iterations_ += static_cast<int>(n);
   Eigen::MatrixXd matrix(n, n);
   for (Index k = 0; k < n; ++k) {
+    ++iterations_;
     const auto moved = response(system, VectorXd::Unit(n, k), VectorXd::Zero(n), error_of_matrix);
     if (!moved)
       return std::nullopt;
     matrix.col(k) = moved->resisted;
+    made(k + 1);
   }
   begin_anew();
   return (matrix + matrix.transpose()) / 2;

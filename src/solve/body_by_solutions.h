@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -61,7 +62,8 @@ class BodyBySolutions : public ContactBody, private SlipResponse {
   void set_springs(double springs) { springs_ = springs; }
 
   /// A [N/m], from one solution of the body's equations by unknown. Nothing where one failed.
-  std::optional<Eigen::MatrixXd> matrix();
+  /// `made`: is called with the number of columns that are there, after each.
+  std::optional<Eigen::MatrixXd> matrix(const std::function<void(Eigen::Index)> &made);
   /// About that of A, over the size of its entries. Where little but the contact holds the body, A
   /// is told from a singular matrix.
   static constexpr double error_of_matrix = 1e-12;
@@ -97,8 +99,10 @@ class BodyBySolutions : public ContactBody, private SlipResponse {
     return model_.product(x, body_.is_refined());
   }
   NodeSystem<dim> all_held() const;
-  std::vector<double> set_system(const NodeSystem<dim> &system, std::span<const double> moved,
+  std::vector<double> set_system(const NodeSystem<dim> &system, const Eigen::VectorXd &moved,
                                  const Eigen::VectorXd &force, std::vector<double> residual);
+  void take_off(const Eigen::VectorXd &moved, const NodeSystem<dim> &system,
+                Eigen::VectorXd &coupled, std::vector<double> &residual) const;
   bool correct(const NodeSystem<dim> &system, const Eigen::VectorXd &known,
                const Eigen::VectorXd &force, std::vector<double> residual, double reduction);
   ContactTangent with_springs(ContactTangent tangent) const;

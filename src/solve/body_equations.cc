@@ -47,12 +47,16 @@ void BodyEquations<dim>::begin_step(std::span<const double> right_side, std::spa
   loads_ = right_side;
   right_side_.assign(right_side.begin(), right_side.end());
   state_ = state;
-  correction_ = std::numeric_limits<double>::infinity();
-  corrections_fall_ = true;
-  forget_lack();
+  begin_corrections();
   forget_increment();
   first_nodal_forces_ = nodal_forces();
   first_round_off_ = round_off({});
+}
+
+template <int dim>
+void BodyEquations<dim>::begin_corrections() {
+  lack_ = correction_ = std::numeric_limits<double>::infinity();
+  corrections_fall_ = true;
 }
 
 template <int dim>
@@ -136,6 +140,11 @@ std::array<double, 3> BodyEquations<dim>::round_off(std::span<const double> righ
   return norms(model_, terms);
 }
 
+template <int dim>
+bool BodyEquations<dim>::corrections_go_on() const {
+  return is_refined() && corrections_fall_ && correction_ > enough;
+}
+
 // Round-off is looked at only where an iteration has gained little, as it costs a product. Of a
 // refined solution corrections decide: its residual is what round-off of the state makes.
 template <int dim>
@@ -148,8 +157,8 @@ bool BodyEquations<dim>::is_solved(std::span<const double> free_residual) {
     if (found[f] > 0)
       lack_ = larger(lack_, found[f] / (tolerance * sizes[f] + 1e-300));
   if (!std::isfinite(found[0] + found[1] + found[2]))
-    forget_lack();
-  if (is_refined() && corrections_fall_ && correction_ > enough)
+    lack_ = std::numeric_limits<double>::infinity();
+  if (corrections_go_on())
     return false;
   if (lack_ <= 1)
     return true;
@@ -192,7 +201,7 @@ void BodyEquations<dim>::solve_held(double time,
                                     const std::vector<krylov::NodeTangent<dim>> &held) {
   system_.set_contact(held);
   system_.refresh();
-  forget_lack();
+  begin_corrections();
   const auto free_residual = [&] {
     std::vector<double> residual = residual_;
     system_.project(residual);
@@ -204,8 +213,8 @@ void BodyEquations<dim>::solve_held(double time,
     update_residual();
     if (is_solved(free_residual()))
       return;
-    if (lack_ < least / 2) {
-      least = lack_;
+    if (lack_ < least / 2 || corrections_go_on()) {
+      least = std::min(least, lack_);
       without_gain = 0;
     }
     correct(free_residual(), std::clamp(0.3 / lack_, 1e-6, 1e-1));

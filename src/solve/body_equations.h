@@ -57,7 +57,8 @@ class BodyEquations {
   bool is_solved(std::span<const double> free_residual);
   /// The free residual seen last over what is allowed, in the worst field; 1 or less: solved.
   double lack() const { return lack_; }
-  void forget_lack() { lack_ = std::numeric_limits<double>::infinity(); }
+  /// What was seen of residuals and corrections says nothing of those that follow.
+  void begin_corrections();
 
   /// Solves the linear system, its residual taken down by `reduction`. False where the iteration
   /// did not come as far.
@@ -87,6 +88,7 @@ class BodyEquations {
  private:
   [[noreturn]] void give_up(double time, std::span<const double> free_residual) const;
   std::vector<double> left(std::vector<double> product) const;
+  bool corrections_go_on() const;
   std::array<double, 3> field_sizes() const;
   std::array<double, 3> round_off(std::span<const double> right_side) const;
 

@@ -43,23 +43,23 @@ template <int dim>
 ContactBySolutions<dim>::ContactBySolutions(const Model<dim> &model,
                                             const std::vector<bool> &is_prescribed,
                                             BodyEquations<dim> &body, RouteReport &count,
-                                            bool is_leaning, double tolerance)
+                                            bool is_leaning, double tolerance, Route::Listener say)
     : model_(model),
       body_(body),
       count_(count),
       is_leaning_(is_leaning),
       tolerance_(tolerance),
+      say_(std::move(say)),
       contact_(model, is_prescribed),
       exchange_(model),
-      seen_(model, is_prescribed, body, contact_, is_leaning) {
-  count_.safe_steps = 0;
-}
+      seen_(model, is_prescribed, body, contact_, is_leaning) {}
 
 template <int dim>
 void ContactBySolutions<dim>::begin_step(double time, std::span<const double> before,
                                          std::span<double> state) {
   time_ = time;
   state_ = state;
+  needed_safe_stage_ = false;
   contact_.begin_step(time, before, state);
   exchange_.begin_step(time, state);
   seen_.begin_step(time, state, tolerance_);
@@ -85,7 +85,8 @@ bool ContactBySolutions<dim>::find_fast() {
   const int most = std::min(30, model_.asked.solver.max_iterations);
   const NaturalMap map(coupled(), 1);
   Progress progress;
-  for (int k = 0; k <= most && k - progress.last_gain() < patience; ++k) {
+  body_.begin_corrections();
+  for (int k = 0; k <= most; ++k) {
     const NaturalMap::Place x = seen_.look();
     const ContactTangent tangent = map.tangent(x);
     std::vector<double> residual = freed(body_.residual());
@@ -104,7 +105,8 @@ bool ContactBySolutions<dim>::find_fast() {
     // so. Where only the contact holds the body, which Newton's method may carry off, that counts.
     if (k > 0 || is_leaning_)
       progress.see(k, worst, contact_is_solved ? std::optional(body_.lack()) : std::nullopt);
-    if (!newton_step(tangent, std::move(residual)))
+    if (k == most || k - progress.last_gain() >= patience ||
+        !newton_step(tangent, std::move(residual)))
       return false;
   }
   return false;
@@ -134,53 +136,100 @@ void ContactBySolutions<dim>::find_by_solutions(const VectorXd &start) {
   }
 }
 
-// That of an earlier step may be of another step size or of other slopes of what crosses.
+// That of an earlier step may be of another step size or of other slopes of what crosses. False
+// where another way may lead further.
 template <int dim>
-void ContactBySolutions<dim>::find_by_matrix(const VectorXd &start, const Begin &begin) {
+bool ContactBySolutions<dim>::find_by_matrix(const VectorXd &start, const Begin &begin) {
   if (matrix_) {
     begin();
     settle_by_matrix(start);
     if (!is_lost())
-      return;
+      return true;
   }
   begin();
   solution_.interface.converged = false;
-  matrix_ = seen_.matrix();
-  if (matrix_)
-    settle_by_matrix(start);
+  matrix_ = made_matrix();
+  has_no_matrix_ = !matrix_;
+  return matrix_ && settle_by_matrix(start);
+}
+
+template <int dim>
+std::optional<Eigen::MatrixXd> ContactBySolutions<dim>::made_matrix() {
+  const auto all = static_cast<int>(contact_.n_unknowns());
+  say_("matrix of the contact", 0, all);
+  return seen_.matrix([&](Index done) {
+    ++count_.contact_columns;
+    say_("matrix of the contact", static_cast<int>(done), all);
+  });
 }
 
 // As that of a condensed body. What A's error leaves is seen in the forces where its solution
-// leads, and the next one takes it into account, until that gains little. All ranks go the first
-// one's way: their processors may round otherwise.
+// leads, and the next one takes it into account, until that gains little; the best of them stays.
+// False where that was not enough. What the matrix tells of a body that nothing but its contact
+// holds is final.
 template <int dim>
-void ContactBySolutions<dim>::settle_by_matrix(const VectorXd &start) {
-  const InterfaceSettings settings{model_.asked.solver.tolerance,
-                                   model_.asked.solver.max_iterations, !is_leaning_};
+bool ContactBySolutions<dim>::settle_by_matrix(const VectorXd &start) {
   VectorXd d = start, force = seen_.force(d);
   double before = std::numeric_limits<double>::infinity(), error = before;
+  std::optional<CoupledSolution> best;
   do {
     before = error;
     const VectorXd loads = force + *matrix_ * d;
-    const InterfaceProgramme programme{
-        *matrix_, loads, contact_.points(), seen_.largest_force(), {}, seen_.error_of_matrix};
-    const CoupledProgramme coupled{programme, contact_.couplings()};
-    solution_ =
-        is_leaning_ ? solve_leaning(coupled, d, settings) : solve_coupled(coupled, d, settings);
-    if (parallel::from_first(solution_.interface.converged) == 0) {
-      solution_.interface.converged = false;
-      return;
-    }
+    solution_ = solved_by_matrix(loads, d);
+    const bool is_solved = solution_.interface.converged && !drifts_;
+    if (!is_solved && !best)
+      return is_leaning_;
+    if (!is_solved)
+      break;
     d = solution_.interface.increment;
-    parallel::from_first(std::span(d.data(), static_cast<std::size_t>(d.size())));
-    solution_.interface.increment = d;
     force = seen_.force(d);
     error = (force - loads + *matrix_ * d).template lpNorm<Eigen::Infinity>();
     parallel::from_first(std::span(&error, 1));
-    solution_.interface.converged = seen_.is_within(d, error, tolerance_);
-    if (!solution_.interface.converged)
-      solution_.interface.residual = error / seen_.largest_force();
+    if (seen_.is_within(d, error, tolerance_) && error < before)
+      best = solution_;
   } while (!seen_.is_within(d, error, next_to_nothing * tolerance_) && error < before / 10);
+  if (!best) {
+    solution_.interface.converged = false;
+    solution_.interface.residual =
+        larger(solution_.interface.residual, error / seen_.largest_force());
+    return false;
+  }
+  drifts_ = false;
+  solution_ = *best;
+  if (solution_.interface.increment != d)
+    seen_.force(solution_.interface.increment);
+  return true;
+}
+
+template <int dim>
+bool ContactBySolutions<dim>::is_in_doubt() const {
+  return is_leaning_ && may_have_slid(body_.nodal_forces().round_off, contact_.points(),
+                                      contact_.couplings(), solution_);
+}
+
+// With these forces where the contact does not move [N]. All ranks go the first one's way: their
+// processors may round otherwise.
+template <int dim>
+CoupledSolution ContactBySolutions<dim>::solved_by_matrix(const VectorXd &loads,
+                                                          const VectorXd &start) {
+  const InterfaceSettings settings{model_.asked.solver.tolerance,
+                                   model_.asked.solver.max_iterations, !is_leaning_};
+  const InterfaceProgramme programme{
+      *matrix_, loads, contact_.points(), seen_.largest_force(), {}, seen_.error_of_matrix};
+  const CoupledProgramme coupled{programme, contact_.couplings()};
+  CoupledSolution found = is_leaning_ ? solve_leaning(coupled, start, settings)
+                                      : solve_coupled(coupled, start, settings);
+  InterfaceSolution &contact = found.interface;
+  drifts_ = parallel::from_first(is_leaning_ && is_carried_off(programme, contact)) != 0;
+  contact.converged = parallel::from_first(contact.converged) != 0;
+  parallel::from_first(std::span(contact.increment.data(), std::size_t(contact.increment.size())));
+  std::vector<int> status;
+  for (const ContactStatus of_point : contact.status)
+    status.push_back(static_cast<int>(of_point));
+  parallel::from_first(std::span(status));
+  std::ranges::transform(status, contact.status.begin(),
+                         [](int of_point) { return static_cast<ContactStatus>(of_point); });
+  return found;
 }
 
 // What crosses the contact by its state is held, the step solved, and so on.
@@ -223,24 +272,24 @@ std::string ContactBySolutions<dim>::carried_off() const {
   if (!is_leaning_)
     return "";
   const auto [largest, round_off] = body_.nodal_forces();
-  const bool is_lost = round_off > counts * larger(largest, body_.first_nodal_forces().largest);
+  const bool is_lost =
+      drifts_ || round_off > counts * larger(largest, body_.first_nodal_forces().largest);
   return is_lost ? unheld_motions(model_, contact_, solution_.interface.status) : "";
 }
 
 // A few unknowns are worth a matrix, which takes as many solutions, if fewer do not help: 1,000
-// with as many iterations as are allowed by default. What that tells of a body that is carried off
-// is final.
+// with as many iterations as are allowed by default, and no more than need 32 MB.
 template <int dim>
 void ContactBySolutions<dim>::find_safely(const VectorXd &start, const Begin &begin) {
-  const Eigen::Index few = Eigen::Index{10} * model_.asked.solver.max_iterations;
-  count_.safe_steps += !is_without_points();  // without them there is only the body to go on with
+  constexpr Index at_most = 2000;
+  const Index few = std::min(at_most, Index{10} * model_.asked.solver.max_iterations);
+  needed_safe_stage_ |= !is_without_points();  // without them there is only the body to go on with
   begin();
-  if (const Eigen::Index n = contact_.n_unknowns(); n <= few) {
+  if (const Index n = contact_.n_unknowns(); n <= few && !has_no_matrix_) {
     if (!matrix_)
       solution_ = solve_from(start, static_cast<int>(n) / 4);
-    if (matrix_ || is_lost())
-      find_by_matrix(start, begin);
-    if (solution_.interface.converged)
+    const bool is_found = !matrix_ && !is_lost() && !is_in_doubt();
+    if (is_found || find_by_matrix(start, begin))
       return;
     begin();
   }
@@ -252,7 +301,8 @@ template <int dim>
 bool ContactBySolutions<dim>::find() {
   const VectorXd start = seen_.unknowns();
   const std::vector<double> state(state_.begin(), state_.end());
-  is_found_safely_ = !find_fast() || !carried_off().empty();
+  drifts_ = false;
+  is_found_safely_ = !find_fast() || !carried_off().empty() || is_in_doubt();
   if (is_found_safely_)
     find_safely(start, [&] {
       std::copy(state.begin(), state.end(), state_.begin());
@@ -295,6 +345,7 @@ StepOutcome ContactBySolutions<dim>::outcome() {
   if (model_.laws.remembers_slip())
     outcome.accumulated_slip = VectorXd::Zero(n);
   solution_.interface.iterations = iterations();
+  count_.safe_steps += needed_safe_stage_;
   contact_.end_step(solution_, outcome);
   exchange_.end_step(state_, states(), outcome);
   return outcome;
@@ -302,6 +353,7 @@ StepOutcome ContactBySolutions<dim>::outcome() {
 
 template <int dim>
 void ContactBySolutions<dim>::take_back() {
+  count_.safe_steps -= needed_safe_stage_;
   contact_.take_back();
   exchange_.take_back();
 }

@@ -27,10 +27,10 @@ class ContactBySolutions {
  public:
   /// What is referred to outlives this. `count`: where safe stages are counted. `is_leaning`: only
   /// the contact keeps the body from some rigid motion. `tolerance`: the residual of the contact,
-  /// over the size of the forces, that counts as none.
+  /// over the size of the forces, that counts as none. `say`: as `Route::say`.
   ContactBySolutions(const Model<dim> &model, const std::vector<bool> &is_prescribed,
                      BodyEquations<dim> &body, RouteReport &count, bool is_leaning,
-                     double tolerance);
+                     double tolerance, Route::Listener say);
 
   /// A step from `before` to a state that is predicted. The body's equations have begun theirs.
   void begin_step(double time, std::span<const double> before, std::span<double> state);
@@ -65,6 +65,7 @@ class ContactBySolutions {
   }
   CoupledContact coupled() { return {seen_, contact_.points(), contact_.couplings()}; }
   bool is_lost() const { return !solution_.interface.converged || !carried_off().empty(); }
+  bool is_in_doubt() const;
   bool find_fast();
   bool newton_step(const ContactTangent &tangent, std::vector<double> residual);
   CoupledSolution solve_from(const Eigen::VectorXd &start,
@@ -72,8 +73,10 @@ class ContactBySolutions {
   using Begin = std::function<void()>;  // goes back to the state that is predicted
   void find_safely(const Eigen::VectorXd &start, const Begin &begin);
   void find_by_solutions(const Eigen::VectorXd &start);
-  void find_by_matrix(const Eigen::VectorXd &start, const Begin &begin);
-  void settle_by_matrix(const Eigen::VectorXd &start);
+  bool find_by_matrix(const Eigen::VectorXd &start, const Begin &begin);
+  std::optional<Eigen::MatrixXd> made_matrix();
+  bool settle_by_matrix(const Eigen::VectorXd &start);
+  CoupledSolution solved_by_matrix(const Eigen::VectorXd &loads, const Eigen::VectorXd &start);
   bool is_without_points() const { return contact_.points().empty(); }
 
   const Model<dim> &model_;
@@ -81,15 +84,18 @@ class ContactBySolutions {
   RouteReport &count_;
   const bool is_leaning_;
   const double tolerance_;
+  const Route::Listener say_;
   ContactNodes<dim> contact_;
   HeldExchanges<dim> exchange_;
   BodyBySolutions<dim> seen_;              // by the contact
   std::optional<Eigen::MatrixXd> matrix_;  // A, once it was needed
+  bool has_no_matrix_ = false;             // some column could not be solved
   // Of the step at hand:
   std::span<double> state_;
   double time_ = 0;
   CoupledSolution solution_;
-  bool is_found_safely_ = false;
+  bool is_found_safely_ = false, needed_safe_stage_ = false;
+  bool drifts_ = false;  // by its matrix the loads carry the body off
 };
 
 }  // namespace tourmaline::solve

@@ -87,8 +87,8 @@ IterativeRoute<dim>::IterativeRoute(const Model<dim> &model)
       contact_tolerance_(
           10 * std::max(model.asked.solver.tolerance, model.asked.solver.linear_tolerance)),
       body_(model, is_prescribed_, so_far_),
-      contact_(model, is_prescribed_, body_, so_far_, !left_to_contact_.empty(),
-               contact_tolerance_) {}
+      contact_(model, is_prescribed_, body_, so_far_, !left_to_contact_.empty(), contact_tolerance_,
+               [this](const char *what, int done, int all) { this->say(what, done, all); }) {}
 
 // The state at hand is near what is looked for.
 template <int dim>
@@ -177,7 +177,8 @@ StepOutcome IterativeRoute<dim>::advance(double time, std::span<const double> ri
 template <int dim>
 void IterativeRoute<dim>::describe(RouteReport &report) const {
   report.condense_seconds += body_.system().set_up_seconds();
-  report.preconditioners = body_.system().set_ups();
+  report.is_iterative = true;
+  report.preconditioners += body_.system().set_ups();
   report.unknowns = unknowns_[0] + unknowns_[1];
   report.electric_and_thermal_unknowns = unknowns_[1];
 }

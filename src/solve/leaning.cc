@@ -9,7 +9,7 @@
 namespace tourmaline::solve {
 
 template <int dim>
-std::string left_to_contact(const Model<dim> &model) {
+std::string resisted_by_contact_alone(const Model<dim> &model) {
   return model.composition.resists_motion() && !model.asked.time.is_static()
              ? ""
              : casefile::left_to_contact(model.asked);
@@ -80,8 +80,8 @@ void give_up_leaning(double time, const InterfaceSolution &solution,
       time, solution.residual, solution.iterations, left_to_contact));
 }
 
-template std::string left_to_contact(const Model<2> &);
-template std::string left_to_contact(const Model<3> &);
+template std::string resisted_by_contact_alone(const Model<2> &);
+template std::string resisted_by_contact_alone(const Model<3> &);
 template std::vector<casefile::Support> supports_of(const Model<2> &,
                                                     const std::vector<ContactStatus> &,
                                                     const std::function<bool(std::size_t)> &);

@@ -15,7 +15,7 @@ namespace tourmaline::solve {
 /// The rigid motions that nothing but contact keeps the body from, in words; empty: none, or
 /// inertia or damping do in this run.
 template <int dim>
-std::string left_to_contact(const Model<dim> &model);
+std::string resisted_by_contact_alone(const Model<dim> &model);
 
 /// What holds the body, contact nodes having this `status`: supports, normals where it touches, and
 /// all directions where a node that does `rubs`.

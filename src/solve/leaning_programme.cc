@@ -1,5 +1,6 @@
 #include "solve/leaning_programme.h"
 
+#include "larger.h"
 #include "solve/force_size.h"
 
 namespace tourmaline::solve {
@@ -14,6 +15,20 @@ bool is_carried_off(const InterfaceProgramme &programme, const InterfaceSolution
              counts * programme.force_scale;
 }
 
+bool may_have_slid(double round_off, const std::vector<ContactPoint> &points,
+                   const std::vector<FrictionCoupling> &couplings,
+                   const CoupledSolution &solution) {
+  constexpr double counts = 1e-2;
+  double most = 0;
+  for (const ContactPoint &p : points)
+    if (p.law.normal() == nullptr)
+      most = larger(most, p.weight * p.law.friction().bound().value_or(0));
+  for (std::size_t k = 0; k < solution.friction.size(); ++k)
+    most =
+        larger(most, points[couplings[k].slip].weight * solution.friction[k].bound().value_or(0));
+  return most > 0 && round_off > counts * most;
+}
+
 CoupledSolution solve_leaning(const CoupledProgramme &programme, const VectorXd &first,
                               const InterfaceSettings &settings) {
   const InterfaceProgramme &convex = programme.convex;
@@ -21,7 +36,10 @@ CoupledSolution solve_leaning(const CoupledProgramme &programme, const VectorXd 
   int iterations = solution.interface.iterations;
   VectorXd start = VectorXd::Zero(first.size());
   for (const double weak : {1e-2, 1e-4, 1e-6}) {
-    if (solution.interface.converged && !is_carried_off(convex, solution.interface))
+    const double round_off =
+        convex.stiffness_error * size_of_forces(convex, solution.interface.increment);
+    if (solution.interface.converged && !is_carried_off(convex, solution.interface) &&
+        !may_have_slid(round_off, convex.points, programme.couplings, solution))
       break;
     MatrixXd stiffness = convex.stiffness;
     stiffness.diagonal() *= 1 + weak;

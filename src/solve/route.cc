@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "body/fields.h"
@@ -14,6 +15,34 @@ namespace {
 
 double largest_so_far(double before, double now) {
   return std::isnan(before) ? now : larger(before, now);
+}
+
+// What adds up over the steps, through the routes and the processes of a run.
+template <typename Report>
+void for_each_count(Report &report, const auto &of_count) {
+  of_count(report.factorisations);
+  of_count(report.factorise_seconds);
+  of_count(report.condense_seconds);
+  of_count(report.substitution_seconds);
+  of_count(report.contact_seconds);
+  of_count(report.estimate_seconds);
+  of_count(report.krylov_iterations);
+  of_count(report.krylov_largest);  // which a route has in `so_far_` alone
+  of_count(report.preconditioners);
+  of_count(report.safe_steps);
+  of_count(report.contact_columns);
+}
+
+std::vector<double> counts_of(const RouteReport &report) {
+  std::vector<double> counts;
+  for_each_count(report, [&](auto count) { counts.push_back(static_cast<double>(count)); });
+  return counts;
+}
+
+void set_counts(RouteReport &report, std::span<const double> counts) {
+  auto next = counts.begin();
+  for_each_count(report,
+                 [&]<typename Count>(Count &count) { count = static_cast<Count>(*next++); });
 }
 
 }  // namespace
@@ -59,6 +88,11 @@ bool Route::outgrew_measured(const body::NodeSharing &sharing, std::span<const d
 template bool Route::outgrew_measured<2>(const body::NodeSharing &, std::span<const double>);
 template bool Route::outgrew_measured<3>(const body::NodeSharing &, std::span<const double>);
 
+void Route::say(const char *what, int done, int all) const {
+  if (listener_)
+    listener_(what, done, all);
+}
+
 void Route::forget_errors() {
   so_far_.backward_error = so_far_.forward_error = std::numeric_limits<double>::quiet_NaN();
 }
@@ -82,29 +116,20 @@ RouteReport Route::report() const {
 
 void Route::save(output::SavedNumbers &numbers) const {
   const RouteReport now = report();
-  numbers.put("route", {now.backward_error, now.forward_error, double(now.is_refined),
-                        double(now.factorisations), now.factorise_seconds, now.substitution_seconds,
-                        now.contact_seconds, double(now.krylov_iterations),
-                        double(now.krylov_largest), double(now.safe_steps), measured_[0],
-                        measured_[1], measured_[2], now.estimate_seconds});
+  numbers.put("route", {now.backward_error, now.forward_error, double(now.is_refined), measured_[0],
+                        measured_[1], measured_[2]});
+  numbers.put("route's counts", counts_of(now));
   save_memory(numbers);
 }
 
 void Route::restore(const output::SavedNumbers &numbers, bool of_other_step) {
-  const auto before = numbers.get("route", 14);
+  const auto before = numbers.get("route", 6);
   so_far_.backward_error = before[0];
   so_far_.forward_error = before[1];
   if (before[2] != 0 && !is_refined())
     refine_again();
-  so_far_.factorisations = static_cast<int>(before[3]);
-  so_far_.factorise_seconds = before[4];
-  so_far_.substitution_seconds = before[5];
-  so_far_.contact_seconds = before[6];
-  so_far_.krylov_iterations = static_cast<std::size_t>(before[7]);
-  so_far_.krylov_largest = static_cast<int>(before[8]);
-  so_far_.safe_steps = static_cast<int>(before[9]);
-  std::copy_n(before.begin() + 10, measured_.size(), measured_.begin());
-  so_far_.estimate_seconds = before[13];
+  std::copy_n(before.begin() + 3, measured_.size(), measured_.begin());
+  set_counts(so_far_, numbers.get("route's counts", counts_of(so_far_).size()));
   restore_memory(numbers);
   if (of_other_step)
     forget_matrices();
@@ -129,15 +154,9 @@ void Route::take_over(const Handover &other) {
     describe(own);
   so_far_.backward_error = all.backward_error;
   so_far_.forward_error = all.forward_error;
-  so_far_.factorisations = all.factorisations - own.factorisations;
-  so_far_.factorise_seconds = all.factorise_seconds - own.factorise_seconds;
-  so_far_.condense_seconds = all.condense_seconds + (is_counted_ ? 0 : so_far_.condense_seconds);
-  so_far_.substitution_seconds = all.substitution_seconds - own.substitution_seconds;
-  so_far_.contact_seconds = all.contact_seconds;
-  so_far_.estimate_seconds = all.estimate_seconds;
-  so_far_.krylov_iterations = all.krylov_iterations;
-  so_far_.krylov_largest = all.krylov_largest;
-  so_far_.safe_steps = all.safe_steps;
+  std::vector<double> before = counts_of(all);
+  std::ranges::transform(before, counts_of(own), before.begin(), std::minus<>());
+  set_counts(so_far_, before);
   measured_ = other.memory.measured;
   if (all.is_refined && !is_refined())
     refine_again();

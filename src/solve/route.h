@@ -3,8 +3,11 @@
 #include <Eigen/Dense>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "body/node_sharing.h"
@@ -78,10 +81,13 @@ struct RouteReport {
   double factor_flops = 0;
   std::string factorised_by, instead_of_own;  ///< as in `FactorisationStatistics`
   int negative_pivots = -1;                   ///< -1: not known to this route
-  std::size_t krylov_iterations = 0;  ///< over all linear systems; 0: solved by substitution
-  int krylov_largest = 0;             ///< of one linear system
-  int preconditioners = 0;            ///< made in the run
-  int safe_steps = -1;  ///< in which a safe stage followed the fast one; -1: not of this route
+  bool is_iterative = false;                  ///< solved by iteration, which the following are of
+  std::size_t krylov_iterations = 0;          ///< over all linear systems
+  int krylov_largest = 0;                     ///< of one linear system
+  int preconditioners = 0;                    ///< made in the run
+  int safe_steps = 0;                         ///< in which a safe stage followed the fast one
+  /// of the contact's matrix A, made by one solution of the body's equations each
+  int contact_columns = 0;
   /// largest over the steps in which it was measured; NaN: in none
   double backward_error = std::numeric_limits<double>::quiet_NaN();
   double forward_error = std::numeric_limits<double>::quiet_NaN();  ///< likewise
@@ -129,6 +135,10 @@ class Route {
 
   RouteReport report() const;
 
+  /// Hears of work within a step that takes long: what it is and how much of it is done.
+  using Listener = std::function<void(const char *what, int done, int all)>;
+  void tell(Listener listener) { listener_ = std::move(listener); }
+
   /// What the route knows from the steps before: with it a new route goes on to the same bits, and
   /// counts on. Saved on the first rank alone, restored on all.
   void save(output::SavedNumbers &numbers) const;
@@ -159,6 +169,7 @@ class Route {
   /// not take part in says nothing of it.
   template <int dim>
   bool outgrew_measured(const body::NodeSharing &sharing, std::span<const double> state);
+  void say(const char *what, int done, int all) const;
   void forget_errors();
   static void add_factorisation(const condensation::FactorisationStatistics &statistics,
                                 RouteReport &report);
@@ -168,7 +179,8 @@ class Route {
 
  private:
   std::array<double, 3> measured_{};  // the largest of each field (SI) when measured
-  bool is_counted_ = false;           // what this one did is in `so_far_` of those that followed
+  Listener listener_;
+  bool is_counted_ = false;  // what this one did is in `so_far_` of those that followed
 
   /// Adds what is of this process to a report of what was so far.
   virtual void describe(RouteReport &report) const = 0;

@@ -266,8 +266,7 @@ TEST(Monolithically, WhatLetsTheBodyGoIsNamed) {
 }
 
 // With the bounds that the first step begins with, none, nothing holds it.
-TEST(EveryRoute, FindsCoulombsFrictionThatAloneHoldsABody) {
-  const Asked asked{"pressed and pulled", {}, R"toml(
+const char *const held_by_friction = R"toml(
 mesh.box = { min = [0, 0], max = [0.1, 0.09], cells = [4, 4], cell = "quadrilateral" }
 model = { thermal = false, electric = false }
 material.library = "steel"
@@ -278,10 +277,59 @@ on = "left"
 gap = 7e-7
 normal = "unilateral"
 friction = { law = "coulomb", coefficient = 0.3 }
-)toml"};
+)toml";
+
+TEST(EveryRoute, FindsCoulombsFrictionThatAloneHoldsABody) {
+  const Asked asked{"pressed and pulled", {}, held_by_friction};
   const RunCase condensed = asked.run({});
   expect_same_runs(condensed, asked.run({"solver.method=monolithic"}));
   expect_same_runs(condensed, asked.iteratively());
+}
+
+// Of the contact's five nodes each has a penetration and a slip.
+TEST(ContactIteratively, ColumnsOfTheContactsMatrixAreCountedWhereItWasMade) {
+  const auto columns = [](const RunCase &run) {
+    return run.summary()["iterations"]["contact_columns"].get<int>();
+  };
+  const Asked asked{"pressed and pulled", {}, held_by_friction};
+  EXPECT_EQ(columns(asked.iteratively()), 10);
+  // One that is made serves all steps.
+  EXPECT_EQ(columns(asked.run({"solver.body=iterative", "time.steps=2"})), 10);
+  const Asked capped{"cases/verification/contact-capped-friction.toml", {}, ""};
+  EXPECT_EQ(columns(capped.iteratively()), 0);
+  EXPECT_FALSE(capped.run({}).summary()["iterations"].contains("contact_columns"));
+}
+
+// What crosses by the contact's state takes several rounds a step.
+TEST(ContactIteratively, AStepThatNeededTheSafeStageIsCountedOnce) {
+  const Asked asked{"leaning", {"contact.heat.ramp=1e-9", "time.regime=quasistatic"}, leaning};
+  const auto summary = asked.iteratively().summary();
+  EXPECT_GT(summary["iterations"]["safe_steps"], 0);
+  EXPECT_LE(summary["iterations"]["safe_steps"], summary["sizes"]["steps"]);
+}
+
+TEST(ContactIteratively, WithoutAnyLoadItCountsTheSame) {
+  const Asked asked{
+      "unloaded",
+      {"boundary=[{on='right',displacement=[0,0],potential=0,temperature=0}]",
+       "contact.heat.foundation_temperature=0", "contact.foundation_displacement=[0,0]"},
+      leaning};
+  const auto iterations = asked.iteratively().summary()["iterations"];
+  for (const char *count : {"krylov_total", "preconditioners", "safe_steps", "contact_columns"})
+    EXPECT_TRUE(iterations.contains(count)) << count;
+}
+
+// So little of the pressure that the body's round-off may carry more, if it is moved far. Forces
+// are known to 1e-13 of those that press.
+TEST(ContactIteratively, FrictionThatIsABillionthOfThePressureHoldsTheBody) {
+  const Asked asked{"hardly rubbed", {}, R"toml(
+mesh.box = { min = [0, 0, 0], max = [0.02, 0.02, 0.01], cells = [3, 3, 2], cell = "hexahedron" }
+material.library = "BaTiO3-Liu2014"
+time = { end = 1, steps = 3 }
+boundary = [ { on = "top", traction = ["2e-4*t", "1e-4*t", -1e6], potential = 0, temperature = 0 } ]
+contact = { on = "bottom", normal = "unilateral", friction = { law = "coulomb", coefficient = 1e-9 } }
+)toml"};
+  expect_same(asked.run({}).nodes(), asked.iteratively().nodes(), 1e-4);
 }
 
 // Bilateral contact that is pulled has no friction, whatever it would have if all points stuck.

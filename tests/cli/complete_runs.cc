@@ -50,6 +50,13 @@ TEST_F(CompleteRun, AFieldFileThatHasGoneIsNamedByResume) {
   EXPECT_THAT(complained_, HasSubstr("result_0001.vtu of the complete run in results is missing"));
 }
 
+TEST_F(CompleteRun, AnotherPreconditionerThanAMultigridIsRefused) {
+  EXPECT_EQ(run("run " + paper + " --set time.steps=2 --set solver.body=iterative -q -o results",
+                "export PETSC_OPTIONS='-u_pc_type jacobi';"),
+            4);
+  EXPECT_THAT(complained_, HasSubstr("PETSC_OPTIONS give the displacements a preconditioner"));
+}
+
 TEST_F(CompleteRun, ADamagedSummaryIsNoProofThatARunIsComplete) {
   const std::string all = "run " + paper + " --set time.steps=2 -q -o results --resume";
   ASSERT_EQ(run(all), 0);

@@ -137,6 +137,27 @@ TEST(ProgressLine, ItIsClearedWhenAnErrorEndsTheRun) {
   EXPECT_TRUE(text.ends_with("...\r\033[K"));
 }
 
+TEST(ProgressLine, APartOfAStepFillsABarOfItsOwn) {
+  const std::string text = on_a_terminal(80, [] {
+    Progress progress(20, 1, false);
+    ::usleep(120000);
+    progress.part("matrix", 5, 20);
+    progress.part("matrix", 6, 20);  // at once, so not drawn
+  });
+  const std::string clear = "\r\033[K";
+  EXPECT_EQ(text, clear + progress_bar(5, 20, 24) + " matrix  5/20" + clear);
+}
+
+TEST(ProgressLine, WhenQuietNothingIsSaidOfParts) {
+  EXPECT_EQ(on_a_terminal(80,
+                          [] {
+                            Progress progress(20, 1, true, std::chrono::milliseconds(0));
+                            ::usleep(120000);
+                            progress.part("matrix", 5, 20);
+                          }),
+            "");
+}
+
 TEST(ProgressLine, FastStepsAreNotAllDrawn) {
   const std::string text = on_a_terminal(80, [] {
     Progress progress(1000, 1, false);

@@ -120,6 +120,22 @@ TEST_P(Ranks, RegionsOfAMeshFileAndElectrodesOnItsCurvesAreTheSame) {
   expect_same_device(one_, several_, "lower", "upper");
 }
 
+// Of commands but `run` one process does all.
+TEST_P(Ranks, CheckSaysWhatItSaysOnOne) {
+  const std::string file = std::string(TOURMALINE_SOURCE_DIR) + "/cases/devices/bimorph.toml";
+  const auto check = [&](const std::string &launcher) {
+    const std::filesystem::path said = folder_ / "said";
+    const std::string command =
+        launcher + TOURMALINE_BINARY + " check " + file + " > '" + said.string() + "'";
+    EXPECT_EQ(std::system(command.c_str()), 0);
+    const std::string all = output::content_of(said);
+    return std::pair(all.substr(0, all.find("# Expected")), count(all, "# Expected on"));
+  };
+  const auto one = check("");
+  EXPECT_EQ(one.second, 1);
+  EXPECT_EQ(check("mpirun --oversubscribe -np " + std::to_string(GetParam()) + " "), one);
+}
+
 // Each place belongs to the cells of one rank, those on edges between cells to one of several.
 TEST_P(Ranks, ProbesAreTheSame) {
   ASSERT_NO_FATAL_FAILURE(run_twice(file_of(slipping_block) +

@@ -1,6 +1,8 @@
 // Iterative solutions on ranks that have a part of the nodes each: whatever the program knows, with
 // the numbers of one rank.
 
+#include <nlohmann/json.hpp>
+
 #include "../cases/leaning_body.h"
 #include "../cases/slipping_block.h"
 #include "ranks.h"
@@ -133,6 +135,10 @@ TEST_P(SharedNodes, OfABodyThatOnlyItsContactHolds) {
   expect_same_solution(
       file_of(leaning_body(R"(time = { regime = "static", end = 2, steps = 4 })")) +
       " --set mesh.box.cells=[6,6] --set contact.heat.coefficient=10");
+  for (const char *run : {"one", "several"})
+    EXPECT_EQ(nlohmann::json::parse(output::content_of(
+                  folder_ / run / "summary.json"))["iterations"]["contact_columns"],
+              14);  // 7 nodes in the plane
 }
 
 // Nodes without mass have come off their foundation, and potentials go to their equilibrium.

@@ -119,6 +119,7 @@ State step(solve::Model<2> &model, ChosenRoute<2> &route, int n, const State &be
 struct WhatWasKept {
   output::SavedNumbers last;
   int factorisations = 0, factorisations_anew = 0;
+  int columns = 0, columns_anew = 0;  // of the contact's matrix
 };
 
 // A new route has made everything anew; the other one has kept what it could.
@@ -143,6 +144,8 @@ WhatWasKept expect_same_bits(const casefile::Case &asked, bool iteratively) {
   }
   of_all.factorisations = kept.report(one.steps.sizes(3)).factorisations;
   of_all.factorisations_anew = made->report(other.steps.sizes(3)).factorisations;
+  of_all.columns = kept.route().report().contact_columns;
+  of_all.columns_anew = made->route().report().contact_columns;
   return of_all;
 }
 
@@ -165,6 +168,8 @@ TEST(ContactsMatrix, OnceItWasNeededIsHandedOn) {
   const WhatWasKept of_all =
       expect_same_bits(casefile::read_text(text, "leaning.toml", {"solver.body=iterative"}), true);
   EXPECT_EQ(of_all.last.size("contact matrix"), 100U);  // 5 nodes in the plane
+  EXPECT_EQ(of_all.columns, 10);
+  EXPECT_EQ(of_all.columns_anew, of_all.columns);
 }
 
 TEST_P(SeveralSizes, AreReportedTogether) {
@@ -173,20 +178,27 @@ TEST_P(SeveralSizes, AreReportedTogether) {
   ChosenRoute<2> route(model, iteratively, progress_);
   State state(model.n_unknowns(), 0.);
   std::size_t krylov = 0;
-  int factorisations = 0;
-  double seconds = 0;
+  int factorisations = 0, preconditioners = 0;
+  double seconds = 0, condense_seconds = 0;
   for (int n = 1; n <= model.steps.count(); ++n) {
     state = step(model, route, n, state);
     const solve::RouteReport now = route.report(model.steps.sizes(n));
     EXPECT_GE(now.krylov_iterations, krylov);
     EXPECT_GE(now.factorisations, factorisations);
     EXPECT_GE(now.substitution_seconds, seconds);
+    EXPECT_GE(now.condense_seconds, condense_seconds);
+    EXPECT_GE(now.preconditioners, preconditioners);
     krylov = now.krylov_iterations;
     factorisations = now.factorisations;
     seconds = now.substitution_seconds;
+    condense_seconds = now.condense_seconds;
+    preconditioners = now.preconditioners;
   }
   if (GetParam() == std::string("solver.body=direct")) {
     EXPECT_EQ(factorisations, 2);
+  }
+  if (iteratively) {
+    EXPECT_GE(preconditioners, model.steps.sizes(model.steps.count()));
   }
 }
 
