@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <optional>
 
+#include "body/prescribed.h"
 #include "larger.h"
 #include "parallel/ranks.h"
 #include "solve/condensed_contact.h"
@@ -18,6 +19,17 @@ using Eigen::VectorXd;
 
 // Forward errors above it are worth refinement, which costs some twenty substitutions a step.
 constexpr double worth_refining = 1e-8;
+
+// The contact's forces there are wanted, so the matrix has rows of them.
+template <int dim>
+std::size_t prescribed_at_contact(const Model<dim> &model) {
+  const std::vector<bool> is_prescribed = body::mask_of(model.prescribed, model.n_unknowns());
+  std::size_t n = 0;
+  for (const contact::InterfaceNode<dim> &at : model.interface)
+    for (int c = 0; c < dim; ++c)
+      n += is_prescribed[body::unknown<dim>(at.node, c)];
+  return n;
+}
 
 template <int dim>
 class CondensedRoute : public Route {
@@ -151,7 +163,7 @@ void CondensedRoute<dim>::describe(RouteReport &report) const {
   add_factorisation(condensed_.body().statistics(), report);
   report.factorisations = 1;
   report.condense_seconds += condense_seconds_;
-  report.unknowns = condensed_.body().n_unknowns();
+  report.unknowns = condensed_.body().n_unknowns() - prescribed_at_contact(model_);
   report.electric_and_thermal_unknowns = condensed_.body().n_electric_and_thermal();
   report.negative_pivots = condensed_.body().statistics().negative_pivots;
   if (contact_)

@@ -132,7 +132,10 @@ void Route::restore(const output::SavedNumbers &numbers, bool of_other_step) {
   set_counts(so_far_, numbers.get("route's counts", counts_of(so_far_).size()));
   restore_memory(numbers);
   if (of_other_step)
-    forget_matrices();
+    return forget_matrices();
+  RouteReport own;
+  describe(own);
+  so_far_.preconditioners -= own.preconditioners;  // which are those that it had
 }
 
 Route::Memory Route::memory() const {

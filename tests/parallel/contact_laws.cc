@@ -172,6 +172,8 @@ contact = { on = "bottom", normal = "unilateral", friction = { law = "coulomb", 
 )toml";
   for (const std::string route : {"method=monolithic --set solver.max_iterations=3",
                                   "body=iterative --set solver.max_iterations=1"}) {
+    if (GetParam() > 2 && route.starts_with("body"))
+      continue;  // of minutes where ranks share a core
     SCOPED_TRACE(route);
     ASSERT_NO_FATAL_FAILURE(run_twice(file_of(hurried) + " --set solver." + route));
     EXPECT_GT(one_.history.n_rows(), 6);
