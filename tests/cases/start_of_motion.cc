@@ -6,6 +6,7 @@
 
 #include "closed_balances.h"
 #include "elastic_body.h"
+#include "equal_quantities.h"
 #include "run_case.h"
 
 namespace tourmaline::verified {
@@ -190,6 +191,32 @@ electrode = [ { name = "ground", on = "bottom", voltage = 0 }, { name = "plate",
     EXPECT_LT(current, 0);
     EXPECT_NEAR(charge, current * 2.5e-7, 1e-9 * std::abs(charge));
   }
+}
+
+// Round-off of the conductor's rows is more than what an iteration leaves elsewhere.
+TEST(StartOfMotion, OfABodyWithAConductorIsFoundByIterationToo) {
+  const auto run = [](const std::string &body) {
+    return run_text(R"toml(
+mesh.box = { min = [0, 0, 0], max = [0.1, 0.1, 0.05], cells = [2, 4, 3], cell = "hexahedron" }
+mesh.degree = 2
+model.thermal = false
+region = [
+  { where = "z <= 0.025", material = { library = "BaTiO3-Liu2014", mass_damping = 3e4 } },
+  { where = "z > 0.025", material = { library = "aluminium" } } ]
+time = { regime = "dynamic", end = 7.5e-5, steps = 4 }
+boundary = [ { on = "top", potential = "100.0*sin(40000.0*t)" } ]
+electrode = [ { name = "back", on = "back", voltage = "100.0*sin(40000.0*t)" } ]
+[contact]
+on = "bottom"
+gap = "1e-6*x"
+normal = { law = "compliance", coefficient = 1e12 }
+friction = { law = "coulomb", coefficient = 0.3 }
+electric = { law = "exchange", coefficient = 1e-7, circuit = { charge = 1e-8 } }
+)toml",
+                    {"solver.body=" + body});
+  };
+  expect_equal_quantities(run("iterative").nodes(), run("direct").nodes(),
+                          {{"u_x", "u_y", "u_z"}, {"potential"}}, 1e-7);
 }
 
 }  // namespace
