@@ -4,10 +4,24 @@
 #include <sys/mman.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include "tourmaline/error.h"
 
 namespace tourmaline::condensation {
+
+namespace {
+
+// A virtual machine may give free blocks of 2^order pages and larger ones back to its host, which
+// has to find them anew when they are used. Smaller pieces it has kept (docs/factorisation.md).
+bool gives_huge_pages_back() {
+  constexpr unsigned of_huge_pages = 9;
+  std::ifstream file("/sys/module/page_reporting/parameters/page_reporting_order");
+  unsigned order = 0;
+  return file >> order && order <= of_huge_pages;
+}
+
+}  // namespace
 
 Pages::Pages(std::size_t doubles) : size_(doubles) {
   if (size_ == 0)
@@ -19,7 +33,9 @@ Pages::Pages(std::size_t doubles) : size_(doubles) {
         "not enough memory for a factorisation: {:.3g} GiB in one piece are not to be had; use a "
         "coarser mesh",
         static_cast<double>(size_) * sizeof(double) / (1 << 30)));
-  madvise(pages, size_ * sizeof(double), MADV_HUGEPAGE);
+  static const bool takes_small_ones = gives_huge_pages_back();
+  if (!takes_small_ones)
+    madvise(pages, size_ * sizeof(double), MADV_HUGEPAGE);
   data_ = static_cast<double *>(pages);
 }
 

@@ -5,8 +5,8 @@
 
 namespace tourmaline::condensation {
 
-/// Doubles, zero at first, in memory of their own, in huge pages where the system has them. The
-/// thread that uses a page first gets it near. Throws MachineError where there is not enough.
+/// Doubles, zero at first, in memory of their own, in huge pages where the system has them at hand.
+/// The thread that uses a page first gets it near. Throws MachineError where there is not enough.
 class Pages {
  public:
   Pages() = default;
