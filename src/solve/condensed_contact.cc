@@ -178,7 +178,7 @@ CoupledSolution CondensedContact<dim>::solve_with_exchange(double time, const Ve
 template <int dim>
 void CondensedContact<dim>::require_solved(double time, const InterfaceProgramme &programme,
                                            const InterfaceSolution &solution) const {
-  if (is_lost(programme, solution)) {
+  if (is_conclusive(model_, solution) && is_lost(programme, solution)) {
     const std::string unheld = unheld_motions(model_, nodes_, solution.status);
     let_go(time, unheld.empty() ? left_to_contact_ : unheld);
   }

@@ -204,7 +204,8 @@ template <int dim>
 void IterativeRoute<dim>::give_up_contact() const {
   const InterfaceSolution &solution = contact_.solution();
   if (!left_to_contact_.empty()) {
-    if (const std::string motions = contact_.carried_off(); !motions.empty())
+    const std::string motions = contact_.carried_off();
+    if (!motions.empty() && is_conclusive(model_, solution))
       let_go(time_, motions);
     give_up_leaning(time_, solution, left_to_contact_);
   }

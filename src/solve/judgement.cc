@@ -38,10 +38,11 @@ const char *const ill_conditioned_advice =
 void Judgement::step(int n, double time,
                      const std::vector<std::pair<std::string, double>> &imbalances,
                      const std::function<Accuracy()> &measure) {
+  for (const auto &[name, value] : imbalances)
+    require_held(n, time, name, std::abs(value));
   for (const auto &[name, value] : imbalances) {
     const auto i = std::find(names.begin(), names.end(), name) - names.begin();
     const double size = std::abs(value);
-    require_held(n, time, name, size);
     if (!(size <= wrong)) {
       const Accuracy accuracy = measure();
       throw SolveError(fmt::format(

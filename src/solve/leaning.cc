@@ -60,6 +60,12 @@ std::string unheld_motions(const Model<dim> &model, const ContactNodes<dim> &con
   return unheld_motions(model, by_node);
 }
 
+template <int dim>
+bool is_conclusive(const Model<dim> &model, const InterfaceSolution &solution) {
+  return solution.converged ||
+         model.asked.solver.max_iterations >= InterfaceSettings{}.max_iterations;
+}
+
 void let_go(double time, const std::string &motions) {
   throw SolveError(
       fmt::format("no solution of the contact problem at t = {:g} s was found: nothing keeps the "
@@ -76,7 +82,8 @@ void give_up_leaning(double time, const InterfaceSolution &solution,
       "the contact problem at t = {:g} s has no solution that was found: residual {:.3g} of the "
       "largest force after {} iterations. Nothing but the contact keeps the body from {}: where "
       "these loads do not press it to the foundation it moves rigidly, and needs further "
-      "components of `displacement`; where they do, take smaller time steps",
+      "components of `displacement`; where they do, raise solver.max_iterations or take smaller "
+      "time steps",
       time, solution.residual, solution.iterations, left_to_contact));
 }
 
@@ -94,5 +101,7 @@ template std::string unheld_motions(const Model<2> &, const ContactNodes<2> &,
                                     const std::vector<ContactStatus> &);
 template std::string unheld_motions(const Model<3> &, const ContactNodes<3> &,
                                     const std::vector<ContactStatus> &);
+template bool is_conclusive(const Model<2> &, const InterfaceSolution &);
+template bool is_conclusive(const Model<3> &, const InterfaceSolution &);
 
 }  // namespace tourmaline::solve

@@ -33,6 +33,11 @@ template <int dim>
 std::string unheld_motions(const Model<dim> &model, const ContactNodes<dim> &contact,
                            const std::vector<ContactStatus> &status);
 
+/// Whether it follows from a solution that does not hold that there is none: not where it ended
+/// before Newton's method had the iterations that it is allowed by default.
+template <int dim>
+bool is_conclusive(const Model<dim> &model, const InterfaceSolution &solution);
+
 /// Throws SolveError: the loads carry the body off by these motions.
 [[noreturn]] void let_go(double time, const std::string &motions);
 

@@ -117,6 +117,31 @@ TEST_F(ContactLaws, LetABodyGoThatIsPushedHarderThanItRubs) {
                 {"from a rotation in the plane,"});
 }
 
+// One iteration does not find what holds a block that heat bends, which does not prove that nothing
+// does.
+TEST_F(ContactLaws, SayThatABodyIsLetGoOnlyWhereIterationsSufficed) {
+  std::ofstream(here() / "leaning.toml") << R"toml(
+mesh.box = { min = [0, 0, 0], max = [1, 1, 0.5], cells = [3, 3, 2], cell = "hexahedron" }
+material.library = "BaTiO3-Liu2014"
+time = { end = 1, steps = 3 }
+boundary = [
+  { on = "top", traction = ["1e6*t", 0, "-3e6*t"], potential = "100*t", temperature = "10*t" },
+  { on = "bottom", potential = 0 } ]
+output = { fields = false, report = false }
+[contact]
+on = "bottom"
+normal = "unilateral"
+friction = { law = "coulomb", coefficient = 0.5 }
+heat = { law = "exchange", coefficient = 100, foundation_temperature = 0 }
+)toml";
+  for (const std::string body : {"direct", "iterative"}) {
+    const std::string by = "--set solver.body=" + body;
+    expect_answer(0, by, {});
+    expect_answer(3, by + " --set solver.max_iterations=1",
+                  {"has no solution that was found", "raise solver.max_iterations"});
+  }
+}
+
 TEST_F(ContactLaws, LetABodyGoInTheStepInWhichItIsPressedNoMore) {
   expect_answer(3, "--set 'boundary[0].traction=[0,\"-1e6*(0.6-t)\"]'",
                 {"t = 0.75 s", "the results of steps 1 to 2 of 4 are in results"});

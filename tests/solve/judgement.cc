@@ -42,6 +42,16 @@ TEST(Judgement, ABodyThatOnlyContactHoldsHasForcesThatBalance) {
   see(of_supports, 1, 1.1e-5);
 }
 
+TEST(Judgement, OfABodyThatSlidesTheForcesSaySoWhateverElseLacks) {
+  Judgement judgement("a translation along x");
+  EXPECT_THAT(
+      [&] {
+        judgement.step(1, 0.5, {{"energy_imbalance", 0.2}, {"force_imbalance", 1e-3}},
+                       [] { return Accuracy{}; });
+      },
+      ThrowsMessage<SolveError>(HasSubstr("keeps the body from a translation along x")));
+}
+
 TEST(Judgement, AStepWhoseErrorIsATenthFailsAndAnUnknownErrorDoesNot) {
   Judgement judgement;
   judgement.forward_error(1, 0.5, {nan, 0.09});
