@@ -77,32 +77,36 @@ void add_fields(const Gradients &m, const material::Constants &c, output::CellFi
   fields.heat_flux.push_back(plain(-c.conductivity * m.temperature));
 }
 
-// Of the displacement gradient's symmetric part.
-double largest_principal(const Eigen::Matrix3d &gradient) {
-  const Eigen::Matrix3d strain = (gradient + gradient.transpose()) / 2;
-  return dense::eigenvalues(strain).cwiseAbs().maxCoeff();
-}
+struct StrainedCell {
+  double strain;  // the largest principal one
+  Vector3 centre;
+};
+
+constexpr double nearly = 1 - 1e-6;
 
 }  // namespace
 
 // Of cells that have it but for round-off, the first by place: so it does not depend on the ranks.
 template <int dim>
 LargestStrain largest_strain(const Discretisation<dim> &body, std::span<const double> state) {
-  std::vector<double> sizes;
+  std::vector<StrainedCell> cells;  // those that may have it
   LargestStrain found;
   body.for_each_cell([&](const Quadrature<dim> &cell) {
-    sizes.push_back(largest_principal(means(cell, state).displacement));
-    found.size = std::max(found.size, sizes.back());
+    const Eigen::Matrix3d gradient = means(cell, state).displacement;
+    const Eigen::Matrix3d strain = (gradient + gradient.transpose()) / 2;
+    if (strain.norm() < nearly * found.size)  // no eigenvalue is larger than that
+      return;
+    const double largest = dense::eigenvalues(strain).cwiseAbs().maxCoeff();
+    if (largest < nearly * found.size)
+      return;
+    found.size = std::max(found.size, largest);
+    cells.push_back({largest, cell.centre()});
   });
   parallel::largest({&found.size, 1});
   std::vector<double> places;
-  std::size_t i = 0;
-  body.for_each_cell([&](const Quadrature<dim> &cell) {
-    if (sizes[i++] < (1 - 1e-6) * found.size)
-      return;
-    const std::array<double, 3> centre = cell.centre();
-    places.insert(places.end(), centre.begin(), centre.end());
-  });
+  for (const StrainedCell &cell : cells)
+    if (!(cell.strain < nearly * found.size))
+      places.insert(places.end(), cell.centre.begin(), cell.centre.end());
   places = parallel::joined(places);
   for (std::size_t at = 0; at < places.size(); at += 3)
     if (const Vector3 place{places[at], places[at + 1], places[at + 2]};

@@ -63,8 +63,10 @@ std::vector<output::NamedBoundary> Discretisation<dim>::boundaries() const {
     std::vector<Node> facets;
     for (const auto &cell : parts_->cells)
       for (const unsigned int f : cell->face_indices()) {
-        const bool is_neighbours = !cell->at_boundary(f) && cell->neighbor(f)->id() < cell->id();
-        if (is_neighbours || !is_asked(*cell->face(f)))
+        const auto is_neighbours = [&] {
+          return !cell->at_boundary(f) && cell->neighbor(f)->id() < cell->id();
+        };
+        if (!is_asked(*cell->face(f)) || is_neighbours())
           continue;
         const auto dofs = facet_dofs<dim>(*cell->face(f), parts_->element->degree);
         facets.push_back(static_cast<Node>(dofs.size()));

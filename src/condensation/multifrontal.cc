@@ -181,15 +181,14 @@ Multifrontal::Multifrontal(const GroupedMatrix &matrix, const std::vector<int> &
 void Multifrontal::plan() {
   const auto &fronts = elimination_.fronts;
   const int n = static_cast<int>(fronts.size());
-  std::size_t entries = 0;
   stack_.assign(n, 0);
   for (int f = n - 1; f >= 0; --f)
     if (fronts[f].parent >= 0)
       stack_[f] = 1 - stack_[fronts[f].parent];
   for (int f = 0; f < n; ++f) {
     const Front &front = fronts[f];
-    panels_.push_back(entries);
-    entries += Trapezoid::at(nullptr, front.height(), front.pivots).size();
+    panels_.push_back(factor_size_);
+    factor_size_ += Trapezoid::at(nullptr, front.height(), front.pivots).size();
     statistics_.factor_entries += front.entries();
     statistics_.flops += front.operations();
     statistics_.negative_pivots += front.pivots - front.positive;
@@ -198,7 +197,6 @@ void Multifrontal::plan() {
       front_of_[elimination_.groups[k]] = f;
     }
   }
-  factor_ = Pages(entries);
   int height = 0;
   for (const Front &front : fronts)
     height = std::max(height, front.height());
@@ -274,7 +272,8 @@ void Multifrontal::factorise(const GroupedMatrix &matrix) {
   }
   const auto of_top = stacks(top_);
   const std::size_t of_members = subtrees_.empty() ? 0 : team_.members() * (most[0] + most[1]);
-  require_memory(entries + of_members + of_top[0] + of_top[1]);
+  require_memory(factor_size_ + entries + of_members + of_top[0] + of_top[1]);
+  factor_ = Pages(factor_size_);
   const Pages roots(entries);
   double *next = roots.data();
   for (const Subtree &s : subtrees_) {
@@ -305,10 +304,9 @@ void Multifrontal::factorise(const GroupedMatrix &matrix) {
     take_schur_complement(handed.back());
 }
 
-// Before anything of it is touched: of the memory it is known what it will be.
-void Multifrontal::require_memory(std::size_t on_stacks) const {
-  const double bytes =
-      8. * static_cast<double>(factor_.size() + on_stacks + schur_.size() * schur_.size());
+// Before any of it is taken: of the memory it is known what it will be.
+void Multifrontal::require_memory(std::size_t doubles) const {
+  const double bytes = 8. * static_cast<double>(doubles + schur_.size() * schur_.size());
   const parallel::AvailableMemory available = parallel::available_memory();
   if (bytes > available.bytes)
     throw MachineError(fmt::format(

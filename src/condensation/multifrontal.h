@@ -45,7 +45,7 @@ class Multifrontal : public Factorisation {
   std::array<std::size_t, 2> stacks(std::span<const int> fronts) const;
   Trapezoid panels(int front) const;
   void factorise(const GroupedMatrix &matrix);
-  void require_memory(std::size_t on_stacks) const;
+  void require_memory(std::size_t doubles) const;
   void take_schur_complement(const Trapezoid &rest);
   template <typename Task>
   void for_each_subtree(const Task &task);
@@ -60,6 +60,7 @@ class Multifrontal : public Factorisation {
   std::vector<std::size_t> panels_;       // by front, where they begin in the factor
   std::vector<char> stack_, is_subtree_;  // by front
   std::vector<int> front_of_;             // by group
+  std::size_t factor_size_ = 0;
   Pages factor_;
   std::vector<double> schur_complement_;
   FactorisationStatistics statistics_;

@@ -34,8 +34,7 @@ Pages::Pages(std::size_t doubles) : size_(doubles) {
         "coarser mesh",
         static_cast<double>(size_) * sizeof(double) / (1 << 30)));
   static const bool takes_small_ones = gives_huge_pages_back();
-  if (!takes_small_ones)
-    madvise(pages, size_ * sizeof(double), MADV_HUGEPAGE);
+  madvise(pages, size_ * sizeof(double), takes_small_ones ? MADV_POPULATE_WRITE : MADV_HUGEPAGE);
   data_ = static_cast<double *>(pages);
 }
 

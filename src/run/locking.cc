@@ -56,8 +56,10 @@ bool tells_nothing(const body::Slenderness &found, const body::LockedShare &shar
 
 template <int dim>
 std::string locking_warning(const solve::Model<dim> &model, const std::vector<double> &state) {
+  if (!may_lock(model.asked.mesh))
+    return "";
   const body::Slenderness found = body::slenderness(model.body);
-  if (!may_lock(model.asked.mesh) || found.ratio < least_slender)
+  if (found.ratio < least_slender)
     return "";
   const body::LockedShare share = body::locked_share(model.body, model.composition, state);
   const bool bends = share.of_stress >= largest_share && share.of_strain >= least_of_strain,

@@ -357,6 +357,7 @@ output::Summary TimeLoop<dim>::summary() const {
   const int sizes = chosen_ ? chosen_->sizes() : model_.steps.sizes(done_);
   const solve::RouteReport report = evolution_.route().report(sizes);
   output::Summary summary;
+  summary.warnings = warnings();  // which take their time
   summary.title = model_.asked.title;
   summary.friction_name = friction_name_;
   summary.version = program_version();
@@ -384,7 +385,6 @@ output::Summary TimeLoop<dim>::summary() const {
   summary.seconds.mesh = model_.mesh_seconds;
   summary.seconds.assemble = model_.assemble_seconds;
   summary.seconds.output = recorder_->seconds();
-  summary.warnings = warnings();
   summary.extremes = recorder_->extremes(state_);
   summary.materials = materials_of(model_.asked);
   summary.contacts = contact_records(model_);
@@ -416,9 +416,11 @@ std::vector<std::string> TimeLoop<dim>::warnings() const {
   all.insert(all.end(), given.begin(), given.end());
   if (given.empty())
     add(temperature_.warning(model_.composition.reference_temperature()));
-  add(strain_warning(model_,
-                     {{most_strained_.state(), most_strained_.step(), most_strained_.time()},
-                      {state_, done_, model_.time(done_)}}));
+  std::vector<Moment> moments{{state_, done_, model_.time(done_)}};
+  if (most_strained_.step() != done_)
+    moments.insert(moments.begin(),
+                   {most_strained_.state(), most_strained_.step(), most_strained_.time()});
+  add(strain_warning(model_, moments));
   return all;
 }
 
