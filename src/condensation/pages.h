@@ -5,8 +5,9 @@
 
 namespace tourmaline::condensation {
 
-/// Doubles, zero at first, in memory of their own, in huge pages where the system has them at hand.
-/// The thread that uses a page first gets it near. Throws MachineError where there is not enough.
+/// Doubles, zero at first, in memory of their own: in huge pages, each near the thread that uses it
+/// first; in small ones, all taken here, where a virtual machine has given huge ones back to its
+/// host. Throws MachineError where there is not enough.
 class Pages {
  public:
   Pages() = default;
