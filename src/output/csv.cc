@@ -73,15 +73,20 @@ void check_sizes(const std::vector<Vector3> &points, const PointFields &fields) 
 
 }  // namespace
 
-std::string nodes_table(int dimension, const std::vector<Vector3> &points,
-                        const PointFields &fields) {
+std::string nodes_header(int dimension) {
+  std::string text;
+  Line line(text);
+  line.put_names(dimension, "").put_names(dimension, "u_") << "potential"
+                                                           << "temperature";
+  line.end();
+  return text;
+}
+
+std::string nodes_lines(int dimension, const std::vector<Vector3> &points,
+                        const PointFields &fields, std::size_t first, std::size_t end) {
   check_sizes(points, fields);
   std::string text;
-  Line header(text);
-  header.put_names(dimension, "").put_names(dimension, "u_") << "potential"
-                                                             << "temperature";
-  header.end();
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (std::size_t i = first; i < end; ++i) {
     Line line(text);
     line.put(dimension, points[i]).put(dimension, fields.displacement[i])
         << fields.potential[i] << fields.temperature[i];

@@ -11,10 +11,12 @@
 /// whatever is not a number nan. The z columns are there only when `dimension` is 3.
 namespace tourmaline::output {
 
-/// x,y[,z],u_x,u_y[,u_z],potential,temperature: one row for each point, in the order of the grid.
-/// Throws std::invalid_argument when a field does not have one value for each point.
-std::string nodes_table(int dimension, const std::vector<Vector3> &points,
-                        const PointFields &fields);
+/// x,y[,z],u_x,u_y[,u_z],potential,temperature
+std::string nodes_header(int dimension);
+/// Rows of the points from `first` to before `end`, in the order of the grid. Throws
+/// std::invalid_argument when a field does not have one value for each of all points.
+std::string nodes_lines(int dimension, const std::vector<Vector3> &points,
+                        const PointFields &fields, std::size_t first, std::size_t end);
 
 /// step,time,x,y[,z],normal_traction,tangential_traction_x,tangential_traction_y[,..._z],
 /// normal_displacement,slip_x,slip_y[,slip_z],slip_rate,status,temperature,potential,heat_flux,gap,

@@ -12,6 +12,7 @@
 #include <system_error>
 #include <utility>
 
+#include "output/atomic_file.h"
 #include "output/boundaries.h"
 #include "output/csv.h"
 #include "tourmaline/error.h"
@@ -279,7 +280,13 @@ void ResultFolder::put_probe(int step, double time, const ProbeRows &probe) {
 }
 
 void ResultFolder::put_nodes(const std::vector<Vector3> &points, const PointFields &fields) {
-  write_file(directory_ / "nodes.csv", nodes_table(dimension_, points, fields));
+  constexpr std::size_t lines_at_once = 10000;  // some megabytes of text
+  AtomicFile file(directory_ / "nodes.csv");
+  file.append(nodes_header(dimension_));
+  for (std::size_t first = 0; first < points.size(); first += lines_at_once)
+    file.append(nodes_lines(dimension_, points, fields, first,
+                            std::min(first + lines_at_once, points.size())));
+  file.finish();
 }
 
 void ResultFolder::put_summary(const Summary &summary) {

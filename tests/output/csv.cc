@@ -60,6 +60,11 @@ TEST(HistoryTable, TheRowsOwnQuantitiesFollowTheFixedColumns) {
   EXPECT_EQ(history_line(row), "4,0.25,3,0.5,30,2,1,1.5,0\n");
 }
 
+std::string nodes_table(int dimension, const std::vector<Vector3> &points,
+                        const PointFields &fields) {
+  return nodes_header(dimension) + nodes_lines(dimension, points, fields, 0, points.size());
+}
+
 TEST(NodesTable, TheThirdDirectionAppearsInThreeDimensionsOnly) {
   Grid grid;
   grid.points = {{0.5, 1, 2}};
@@ -86,6 +91,22 @@ TEST(NodesTable, EveryNumberReadsBackAsItWas) {
               expected);
     line = table.find('\n', line) + 1;
   }
+}
+
+TEST(NodesTable, PiecesAreThoseOfTheWhole) {
+  Grid grid;
+  PointFields fields;
+  for (std::size_t i = 0; i < 10; ++i) {
+    grid.points.push_back({value(i, 0), 0, 0});
+    fields.displacement.push_back({});
+    fields.potential.push_back(value(i, 1));
+    fields.temperature.push_back(value(i, 2));
+  }
+  const auto lines = [&](std::size_t first, std::size_t end) {
+    return nodes_lines(2, grid.points, fields, first, end);
+  };
+  EXPECT_EQ(lines(0, 3) + lines(3, 9) + lines(9, 10), lines(0, 10));
+  EXPECT_EQ(lines(4, 4), "");
 }
 
 TEST(NodesTable, WhatIsNotANumberIsWrittenWithoutSign) {
