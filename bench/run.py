@@ -243,9 +243,8 @@ def growth(folder, machine, quick):
 
 
 def factorised(folder, case, count, *overrides):
-    """The same run by the program's own factorisation, by it with two threads, and by MUMPS. Each finds memory at hand."""
+    """The same run by the program's own factorisation, by it with two threads, and by MUMPS."""
     def measured(into, kind, threads):
-        on_one_core([BUILD / "bench" / "machine", "--take", 3 << 30])  # more than each of these runs
         run = run_case(case, into, *overrides, f'solver.factorisation="{kind}"', f"solver.threads={threads}", core=f"0-{threads - 1}")
         seconds = run["summary"]["seconds"]
         return {**run, "factorise": seconds["factorise"], "step": a_step(run["summary"]), "nodes": pathlib.Path(into) / "nodes.csv"}
@@ -375,8 +374,7 @@ def main():
         text += ["", "## Own factorisation and MUMPS", "",
                  "The same runs with `solver.factorisation` \"own\" and \"mumps\", the first also with `solver.threads = 2` on two",
                  "cores; factorisations are a run's first and only one. A virtual machine that has given memory back must be given it",
-                 "anew, at the rate above; so that all find the same, 3 GiB are taken and given back before each of these runs. 3D: the",
-                 "block below, 20 steps.", ""]
+                 "anew, at the rate above. 3D: the block below, 20 steps.", ""]
         text += factorisations(folder, machine, quick)
         text += ["", "## Three dimensions", "",
                  "`cases/block-3d/twisted.toml` on n x n x n cubes of tetrahedra, two steps of 0.01 s.", ""] + solids(folder, quick)
