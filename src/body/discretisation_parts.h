@@ -18,7 +18,7 @@
 namespace tourmaline::body {
 
 /// What a discretisation keeps of a mesh: plain lists of this rank's cells and of the facets that
-/// may be asked for. The mesh itself, which takes some three times their memory, is let go.
+/// may be asked for. The mesh itself, which takes several times their memory, is let go.
 template <int dim>
 struct Discretisation<dim>::Parts {
   Parts(const mesh::Mesh<dim> &mesh, int degree, Geometry geometry);
