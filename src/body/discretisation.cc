@@ -3,19 +3,13 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_simplex_p.h>
-#include <deal.II/grid/grid_generator.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <numeric>
-#include <optional>
-#include <set>
 
 #include "discretisation_parts.h"
-#include "parallel/ranks.h"
 #include "tourmaline/case/case.h"
-#include "tourmaline/error.h"
 
 namespace tourmaline::body {
 
@@ -80,6 +74,8 @@ Discretisation<dim>::Parts::Parts(const mesh::Mesh<dim> &mesh, int degree, Geome
   dofs.distribute_dofs(*element);
   list_cells(dofs, number_nodes(dofs));
   list_facets(mesh);
+  connectivity.shrink_to_fit();
+  regions.shrink_to_fit();
   sharing = NodeSharing(touched());
   if (geometry == Geometry::revolved)
     find_axis();

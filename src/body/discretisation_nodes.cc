@@ -18,7 +18,8 @@ template <int dim>
 std::vector<double> Discretisation<dim>::Parts::own_places(const Dofs &dofs) const {
   const dealii::IndexSet &own = dofs.locally_owned_dofs();
   std::vector<double> places(dim * own.n_elements());
-  const ShapeTable<dim> at_nodes(*element, *linear, element->get_unit_support_points());
+  const ShapeTable<dim> at_nodes(*element, *linear,
+                                 dealii::Quadrature<dim>(element->get_unit_support_points()));
   std::vector<dealii::types::global_dof_index> of_cell(element->n_dofs_per_cell());
   std::vector<Vector3> corners(linear->n_dofs_per_cell());
   for (const auto &cell : dofs.active_cell_iterators()) {

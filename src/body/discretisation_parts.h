@@ -23,11 +23,11 @@ template <int dim>
 struct Discretisation<dim>::Parts {
   Parts(const mesh::Mesh<dim> &mesh, int degree, Geometry geometry);
 
-  /// A facet on the boundary or one inside that has a name.
+  /// A facet of one of this rank's cells.
   struct Facet {
     std::size_t cell;
     unsigned int number;  ///< in the cell
-    unsigned int id;      ///< of the part of the boundary
+    unsigned int id;      ///< of the part of the boundary; inside 0
     bool is_listed;       ///< inside, by one of its two cells
   };
   using Dofs = dealii::DoFHandler<dim>;

@@ -1,7 +1,5 @@
 // How cells and named boundaries are handed to files of fields.
 
-#include <algorithm>
-
 #include "discretisation_parts.h"
 #include "output/records.h"
 #include "parallel/ranks.h"

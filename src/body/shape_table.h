@@ -4,7 +4,6 @@
 #include <deal.II/fe/fe.h>
 
 #include <Eigen/Dense>
-#include <array>
 #include <span>
 #include <vector>
 

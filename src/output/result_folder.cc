@@ -280,7 +280,7 @@ void ResultFolder::put_probe(int step, double time, const ProbeRows &probe) {
 }
 
 void ResultFolder::put_nodes(const std::vector<Vector3> &points, const PointFields &fields) {
-  constexpr std::size_t lines_at_once = 10000;  // some megabytes of text
+  constexpr std::size_t lines_at_once = 10000;  // a megabyte or two of text
   AtomicFile file(directory_ / "nodes.csv");
   file.append(nodes_header(dimension_));
   for (std::size_t first = 0; first < points.size(); first += lines_at_once)

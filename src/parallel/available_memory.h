@@ -14,8 +14,9 @@ struct AvailableMemory {
 
 AvailableMemory available_memory();
 
-/// The allocator keeps what was freed in small pieces for the next ones; large arrays never come
-/// from there, and would stand beside it.
+/// Hands freed memory back to the system (glibc; elsewhere nothing): the allocator keeps what was
+/// freed in small pieces for the next ones, and the largest arrays, which never come from there,
+/// would stand beside it.
 void give_back_freed_memory();
 
 /// Throws MachineError where the limit of address space does not let Open MPI load its parts and
