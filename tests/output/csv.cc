@@ -93,22 +93,6 @@ TEST(NodesTable, EveryNumberReadsBackAsItWas) {
   }
 }
 
-TEST(NodesTable, PiecesAreThoseOfTheWhole) {
-  Grid grid;
-  PointFields fields;
-  for (std::size_t i = 0; i < 10; ++i) {
-    grid.points.push_back({value(i, 0), 0, 0});
-    fields.displacement.push_back({});
-    fields.potential.push_back(value(i, 1));
-    fields.temperature.push_back(value(i, 2));
-  }
-  const auto lines = [&](std::size_t first, std::size_t end) {
-    return nodes_lines(2, grid.points, fields, first, end);
-  };
-  EXPECT_EQ(lines(0, 3) + lines(3, 9) + lines(9, 10), lines(0, 10));
-  EXPECT_EQ(lines(4, 4), "");
-}
-
 TEST(NodesTable, WhatIsNotANumberIsWrittenWithoutSign) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();

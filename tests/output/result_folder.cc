@@ -7,6 +7,7 @@
 
 #include <stdexcept>
 
+#include "output/csv.h"
 #include "small_body.h"
 #include "temporary_folder.h"
 #include "tourmaline/error.h"
@@ -66,6 +67,19 @@ TEST_F(Results, ARunLeavesTheFilesOfTheContract) {
                    "contact_0001.vtu", "contact_0002.vtu", "contact.pvd", "nodes.csv",
                    "contact.csv", "history.csv", "summary.json"}));
   EXPECT_EQ(content_of(directory / "resolved.toml"), "title = \"a\"\n");
+}
+
+// Lines are written some ten thousand at a time.
+TEST_F(Results, TheTableOfManyNodesHasEachOnce) {
+  for (const std::size_t n : {9999, 10000, 10001, 20001}) {
+    const std::vector<Vector3> places(n, Vector3{0.5, 0.25, 0});
+    const PointFields fields = point_fields(n);
+    ResultFolder results(directory, 2);
+    results.put_nodes(places, fields);
+    EXPECT_EQ(content_of(directory / "nodes.csv"),
+              nodes_header(2) + nodes_lines(2, places, fields, 0, n))
+        << n;
+  }
 }
 
 TEST_F(Results, WithoutAContactBoundaryThereIsNoContactTable) {
