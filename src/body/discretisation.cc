@@ -3,20 +3,13 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_simplex_p.h>
-#include <deal.II/fe/fe_values.h>
-#include <deal.II/fe/mapping_fe.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <numeric>
-#include <optional>
-#include <set>
 
 #include "discretisation_parts.h"
-#include "parallel/ranks.h"
 #include "tourmaline/case/case.h"
-#include "tourmaline/error.h"
 
 namespace tourmaline::body {
 
@@ -58,14 +51,6 @@ dealii::Quadrature<dim> gauss(bool simplices, int n) {
 }
 
 template <int dim>
-Vector3 in_space(const dealii::Point<dim> &p) {
-  Vector3 v{};
-  for (int i = 0; i < dim; ++i)
-    v[i] = p[i];
-  return v;
-}
-
-template <int dim>
 std::array<double, dim> plain(const dealii::Tensor<1, dim> &t) {
   std::array<double, dim> v;
   for (int i = 0; i < dim; ++i)
@@ -76,34 +61,33 @@ std::array<double, dim> plain(const dealii::Tensor<1, dim> &t) {
 }  // namespace
 
 template <int dim>
-Discretisation<dim>::Parts::Parts(mesh::Mesh<dim> given, int degree, Geometry asked)
-    : mesh(std::move(given)),
-      geometry(asked),
+Discretisation<dim>::Parts::Parts(const mesh::Mesh<dim> &mesh, int degree, Geometry asked)
+    : geometry(asked),
       linear(lagrange<dim>(mesh.simplices, 1)),
       element(lagrange<dim>(mesh.simplices, degree)),
-      mapping(std::make_unique<dealii::MappingFE<dim>>(*linear)),
-      cell_rule(gauss<dim>(mesh.simplices, degree + 1)),
-      sampling_rule(gauss<dim>(mesh.simplices, degree)),
-      facet_rule(gauss<dim - 1>(mesh.simplices, degree + 1)),
-      dofs(*mesh.cells) {
+      shapes(*element, *linear, gauss<dim>(mesh.simplices, degree + 1)),
+      sampled(*element, *linear, gauss<dim>(mesh.simplices, degree)),
+      centre(*element, *linear, dealii::QMidpoint<dim>()),
+      reference_facets(facets_of(*element, *linear, gauss<dim - 1>(mesh.simplices, degree + 1))),
+      n_all_cells(mesh.cells->n_global_active_cells()) {
+  dealii::DoFHandler<dim> dofs(*mesh.cells);
   dofs.distribute_dofs(*element);
-  for (const auto &cell : dofs.active_cell_iterators())
-    if (cell->is_locally_owned())
-      cells.push_back(cell);
-  number_nodes();
-  list_nodes_of_cells();
+  list_cells(dofs, number_nodes(dofs));
+  list_facets(mesh);
+  connectivity.shrink_to_fit();
+  regions.shrink_to_fit();
   sharing = NodeSharing(touched());
   if (geometry == Geometry::revolved)
     find_axis();
 }
 
 template <int dim>
-template <class Face>
-bool Discretisation<dim>::Parts::lies_on_axis(const Face &face) const {
-  const auto corners = face.vertex_indices();
-  return geometry == Geometry::revolved &&
-         std::all_of(corners.begin(), corners.end(),
-                     [&](unsigned int corner) { return face.vertex(corner)[0] <= axis_ends; });
+std::span<const Vector3> Discretisation<dim>::Parts::corners_of(std::size_t cell,
+                                                                Corners &corners) const {
+  const std::size_t n = linear->n_dofs_per_cell();
+  for (std::size_t v = 0; v < n; ++v)
+    corners[v] = points[nodes_of(cell)[v]];
+  return std::span(corners).first(n);
 }
 
 template <int dim>
@@ -113,28 +97,14 @@ std::span<const Node> Discretisation<dim>::Parts::nodes_of(std::size_t cell) con
 }
 
 template <int dim>
-template <class Values>
-void Discretisation<dim>::Parts::copy(const Values &from, std::span<const Node> cell_nodes,
-                                      Quadrature<dim> &to) const {
-  const unsigned int n_points = from.n_quadrature_points;
-  const auto n_shapes = static_cast<unsigned int>(cell_nodes.size());
-  to.nodes.assign(cell_nodes.begin(), cell_nodes.end());
-  to.jxw = from.get_JxW_values();
-  to.points.resize(n_points);
-  to.values.resize(n_points * n_shapes);
-  for (unsigned int q = 0; q < n_points; ++q) {
-    to.points[q] = in_space<dim>(from.quadrature_point(q));
-    for (unsigned int a = 0; a < n_shapes; ++a)
-      to.values[q * n_shapes + a] = from.shape_value(a, q);
-  }
-  if (geometry == Geometry::revolved)
-    for (unsigned int q = 0; q < n_points; ++q)
-      to.jxw[q] *= 2 * std::numbers::pi * to.points[q][0];
+void Discretisation<dim>::Parts::revolve(Quadrature<dim> &to) const {
+  for (std::size_t q = 0; q < to.jxw.size() && geometry == Geometry::revolved; ++q)
+    to.jxw[q] *= 2 * std::numbers::pi * to.points[q][0];
 }
 
 template <int dim>
-Discretisation<dim>::Discretisation(mesh::Mesh<dim> mesh, int degree, Geometry geometry)
-    : parts_(std::make_unique<Parts>(std::move(mesh), degree, geometry)) {}
+Discretisation<dim>::Discretisation(const mesh::Mesh<dim> &mesh, int degree, Geometry geometry)
+    : parts_(std::make_unique<Parts>(mesh, degree, geometry)) {}
 template <int dim>
 Discretisation<dim>::~Discretisation() = default;
 template <int dim>
@@ -157,12 +127,12 @@ std::size_t Discretisation<dim>::n_nodes() const {
 
 template <int dim>
 std::size_t Discretisation<dim>::n_cells() const {
-  return parts_->mesh.cells->n_global_active_cells();
+  return parts_->n_all_cells;
 }
 
 template <int dim>
 bool Discretisation<dim>::has_simplices() const {
-  return parts_->mesh.simplices;
+  return parts_->linear->n_dofs_per_cell() == dim + 1;
 }
 
 template <int dim>
@@ -220,17 +190,17 @@ namespace {
 // Their integral over the cell is zero whatever its shape, so that a uniform stress does no work on
 // them and the patch test holds.
 template <int dim>
-void fill_mode_gradients(const dealii::FEValues<dim> &centre, const dealii::FEValues<dim> &shape,
-                         Quadrature<dim> &cell) {
-  const auto inverse = centre.inverse_jacobian(0);
-  const double j0 = centre.JxW(0);  // the rule's only weight is 1
-  cell.mode_gradients.resize(std::size_t{shape.n_quadrature_points} * dim);
-  for (unsigned int q = 0; q < shape.n_quadrature_points; ++q) {
-    const double ratio = j0 * shape.get_quadrature().weight(q) / shape.JxW(q);
+void fill_mode_gradients(std::span<const Vector3> corners, const ShapeTable<dim> &centre,
+                         const ShapeTable<dim> &shapes, Quadrature<dim> &cell) {
+  const typename ShapeTable<dim>::Jacobian of_centre = centre.jacobian(corners, 0);
+  const typename ShapeTable<dim>::Jacobian inverse = of_centre.inverse();
+  cell.mode_gradients.resize(cell.jxw.size() * dim);
+  for (unsigned int q = 0; q < cell.jxw.size(); ++q) {
+    const double ratio = of_centre.determinant() / shapes.jacobian(corners, q).determinant();
     for (int m = 0; m < dim; ++m) {
-      const double xi = 2 * shape.get_quadrature().point(q)[m] - 1;
+      const double xi = 2 * shapes.rule().point(q)[m] - 1;
       for (int i = 0; i < dim; ++i)
-        cell.mode_gradients[q * dim + m][i] = -4 * xi * ratio * inverse[m][i];
+        cell.mode_gradients[q * dim + m][i] = -4 * xi * ratio * inverse(m, i);
     }
   }
 }
@@ -266,13 +236,13 @@ void revolve_modes(const dealii::Quadrature<dim> &rule, Quadrature<dim> &cell) {
 template <int dim>
 void Discretisation<dim>::for_each_cell(const std::function<void(const Quadrature<dim> &)> &visit,
                                         Modes modes) const {
-  visit_cells(parts_->cell_rule, modes, visit);
+  visit_cells(parts_->shapes, modes, visit);
 }
 
 template <int dim>
 void Discretisation<dim>::for_each_cell_sampled(
     const std::function<void(const Quadrature<dim> &)> &visit) const {
-  visit_cells(parts_->sampling_rule, Modes::none, visit);
+  visit_cells(parts_->sampled, Modes::none, visit);
 }
 
 template <int dim>
@@ -289,7 +259,7 @@ std::vector<std::vector<double>> Discretisation<dim>::corner_shares() const {
 template <int dim>
 void Discretisation<dim>::for_each_cell_nodes(
     const std::function<void(std::span<const Node>)> &visit) const {
-  for (std::size_t i = 0; i < parts_->cells.size(); ++i)
+  for (std::size_t i = 0; i < parts_->n_cells(); ++i)
     visit(parts_->nodes_of(i));
 }
 
@@ -309,158 +279,30 @@ ReferenceShapes<dim> Discretisation<dim>::shapes_at(
 }
 
 template <int dim>
-template <class Rule>
+template <class Table>
 void Discretisation<dim>::visit_cells(
-    const Rule &rule, Modes modes,
+    const Table &shapes, Modes modes,
     const std::function<void(const Quadrature<dim> &)> &visit) const {
-  dealii::FEValues<dim> shape(*parts_->mapping, *parts_->element, rule,
-                              dealii::update_values | dealii::update_gradients |
-                                  dealii::update_JxW_values | dealii::update_quadrature_points);
-  std::optional<dealii::FEValues<dim>> centre;
-  if (modes == Modes::incompatible)
-    centre.emplace(*parts_->mapping, *parts_->element, dealii::QMidpoint<dim>(),
-                   dealii::update_inverse_jacobians | dealii::update_JxW_values);
-  const unsigned int n_shapes = parts_->element->n_dofs_per_cell();
-  Quadrature<dim> plain_values;
-  plain_values.gradients.resize(shape.n_quadrature_points * n_shapes);
-  for (std::size_t i = 0; i < parts_->cells.size(); ++i) {
-    shape.reinit(parts_->cells[i]);
-    parts_->copy(shape, parts_->nodes_of(i), plain_values);
-    plain_values.region = parts_->cells[i]->material_id();
-    for (unsigned int q = 0; q < shape.n_quadrature_points; ++q)
-      for (unsigned int a = 0; a < n_shapes; ++a)
-        plain_values.gradients[q * n_shapes + a] = plain<dim>(shape.shape_grad(a, q));
+  Quadrature<dim> cell;
+  typename Parts::Corners places;
+  for (std::size_t i = 0; i < parts_->n_cells(); ++i) {
+    const auto corners = parts_->corners_of(i, places);
+    const auto nodes = parts_->nodes_of(i);
+    cell.nodes.assign(nodes.begin(), nodes.end());
+    cell.region = parts_->regions[i];
+    shapes.fill_cell(corners, cell);
+    if (modes == Modes::incompatible)
+      fill_mode_gradients(corners, parts_->centre, shapes, cell);
     if (parts_->geometry == Geometry::revolved) {
-      plain_values.inverse_radius.clear();
-      for (const Vector3 &point : plain_values.points)
-        plain_values.inverse_radius.push_back(1 / point[0]);
+      parts_->revolve(cell);
+      cell.inverse_radius.clear();
+      for (const Vector3 &point : cell.points)
+        cell.inverse_radius.push_back(1 / point[0]);
+      if (modes == Modes::incompatible)
+        revolve_modes(shapes.rule(), cell);
     }
-    if (centre) {
-      centre->reinit(parts_->cells[i]);
-      fill_mode_gradients(*centre, shape, plain_values);
-      if (parts_->geometry == Geometry::revolved)
-        revolve_modes(rule, plain_values);
-    }
-    visit(plain_values);
+    visit(cell);
   }
-}
-
-namespace {
-
-template <int dim>
-std::set<dealii::types::boundary_id> ids_of(const mesh::Mesh<dim> &mesh,
-                                            const std::vector<std::string> &names) {
-  std::set<dealii::types::boundary_id> ids;
-  for (const std::string &name : names) {
-    const auto found = mesh.boundaries.find(name);
-    if (found == mesh.boundaries.end())
-      throw CaseError("the mesh has no boundary named \"" + name + "\"");
-    ids.insert(found->second.begin(), found->second.end());
-  }
-  return ids;
-}
-
-}  // namespace
-
-template <int dim>
-void Discretisation<dim>::for_each_facet(
-    const std::vector<std::string> &boundaries,
-    const std::function<void(const Quadrature<dim> &)> &visit) const {
-  const auto ids = ids_of(parts_->mesh, boundaries);
-  visit_facets([&](unsigned int id) { return ids.contains(id); }, visit);
-}
-
-template <int dim>
-bool Discretisation<dim>::is_boundary(const std::string &name) const {
-  return parts_->mesh.boundaries.contains(name);
-}
-
-template <int dim>
-void Discretisation<dim>::for_each_facet_on_both(
-    const std::vector<std::string> &boundaries, const std::vector<std::string> &others,
-    const std::function<void(const Quadrature<dim> &)> &visit) const {
-  const auto ids = ids_of(parts_->mesh, boundaries), other_ids = ids_of(parts_->mesh, others);
-  visit_facets([&](unsigned int id) { return ids.contains(id) && other_ids.contains(id); }, visit);
-}
-
-// `is_meant` is asked with the facet's part of the boundary.
-template <int dim>
-void Discretisation<dim>::visit_facets(
-    const std::function<bool(unsigned int)> &is_meant,
-    const std::function<void(const Quadrature<dim> &)> &visit) const {
-  dealii::FEFaceValues<dim> shape(*parts_->mapping, *parts_->element, parts_->facet_rule,
-                                  dealii::update_values | dealii::update_JxW_values |
-                                      dealii::update_quadrature_points |
-                                      dealii::update_normal_vectors);
-  Quadrature<dim> plain_values;
-  for (std::size_t i = 0; i < parts_->cells.size(); ++i) {
-    const auto &cell = parts_->cells[i];
-    for (const unsigned int f : cell->face_indices()) {
-      if (!cell->face(f)->at_boundary() || !is_meant(cell->face(f)->boundary_id()))
-        continue;
-      shape.reinit(cell, f);
-      parts_->copy(shape, parts_->nodes_of(i), plain_values);
-      plain_values.normals.clear();
-      for (unsigned int q = 0; q < shape.n_quadrature_points; ++q)
-        plain_values.normals.push_back(plain<dim>(shape.normal_vector(q)));
-      visit(plain_values);
-    }
-  }
-}
-
-// deal.II's own extraction would count the outer faces of the layer around a rank's cells.
-template <int dim>
-template <class IsAsked>
-std::vector<Node> Discretisation<dim>::nodes_of_facets(const IsAsked &is_asked) const {
-  std::vector<Node> nodes;
-  typename Parts::Dofs of_face;
-  parallel::together([&] {
-    for (const auto &cell : parts_->cells)
-      for (const unsigned int f : cell->face_indices()) {
-        if (!is_asked(*cell->face(f)) || parts_->lies_on_axis(*cell->face(f)))
-          continue;
-        of_face.resize(parts_->element->n_dofs_per_face(f));
-        cell->face(f)->get_dof_indices(of_face);
-        for (const auto dof : of_face)
-          nodes.push_back(parts_->sharing.number(parts_->node_of(dof)));
-      }
-  });
-  nodes = parallel::joined(nodes);
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  return parts_->sharing.nodes(nodes);
-}
-
-template <int dim>
-std::vector<Node> Discretisation<dim>::nodes_on(const std::vector<std::string> &boundaries) const {
-  std::vector<std::string> outer;
-  std::vector<const std::set<mesh::FacetCorners<dim>> *> inner;
-  for (const std::string &name : boundaries)
-    if (const auto found = parts_->mesh.inner.find(name); found != parts_->mesh.inner.end())
-      inner.push_back(&found->second);
-    else
-      outer.push_back(name);
-  const auto ids = ids_of(parts_->mesh, outer);
-  return nodes_of_facets([&](const auto &face) {
-    if (face.at_boundary() && ids.contains(face.boundary_id()))
-      return true;
-    return !inner.empty() && std::any_of(inner.begin(), inner.end(), [&](const auto *facets) {
-      return facets->contains(mesh::corners_of<dim>(face));
-    });
-  });
-}
-
-template <int dim>
-std::vector<Node> Discretisation<dim>::nodes_inside(
-    const std::function<bool(const Vector3 &)> &belongs) const {
-  return nodes_of_facets([&](const auto &face) {
-    if (face.at_boundary())
-      return false;
-    const auto corners = face.vertex_indices();
-    return std::all_of(corners.begin(), corners.end(), [&](unsigned int corner) {
-      return belongs(in_space<dim>(face.vertex(corner)));
-    });
-  });
 }
 
 template struct Quadrature<2>;

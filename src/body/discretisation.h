@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -93,7 +94,7 @@ template <int dim>
 class Discretisation {
  public:
   /// Throws CaseError where the mesh of a revolved body crosses its axis.
-  Discretisation(mesh::Mesh<dim> mesh, int degree, Geometry geometry = Geometry::cartesian);
+  Discretisation(const mesh::Mesh<dim> &mesh, int degree, Geometry geometry = Geometry::cartesian);
   ~Discretisation();
   Discretisation(Discretisation &&) noexcept;
 
@@ -162,12 +163,10 @@ class Discretisation {
   struct Parts;
   std::unique_ptr<Parts> parts_;
 
-  template <class IsAsked>
-  std::vector<Node> nodes_of_facets(const IsAsked &is_asked) const;
-  void visit_facets(const std::function<bool(unsigned int)> &is_meant,
+  void visit_facets(const std::set<unsigned int> &ids,
                     const std::function<void(const Quadrature<dim> &)> &visit) const;
-  template <class Rule>
-  void visit_cells(const Rule &rule, Modes modes,
+  template <class Table>
+  void visit_cells(const Table &shapes, Modes modes,
                    const std::function<void(const Quadrature<dim> &)> &visit) const;
 };
 

@@ -1,7 +1,5 @@
 // How nodes are numbered, and shared out to the ranks.
 
-#include <deal.II/fe/fe_values.h>
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,37 +15,41 @@ namespace tourmaline::body {
 
 // Places of this rank's own nodes, in deal.II's order.
 template <int dim>
-std::vector<double> Discretisation<dim>::Parts::own_places() const {
+std::vector<double> Discretisation<dim>::Parts::own_places(const Dofs &dofs) const {
   const dealii::IndexSet &own = dofs.locally_owned_dofs();
   std::vector<double> places(dim * own.n_elements());
-  dealii::FEValues<dim> at_nodes(*mapping, *element,
-                                 dealii::Quadrature<dim>(element->get_unit_support_points()),
-                                 dealii::update_quadrature_points);
-  Dofs of_cell(element->n_dofs_per_cell());
-  for (const auto &cell : cells) {
-    at_nodes.reinit(cell);
+  const ShapeTable<dim> at_nodes(*element, *linear,
+                                 dealii::Quadrature<dim>(element->get_unit_support_points()));
+  std::vector<dealii::types::global_dof_index> of_cell(element->n_dofs_per_cell());
+  std::vector<Vector3> corners(linear->n_dofs_per_cell());
+  for (const auto &cell : dofs.active_cell_iterators()) {
+    if (!cell->is_locally_owned())
+      continue;
+    for (const unsigned int v : cell->vertex_indices())
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        corners[v][axis] = cell->vertex(v)[axis];
     cell->get_dof_indices(of_cell);
     for (unsigned int a = 0; a < of_cell.size(); ++a)
-      if (own.is_element(of_cell[a]))
-        for (int axis = 0; axis < dim; ++axis)
-          places[dim * own.index_within_set(of_cell[a]) + axis] =
-              at_nodes.quadrature_point(a)[axis];
+      if (own.is_element(of_cell[a])) {
+        const Vector3 place = at_nodes.place(corners, a);
+        std::copy_n(place.begin(), dim, &places[dim * own.index_within_set(of_cell[a])]);
+      }
   }
   return places;
 }
 
 // Every rank owns a range of deal.II's numbers; one behind the other, their places are those of all
-// nodes.
+// nodes. The node of each of these numbers.
 template <int dim>
-void Discretisation<dim>::Parts::number_nodes() {
-  const std::vector<double> places = parallel::joined(own_places());
+std::vector<Node> Discretisation<dim>::Parts::number_nodes(const Dofs &dofs) {
+  const std::vector<double> places = parallel::joined(own_places(dofs));
   std::vector<Vector3> unsorted(dofs.n_dofs(), Vector3{});
   for (std::size_t i = 0; i < places.size(); ++i)
     unsorted[i / dim][i % dim] = places[i];
-  nodes_by_dof.resize(unsorted.size());
+  std::vector<Node> node_of(unsorted.size());
   points.reserve(unsorted.size());
   for (const std::size_t dof : output::sorted_by_place(unsorted)) {
-    nodes_by_dof[dof] = static_cast<Node>(points.size());
+    node_of[dof] = static_cast<Node>(points.size());
     points.push_back(unsorted[dof]);
   }
   bounds.fill(points.front());
@@ -56,14 +58,7 @@ void Discretisation<dim>::Parts::number_nodes() {
       bounds[0][axis] = std::min(bounds[0][axis], point[axis]);
       bounds[1][axis] = std::max(bounds[1][axis], point[axis]);
     }
-}
-
-template <int dim>
-Node Discretisation<dim>::Parts::node_of(dealii::types::global_dof_index dof) const {
-  if (dofs_here.empty())
-    return nodes_by_dof[dof];
-  const auto at = std::lower_bound(dofs_here.begin(), dofs_here.end(), dof);
-  return nodes_by_dof[static_cast<std::size_t>(at - dofs_here.begin())];
+  return node_of;
 }
 
 // By node, whether it is one of this rank's cells.
@@ -85,34 +80,18 @@ void Discretisation<dim>::Parts::share_nodes(const std::vector<Node> &known) {
   points = std::move(here);
   for (Node &node : connectivity)
     node = *sharing.node(node);
-  find_dofs_here();
 }
 
 template <int dim>
-void Discretisation<dim>::Parts::find_dofs_here() {
-  Dofs of_cell(element->n_dofs_per_cell());
-  for (const auto &cell : cells) {
-    cell->get_dof_indices(of_cell);
-    dofs_here.insert(dofs_here.end(), of_cell.begin(), of_cell.end());
-  }
-  std::sort(dofs_here.begin(), dofs_here.end());
-  dofs_here.erase(std::unique(dofs_here.begin(), dofs_here.end()), dofs_here.end());
-  dofs_here.shrink_to_fit();
-  std::vector<Node> nodes;
-  nodes.reserve(dofs_here.size());
-  for (const auto dof : dofs_here)
-    nodes.push_back(*sharing.node(nodes_by_dof[dof]));
-  nodes_by_dof = std::move(nodes);
-}
-
-template <int dim>
-void Discretisation<dim>::Parts::list_nodes_of_cells() {
-  Dofs of_cell(element->n_dofs_per_cell());
-  connectivity.reserve(cells.size() * of_cell.size());
-  for (const auto &cell : cells) {
+void Discretisation<dim>::Parts::list_cells(const Dofs &dofs, const std::vector<Node> &node_of) {
+  std::vector<dealii::types::global_dof_index> of_cell(element->n_dofs_per_cell());
+  for (const auto &cell : dofs.active_cell_iterators()) {
+    if (!cell->is_locally_owned())
+      continue;
+    regions.push_back(cell->material_id());
     cell->get_dof_indices(of_cell);
     for (const auto dof : of_cell)
-      connectivity.push_back(nodes_by_dof[dof]);
+      connectivity.push_back(node_of[dof]);
   }
 }
 
@@ -133,22 +112,18 @@ void Discretisation<dim>::Parts::find_axis() {
         first[0], first[1]));
 }
 
-template void Discretisation<2>::Parts::number_nodes();
-template void Discretisation<2>::Parts::list_nodes_of_cells();
-template std::vector<double> Discretisation<2>::Parts::own_places() const;
-template Node Discretisation<2>::Parts::node_of(dealii::types::global_dof_index) const;
+template std::vector<Node> Discretisation<2>::Parts::number_nodes(const Dofs &);
+template void Discretisation<2>::Parts::list_cells(const Dofs &, const std::vector<Node> &);
+template std::vector<double> Discretisation<2>::Parts::own_places(const Dofs &) const;
 template std::vector<bool> Discretisation<2>::Parts::touched() const;
 template void Discretisation<2>::Parts::share_nodes(const std::vector<Node> &);
-template void Discretisation<2>::Parts::find_dofs_here();
 template void Discretisation<2>::Parts::find_axis();
 template void Discretisation<2>::share_nodes(const std::vector<Node> &);
-template void Discretisation<3>::Parts::number_nodes();
-template void Discretisation<3>::Parts::list_nodes_of_cells();
-template std::vector<double> Discretisation<3>::Parts::own_places() const;
-template Node Discretisation<3>::Parts::node_of(dealii::types::global_dof_index) const;
+template std::vector<Node> Discretisation<3>::Parts::number_nodes(const Dofs &);
+template void Discretisation<3>::Parts::list_cells(const Dofs &, const std::vector<Node> &);
+template std::vector<double> Discretisation<3>::Parts::own_places(const Dofs &) const;
 template std::vector<bool> Discretisation<3>::Parts::touched() const;
 template void Discretisation<3>::Parts::share_nodes(const std::vector<Node> &);
-template void Discretisation<3>::Parts::find_dofs_here();
 template void Discretisation<3>::Parts::find_axis();
 template void Discretisation<3>::share_nodes(const std::vector<Node> &);
 

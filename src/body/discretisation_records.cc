@@ -1,7 +1,5 @@
 // How cells and named boundaries are handed to files of fields.
 
-#include <algorithm>
-
 #include "discretisation_parts.h"
 #include "output/records.h"
 #include "parallel/ranks.h"
@@ -9,42 +7,6 @@
 namespace tourmaline::body {
 
 namespace {
-
-// deal.II's numbers of the nodes of a line from end to end.
-template <class Face>
-std::vector<dealii::types::global_dof_index> line_dofs(const Face &face, unsigned int degree) {
-  if (degree == 1)
-    return {face.vertex_dof_index(0, 0), face.vertex_dof_index(1, 0)};
-  return {face.vertex_dof_index(0, 0), face.dof_index(0), face.vertex_dof_index(1, 0)};
-}
-
-// Of a triangle or a quadrilateral: corners in a circle, then the middles of the sides from the one
-// between the first two on, then the middle of a quadrilateral. deal.II has a quadrilateral's
-// corners line by line, and its sides as left, right, bottom, top.
-template <class Face>
-std::vector<dealii::types::global_dof_index> face_dofs(const Face &face, unsigned int degree) {
-  const bool is_triangle = face.n_vertices() == 3;
-  std::vector<dealii::types::global_dof_index> dofs;
-  for (const unsigned int corner :
-       is_triangle ? std::vector{0U, 1U, 2U} : std::vector{0U, 1U, 3U, 2U})
-    dofs.push_back(face.vertex_dof_index(corner, 0));
-  if (degree == 1)
-    return dofs;
-  for (const unsigned int side :
-       is_triangle ? std::vector{0U, 1U, 2U} : std::vector{2U, 1U, 3U, 0U})
-    dofs.push_back(face.line(side)->dof_index(0));
-  if (!is_triangle)
-    dofs.push_back(face.dof_index(0));
-  return dofs;
-}
-
-template <int dim, class Face>
-std::vector<dealii::types::global_dof_index> facet_dofs(const Face &face, unsigned int degree) {
-  if constexpr (dim == 2)
-    return line_dofs(face, degree);
-  else
-    return face_dofs(face, degree);
-}
 
 // From (number of nodes, nodes) of each facet, one behind the other.
 std::vector<std::vector<Node>> separated(const std::vector<Node> &facets) {
@@ -58,30 +20,23 @@ std::vector<std::vector<Node>> separated(const std::vector<Node> &facets) {
 
 template <int dim>
 std::vector<output::NamedBoundary> Discretisation<dim>::boundaries() const {
+  using Facet = typename Parts::Facet;
   std::vector<output::NamedBoundary> all;
-  const auto add = [&](const std::string &name, bool inside, const auto &is_asked) {
-    std::vector<Node> facets;
-    for (const auto &cell : parts_->cells)
-      for (const unsigned int f : cell->face_indices()) {
-        const auto is_neighbours = [&] {
-          return !cell->at_boundary(f) && cell->neighbor(f)->id() < cell->id();
-        };
-        if (!is_asked(*cell->face(f)) || is_neighbours())
-          continue;
-        const auto dofs = facet_dofs<dim>(*cell->face(f), parts_->element->degree);
-        facets.push_back(static_cast<Node>(dofs.size()));
-        for (const auto dof : dofs)
-          facets.push_back(parts_->sharing.number(parts_->node_of(dof)));
-      }
-    all.push_back({name, separated(parallel::joined_on_first(facets)), inside});
+  const auto add = [&](const std::string &name, bool inside, const std::vector<Facet> &facets) {
+    std::vector<Node> listed;
+    for (const Facet &facet : facets) {
+      if (!facet.is_listed)
+        continue;
+      const std::vector<Node> nodes = parts_->sharing.numbers(parts_->nodes_of(facet));
+      listed.push_back(static_cast<Node>(nodes.size()));
+      listed.insert(listed.end(), nodes.begin(), nodes.end());
+    }
+    all.push_back({name, separated(parallel::joined_on_first(listed)), inside});
   };
-  for (const auto &named : parts_->mesh.boundaries)
-    add(named.first, false, [&](const auto &face) {
-      return face.at_boundary() && named.second.contains(face.boundary_id());
-    });
-  for (const auto &named : parts_->mesh.inner)
-    add(named.first, true,
-        [&](const auto &face) { return named.second.contains(mesh::corners_of<dim>(face)); });
+  for (const auto &[name, ids] : parts_->boundaries)
+    add(name, false, parts_->outer_in(ids));
+  for (const auto &[name, facets] : parts_->inner)
+    add(name, true, facets);
   return all;
 }
 
@@ -129,11 +84,11 @@ output::Grid Discretisation<dim>::grid() const {
   output::Grid grid;
   grid.dimension = dim;
   grid.points = parts_->points;
-  grid.cell = vtk_cell(dim, parts_->mesh.simplices, parts_->element->degree);
+  grid.cell = vtk_cell(dim, has_simplices(), parts_->element->degree);
   const std::vector<unsigned int> order = vtk_order(grid.cell);
   grid.nodes_per_cell = order.size();
   grid.connectivity.reserve(parts_->connectivity.size());
-  for (std::size_t i = 0; i < parts_->cells.size(); ++i)
+  for (std::size_t i = 0; i < parts_->n_cells(); ++i)
     for (const unsigned int local : order)
       grid.connectivity.push_back(parts_->nodes_of(i)[local]);
   return grid;

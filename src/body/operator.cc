@@ -45,9 +45,10 @@ template <int dim>
 Operator<dim>::Operator(const Discretisation<dim> &body,
                         const material::BodyConstants<dim> &material, Modes modes)
     : graph_(body.graph()),
+      place_(places()),
       sharing_(body.sharing()),
-      storage_(graph_.column.size(), Block::Zero()),
-      conduction_(graph_.column.size(), 0.),
+      storage_(n_blocks(), Block::Zero()),
+      conduction_(n_blocks(), 0.),
       reference_temperature_(material.reference_temperature) {
   body.for_each_cell([&](const Quadrature<dim> &cell) { add_cell(cell, material); }, modes);
 }
@@ -56,9 +57,10 @@ template <int dim>
 Operator<dim>::Operator(const Discretisation<dim> &body,
                         const material::Composition<dim> &composition, Modes modes)
     : graph_(body.graph()),
+      place_(places()),
       sharing_(body.sharing()),
-      storage_(graph_.column.size(), Block::Zero()),
-      conduction_(graph_.column.size(), 0.),
+      storage_(n_blocks(), Block::Zero()),
+      conduction_(n_blocks(), 0.),
       reference_temperature_(composition.reference_temperature()) {
   parallel::together([&] {
     body.for_each_cell(
@@ -67,6 +69,41 @@ Operator<dim>::Operator(const Discretisation<dim> &body,
         },
         modes);
   });
+}
+
+// Rows come in ascending order, and so do the columns of a row.
+template <int dim>
+std::vector<typename Operator<dim>::Place> Operator<dim>::places() const {
+  std::vector<Place> places(graph_.column.size());
+  std::vector<std::size_t> next(graph_.row.begin(), graph_.row.end() - 1);
+  std::size_t block = 0;
+  for (Node i = 0; i < graph_.n_nodes(); ++i)
+    for (std::size_t e = next[i]; e < graph_.row[i + 1]; ++e, ++block) {
+      places[e] = {block, false};
+      if (const Node j = graph_.column[e]; j != i)
+        places[next[j]++] = {block, true};
+    }
+  return places;
+}
+
+// Every node that has neighbours is its own.
+template <int dim>
+std::size_t Operator<dim>::n_blocks() const {
+  std::size_t n_rows = 0;
+  for (Node i = 0; i < graph_.n_nodes(); ++i)
+    n_rows += graph_.row[i + 1] > graph_.row[i] ? 1 : 0;
+  return (graph_.column.size() + n_rows) / 2;
+}
+
+// `visit` takes the row, the column, which is not before it, and the block's number.
+template <int dim>
+template <class Visit>
+void Operator<dim>::for_each_block(const Visit &visit) const {
+  std::size_t block = 0;
+  for (Node i = 0; i < graph_.n_nodes(); ++i)
+    for (std::size_t e = graph_.row[i]; e < graph_.row[i + 1]; ++e)
+      if (graph_.column[e] >= i)
+        visit(i, graph_.column[e], block++);
 }
 
 template <int dim>
@@ -80,10 +117,12 @@ void Operator<dim>::add_cell(const Quadrature<dim> &cell,
       trials[a] = trial<dim>(material, cell.gradient(q, a), cell.around(q, a));
     for (std::size_t a = 0; a < n_shapes; ++a)
       for (std::size_t b = 0; b < n_shapes; ++b) {
-        const std::size_t entry = entry_of(cell.nodes[a], cell.nodes[b]);
+        if (cell.nodes[b] < cell.nodes[a])
+          continue;
+        const std::size_t block = block_of(cell.nodes[a], cell.nodes[b]);
         const Weights w = constant ? weights(cell, a, b) : weights(cell, q, a, b);
-        add_block(trials[a], trials[b], material.heat_capacity, w, storage_[entry]);
-        conduction_[entry] +=
+        add_block(trials[a], trials[b], material.heat_capacity, w, storage_[block]);
+        conduction_[block] +=
             w.one * trials[a].gradient.dot(material.conductivity * trials[b].gradient);
       }
   }
@@ -99,9 +138,10 @@ void Operator<dim>::add_modes(const Quadrature<dim> &cell,
   const CellModes<dim> &modes = modes_.emplace_back(cell, blocks);
   for (int a = 0; a < CellModes<dim>::n_nodes; ++a)
     for (int b = 0; b < CellModes<dim>::n_nodes; ++b)
-      storage_[entry_of(modes.nodes[a], modes.nodes[b])] +=
-          blocks.coupling.template middleCols<n>(n * a).transpose() *
-          modes.response.template middleCols<n>(n * b);
+      if (modes.nodes[a] <= modes.nodes[b])
+        storage_[block_of(modes.nodes[a], modes.nodes[b])] +=
+            blocks.coupling.template middleCols<n>(n * a).transpose() *
+            modes.response.template middleCols<n>(n * b);
 }
 
 template <int dim>
@@ -123,7 +163,7 @@ template <int dim>
 void Operator<dim>::add_facets(const Discretisation<dim> &body,
                                const std::vector<std::string> &boundaries,
                                const casefile::Formula &coefficient, double factor,
-                               const char *what, std::vector<double> &entries) {
+                               const char *what, std::vector<double> &blocks) {
   const auto add_facet = [&](const Quadrature<dim> &facet) {
     for (std::size_t q = 0; q < facet.jxw.size(); ++q) {
       const double k_c = factor * coefficient.value(facet.points[q], 0);
@@ -131,8 +171,9 @@ void Operator<dim>::add_facets(const Discretisation<dim> &body,
         throw CaseError(coefficient.where() + ": the coefficient of " + what + " is negative");
       for (std::size_t a = 0; a < facet.nodes.size(); ++a)
         for (std::size_t b = 0; b < facet.nodes.size(); ++b)
-          if (const double v = facet.value(q, a) * facet.value(q, b); v != 0)
-            entries[entry_of(facet.nodes[a], facet.nodes[b])] += k_c * facet.jxw[q] * v;
+          if (const double v = facet.value(q, a) * facet.value(q, b);
+              v != 0 && facet.nodes[a] <= facet.nodes[b])
+            blocks[block_of(facet.nodes[a], facet.nodes[b])] += k_c * facet.jxw[q] * v;
     }
   };
   parallel::together([&] { body.for_each_facet(boundaries, add_facet); });
@@ -150,24 +191,27 @@ void Operator<dim>::add_capacitors(const Discretisation<dim> &body,
                                    const std::vector<std::string> &boundaries,
                                    const casefile::Formula &coefficient, double factor) {
   has_capacitors_ = true;
-  capacitors_.resize(graph_.column.size(), 0.);
+  capacitors_.resize(n_blocks(), 0.);
   add_facets(body, boundaries, coefficient, factor, "charge exchange", capacitors_);
 }
 
 template <int dim>
-std::size_t Operator<dim>::entry_of(Node row, Node column) const {
+std::size_t Operator<dim>::block_of(Node row, Node column) const {
   const auto begin = graph_.column.begin() + graph_.row[row];
   const auto end = graph_.column.begin() + graph_.row[row + 1];
-  return std::lower_bound(begin, end, column) - graph_.column.begin();
+  return place_[std::lower_bound(begin, end, column) - graph_.column.begin()].block;
 }
 
 template <int dim>
 typename Operator<dim>::Block Operator<dim>::step_block(std::size_t entry, double step) const {
   constexpr int theta = Fields<dim>::temperature;
-  Block block = storage_[entry];
-  block(theta, theta) -= step / reference_temperature_ * conduction_[entry];
+  const auto [held, is_transposed] = place_[entry];
+  Block block = storage_[held];
+  if (is_transposed)
+    block.transposeInPlace();
+  block(theta, theta) -= step / reference_temperature_ * conduction_[held];
   if (!capacitors_.empty())
-    block(Fields<dim>::potential, Fields<dim>::potential) -= capacitors_[entry];
+    block(Fields<dim>::potential, Fields<dim>::potential) -= capacitors_[held];
   if (rates_ && step > 0)
     block.template topLeftCorner<dim, dim>() += rates_->step_block(entry, step);
   return block;
@@ -176,20 +220,22 @@ typename Operator<dim>::Block Operator<dim>::step_block(std::size_t entry, doubl
 template <int dim>
 void Operator<dim>::multiply(double step, std::span<const double> x, std::span<double> y) const {
   using Map = Eigen::Map<const Vector<n>>;
-  for (Node i = 0; i < graph_.n_nodes(); ++i) {
-    Vector<n> sum = Vector<n>::Zero();
-    double conducted = 0;
-    for (std::size_t e = graph_.row[i]; e < graph_.row[i + 1]; ++e) {
-      const Map xj(&x[unknown<dim>(graph_.column[e], 0)]);
-      sum.noalias() += storage_[e] * xj;
-      conducted += conduction_[e] * xj[Fields<dim>::temperature];
-    }
-    sum[Fields<dim>::temperature] -= step / reference_temperature_ * conducted;
-    for (std::size_t e = graph_.row[i]; !capacitors_.empty() && e < graph_.row[i + 1]; ++e)
-      sum[Fields<dim>::potential] -=
-          capacitors_[e] * x[unknown<dim>(graph_.column[e], Fields<dim>::potential)];
-    std::copy(sum.begin(), sum.end(), &y[unknown<dim>(i, 0)]);
-  }
+  constexpr int phi = Fields<dim>::potential, theta = Fields<dim>::temperature;
+  std::fill(y.begin(), y.end(), 0.);
+  for_each_block([&](Node i, Node j, std::size_t block) {
+    const double conduction = step / reference_temperature_ * conduction_[block];
+    const double capacitor = capacitors_.empty() ? 0 : capacitors_[block];
+    const auto add = [&](Node row, Node column, const auto &storage) {
+      const Map at(&x[unknown<dim>(column, 0)]);
+      Eigen::Map<Vector<n>> sum(&y[unknown<dim>(row, 0)]);
+      sum.noalias() += storage * at;
+      sum[phi] -= capacitor * at[phi];
+      sum[theta] -= conduction * at[theta];
+    };
+    add(i, j, storage_[block]);
+    if (i != j)
+      add(j, i, storage_[block].transpose());
+  });
   add_rate_share(step, x, y);
   sharing_.add_up(y);
 }
@@ -274,31 +320,35 @@ std::vector<double> Operator<dim>::sizes(double step, std::span<const double> x)
 template <int dim>
 void Operator<dim>::multiply_by_field(std::span<const double> x, FieldProducts &products) const {
   for (std::vector<double> &product : products.of)
-    product.resize(x.size());
-  for (Node i = 0; i < graph_.n_nodes(); ++i) {
-    Vector<n> u = Vector<n>::Zero(), phi = Vector<n>::Zero(), theta = Vector<n>::Zero();
-    const double own = x[unknown<dim>(i, Fields<dim>::potential)];
-    for (std::size_t e = graph_.row[i]; e < graph_.row[i + 1]; ++e) {
-      const Eigen::Map<const Vector<n>> xj(&x[unknown<dim>(graph_.column[e], 0)]);
-      u.noalias() += storage_[e].template leftCols<dim>() * xj.template head<dim>();
-      phi += storage_[e].col(Fields<dim>::potential) * (xj[Fields<dim>::potential] - own);
-      theta += storage_[e].col(Fields<dim>::temperature) * xj[Fields<dim>::temperature];
-    }
-    std::copy(u.begin(), u.end(), &products.of[0][unknown<dim>(i, 0)]);
-    std::copy(phi.begin(), phi.end(), &products.of[1][unknown<dim>(i, 0)]);
-    std::copy(theta.begin(), theta.end(), &products.of[2][unknown<dim>(i, 0)]);
-  }
+    product.assign(x.size(), 0.);
+  for_each_block([&](Node i, Node j, std::size_t block) {
+    const auto add = [&](Node row, Node column, const auto &storage) {
+      const Eigen::Map<const Vector<n>> at(&x[unknown<dim>(column, 0)]);
+      const double own = x[unknown<dim>(row, Fields<dim>::potential)];
+      const auto sum = [&](int field) {
+        return Eigen::Map<Vector<n>>(&products.of[field][unknown<dim>(row, 0)]);
+      };
+      sum(0).noalias() += storage.template leftCols<dim>() * at.template head<dim>();
+      sum(1) += storage.col(Fields<dim>::potential) * (at[Fields<dim>::potential] - own);
+      sum(2) += storage.col(Fields<dim>::temperature) * at[Fields<dim>::temperature];
+    };
+    add(i, j, storage_[block]);
+    if (i != j)
+      add(j, i, storage_[block].transpose());
+  });
   for (std::vector<double> &product : products.of)
     sharing_.add_up(product);
 }
 
 template <int dim>
-std::vector<double> Operator<dim>::times(const std::vector<double> &entries, int component,
+std::vector<double> Operator<dim>::times(const std::vector<double> &blocks, int component,
                                          std::span<const double> x) const {
   std::vector<double> taken(graph_.n_nodes(), 0.);
-  for (Node i = 0; i < graph_.n_nodes(); ++i)
-    for (std::size_t e = graph_.row[i]; e < graph_.row[i + 1]; ++e)
-      taken[i] += entries[e] * x[unknown<dim>(graph_.column[e], component)];
+  for_each_block([&](Node i, Node j, std::size_t block) {
+    taken[i] += blocks[block] * x[unknown<dim>(j, component)];
+    if (i != j)
+      taken[j] += blocks[block] * x[unknown<dim>(i, component)];
+  });
   sharing_.add_up(taken);
   return taken;
 }

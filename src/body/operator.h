@@ -48,8 +48,9 @@ void add_history(const FieldProducts &products, std::span<double> y);
 /// fields at once: what is left is symmetric, as definite as before, and its heat rows are those of
 /// the whole, as the modes have no memory of their own.
 ///
-/// Every rank holds what its cells contribute; products are summed over the ranks (`NodeSharing`),
-/// so all of them must ask for one.
+/// Every rank holds what its cells contribute, each block of two nodes once: the other way round it
+/// is transposed. Products are summed over the ranks (`NodeSharing`), so all of them must ask for
+/// one.
 template <int dim>
 class Operator {
  public:
@@ -138,12 +139,22 @@ class Operator {
   void add_modes(const Quadrature<dim> &cell, const material::BodyConstants<dim> &material);
   void add_facets(const Discretisation<dim> &body, const std::vector<std::string> &boundaries,
                   const casefile::Formula &coefficient, double factor, const char *what,
-                  std::vector<double> &entries);
-  std::vector<double> times(const std::vector<double> &entries, int component,
+                  std::vector<double> &blocks);
+  std::vector<double> times(const std::vector<double> &blocks, int component,
                             std::span<const double> x) const;
-  std::size_t entry_of(Node row, Node column) const;
+  /// Where an entry of the graph is held: with the other of the same two nodes.
+  struct Place {
+    std::size_t block : 63;
+    std::size_t is_transposed : 1;
+  };
+  std::vector<Place> places() const;
+  std::size_t block_of(Node row, Node column) const;
+  template <class Visit>
+  void for_each_block(const Visit &visit) const;
+  std::size_t n_blocks() const;
 
   NodeGraph graph_;
+  std::vector<Place> place_;    // by entry of the graph
   const NodeSharing &sharing_;  // of the body
   std::vector<Block, Eigen::aligned_allocator<Block>> storage_;
   std::vector<double> conduction_;

@@ -22,7 +22,7 @@ using body::NodeGraph;
 using Nodes = std::vector<Node>;
 
 constexpr double seconds_by_edge = 1e-7;      // of METIS looking for a separator
-constexpr double share_of_search = 1. / 100;  // of what elimination is expected to take, by level
+constexpr double share_of_search = 1. / 200;  // of what elimination is expected to take, by level
 constexpr int most_tries = 16;
 
 using Options = std::array<idx_t, METIS_NOPTIONS>;

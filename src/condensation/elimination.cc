@@ -329,11 +329,11 @@ double Front::operations() const {
   return operations_of(pivots, below);
 }
 
-// Its calls, its operations, its share of the factor in factorisation and substitutions, what it
-// hands on: fitted to measured fronts (docs/measurements.md).
+// Its calls, its operations, its share of the factor (memory that has to be found, and then the
+// substitutions of some twenty steps), what it hands on (docs/measurements.md).
 double Front::seconds(double pivots, double below) {
   const double entries = pivots * below + pivots * pivots / 2;
-  return 2e-5 + 4e-11 * operations_of(pivots, below) + 1e-8 * entries + 1e-9 * below * below;
+  return 1e-5 + 4e-11 * operations_of(pivots, below) + 4e-8 * entries + 1e-9 * below * below;
 }
 
 Elimination::Elimination(const GroupedMatrix &matrix) : diagonal(diagonal_of(matrix)) {

@@ -272,6 +272,7 @@ void Multifrontal::factorise(const GroupedMatrix &matrix) {
   }
   const auto of_top = stacks(top_);
   const std::size_t of_members = subtrees_.empty() ? 0 : team_.members() * (most[0] + most[1]);
+  parallel::give_back_freed_memory();
   require_memory(factor_size_ + entries + of_members + of_top[0] + of_top[1]);
   factor_ = Pages(factor_size_);
   const Pages roots(entries);

@@ -1,5 +1,6 @@
 #include "parallel/available_memory.h"
 
+#include <malloc.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -99,6 +100,12 @@ void require_room_to_start() {
   const double one = 1;
   double product = 0;
   dgemm_("N", "N", &n, &n, &n, &one, &one, &n, &one, &n, &one, &product, &n);
+}
+
+void give_back_freed_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
 }
 
 }  // namespace tourmaline::parallel

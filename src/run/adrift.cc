@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include "case/holding.h"
 #include "output/place.h"
 #include "solve/leaning.h"
 #include "tourmaline/error.h"
@@ -18,14 +18,45 @@ Adrift<dim>::Adrift(const solve::Model<dim> &model)
 
 // Friction that slips holds, too: whether it lets go is for the balance of forces to say.
 template <int dim>
-bool Adrift<dim>::is_held(const solve::StepOutcome &outcome) const {
+std::vector<casefile::Support> Adrift<dim>::supports(const solve::StepOutcome &outcome) const {
   const auto rubs = [&](std::size_t node) {
     const auto first = dim * static_cast<Eigen::Index>(node);
     return outcome.status[node] == ContactStatus::stick ||
            !outcome.friction_forces.segment<dim>(first).isZero(0);
   };
-  return casefile::free_motions(model_.asked, solve::supports_of(model_, outcome.status, rubs))
-      .empty();
+  return solve::supports_of(model_, outcome.status, rubs);
+}
+
+// Round-off of a stiffness that has nothing there may hold the body against any load, and whether
+// it does differs from one way of summing to the next: loads are asked, not displacements.
+template <int dim>
+bool Adrift<dim>::works_on(const casefile::RigidMotion &motion,
+                           std::span<const double> loads) const {
+  constexpr double counts = 1e-5;  // of all that works: loads may balance to few digits
+  std::array<double, 2> work{};    // and the sum of its sizes
+  for (body::Node node = 0; node < model_.body.n_nodes(); ++node) {
+    if (!model_.sharing().counts(node))
+      continue;
+    const Vector3 moved = motion.at(model_.body.points()[node]);
+    for (int c = 0; c < dim; ++c) {
+      const double of_one = loads[body::unknown<dim>(node, c)] * moved[c];
+      work[0] += of_one;
+      work[1] += std::abs(of_one);
+    }
+  }
+  model_.sharing().sum(work);
+  return std::abs(work[0]) > counts * work[1];
+}
+
+template <int dim>
+bool Adrift<dim>::is_carried_off(const std::vector<casefile::Support> &held,
+                                 std::span<const double> loads) const {
+  const auto &[low, high] = model_.body.bounds();
+  const Vector3 middle{(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2};
+  const auto free = casefile::free_modes(model_.asked, held, middle,
+                                         output::largest_extent(model_.body.bounds()));
+  return std::any_of(free.begin(), free.end(),
+                     [&](const casefile::RigidMotion &motion) { return works_on(motion, loads); });
 }
 
 template <int dim>
@@ -52,10 +83,16 @@ void Adrift<dim>::require_near(int n, std::span<const double> state) const {
 }
 
 template <int dim>
-void Adrift<dim>::step(int n, const solve::StepOutcome &outcome, std::span<const double> state) {
-  if (!left_to_contact_.empty())
-    require_near(n, state);
-  if (!left_to_contact_.empty() && !is_held(outcome) && ++steps_ == 1)
+void Adrift<dim>::step(int n, const solve::StepOutcome &outcome, std::span<const double> loads,
+                       std::span<const double> state) {
+  if (left_to_contact_.empty())
+    return;
+  const std::vector<casefile::Support> held = supports(outcome);
+  const std::string free = casefile::free_motions_in_words(model_.asked, held);
+  if (!free.empty() && is_carried_off(held, loads))
+    solve::let_go(model_.time(n), free);
+  require_near(n, state);
+  if (!free.empty() && ++steps_ == 1)
     first_ = n;
 }
 

@@ -2,7 +2,10 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
+#include "case/free_modes.h"
+#include "case/holding.h"
 #include "output/checkpoint.h"
 #include "solve/model.h"
 #include "solve/route.h"
@@ -17,9 +20,11 @@ class Adrift {
   /// `model` outlives this.
   explicit Adrift(const solve::Model<dim> &model);
 
-  /// Of step n, which ends in `state`. Throws SolveError where that is so far away, in sizes of the
-  /// body, that neither deformation nor forces have digits left.
-  void step(int n, const solve::StepOutcome &outcome, std::span<const double> state);
+  /// Of step n, which ends in `state` under `loads`, by unknown. Throws SolveError where they work
+  /// on a motion that nothing resists, and where that state is so far away, in sizes of the body,
+  /// that neither deformation nor forces have digits left.
+  void step(int n, const solve::StepOutcome &outcome, std::span<const double> loads,
+            std::span<const double> state);
   /// Empty where the body was held in every step.
   std::string warning() const;
 
@@ -27,7 +32,10 @@ class Adrift {
   void restore(const output::SavedNumbers &numbers);
 
  private:
-  bool is_held(const solve::StepOutcome &outcome) const;
+  std::vector<casefile::Support> supports(const solve::StepOutcome &outcome) const;
+  bool works_on(const casefile::RigidMotion &motion, std::span<const double> loads) const;
+  bool is_carried_off(const std::vector<casefile::Support> &held,
+                      std::span<const double> loads) const;
   void require_near(int n, std::span<const double> state) const;
 
   const solve::Model<dim> &model_;

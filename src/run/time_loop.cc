@@ -131,7 +131,7 @@ void TimeLoop<dim>::begin() {
 template <int dim>
 void TimeLoop<dim>::book(TakenStep step) {
   account_.step(step.n, step.outcome, step.seconds);
-  adrift_.step(step.n, step.outcome, step.state);
+  adrift_.step(step.n, step.outcome, step.loads, step.state);
   const output::HistoryRow row = record(step);
   evolution_.see_balanced(step.n, recorder_->balanced());
   highlights_.see(row);

@@ -79,6 +79,18 @@ bool HeldBounds::just_touches(std::size_t node) const {
          held_[row] < whole_[row];
 }
 
+// Where many nodes just touch and answer to one another, mixing may go round for ever. Calm steps
+// then come near, from where it settles.
+VectorXd HeldBounds::mixed(const VectorXd &asked) {
+  constexpr int quick = 20, calm = 30;
+  const int phase = rounds_++ % (quick + calm);
+  if (phase == 0)
+    anderson_ = {};
+  if (phase == quick)
+    calm_ = {};
+  return phase < quick ? anderson_.next(held_, asked) : calm_.next(held_, asked);
+}
+
 bool HeldBounds::settle(const std::vector<State> &found, double tolerance) {
   VectorXd asked(held_.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -91,7 +103,7 @@ bool HeldBounds::settle(const std::vector<State> &found, double tolerance) {
   const double change = (asked - held_).lpNorm<Eigen::Infinity>();
   if (change <= tolerance || stall_.see(relative_to(change, asked.lpNorm<Eigen::Infinity>())))
     return true;
-  held_ = anderson_.next(held_, asked).cwiseMax(0);
+  held_ = mixed(asked).cwiseMax(0);
   for (std::size_t i = 0; i < found.size(); ++i) {
     const auto row = static_cast<Index>(i);
     held_[row] = bounds_[i] ? held_[row] : std::min(held_[row], whole_[row]);

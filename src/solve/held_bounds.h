@@ -6,6 +6,7 @@
 #include "contact/friction_bound.h"
 #include "contact/point_law.h"
 #include "solve/anderson.h"
+#include "solve/calm_steps.h"
 #include "solve/stall.h"
 
 namespace tourmaline::solve {
@@ -44,6 +45,7 @@ class HeldBounds {
  private:
   double whole_bound(std::size_t node, const State &found) const;
   double asked_for(std::size_t node, const State &found) const;
+  Eigen::VectorXd mixed(const Eigen::VectorXd &asked);
 
   std::vector<std::shared_ptr<const contact::FrictionBound>> bounds_;
   std::vector<contact::PointLaw> own_;
@@ -51,7 +53,9 @@ class HeldBounds {
   Eigen::VectorXd held_, whole_;  // bounds, and what they would be of closed nodes [N/m^2]
   std::vector<bool> is_closed_;
   std::vector<int> turns_;  // how often a node has opened or closed
+  int rounds_ = 0;
   Anderson anderson_;
+  CalmSteps calm_;
   Stall stall_;
 };
 

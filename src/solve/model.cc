@@ -4,6 +4,7 @@
 
 #include "body/conductors.h"
 #include "mesh/distribute.h"
+#include "parallel/available_memory.h"
 #include "parallel/ranks.h"
 #include "solve/held_by_mass.h"
 #include "stopwatch.h"
@@ -52,6 +53,7 @@ struct Model<dim>::Built {
         body(mesh::shared_out<dim>(make_mesh), asked.mesh.degree, body::geometry_of(asked)) {
     if (shares_nodes && parallel::n_ranks() > 1)
       body.share_nodes(body::nodes_with_conditions(body, asked));
+    parallel::give_back_freed_memory();  // the mesh
     mesh_seconds = watch.lap();
   }
 

@@ -55,7 +55,7 @@ std::vector<double> loads(const std::array<unsigned int, dim + 1> &order, int de
   skin.on = {"skin"};
   skin.traction = casefile::FormulaVector(dim, casefile::Formula(density));
   asked.boundaries.push_back(skin);
-  const Discretisation<dim> body(std::move(mesh), degree);
+  const Discretisation<dim> body(mesh, degree);
   const Loads<dim> all(body, asked, 1, 300);
   std::vector<double> right_side(body.n_nodes() * Fields<dim>::count, 0.);
   all.integrate(1, right_side);

@@ -412,7 +412,14 @@ friction = {{ law = "tresca", bound = {} }}
             body(thin,
                  R"({ on = "top", displacement = ["-1.445e-7*t", "-2.283e-7*sin(1.3*t)*x/0.001"], )"
                  R"(potential = 0, temperature = "0.7007*sin(2.83*t)*x/0.001" })",
-                 "2.023e6")}}) {
+                 "2.023e6")},
+        // The bounds answer to one another more strongly than mixing rounds can follow.
+        Asked{"sheared and tilted",
+              {"time.steps=1"},
+              body(thin,
+                   R"({ on = "top", displacement = ["-1.2e-7*t", "-2.406e-7*sin(1.3*t)*x/0.001"], )"
+                   R"(potential = 0, temperature = "-0.1638*sin(2.83*t)*x/0.001" })",
+                   "1.797e6")}}) {
     SCOPED_TRACE(asked.name);
     const RunCase condensed = asked.run({});
     const Table contact = condensed.contact();
