@@ -45,6 +45,18 @@ MatrixXd resistance(const std::vector<RigidMotion> &motions, const std::vector<S
   return springs;
 }
 
+// Spans the same as these orthonormal columns, and has as much as can be of each by itself.
+MatrixXd along_axes(const MatrixXd &columns) {
+  MatrixXd left = columns * columns.transpose(), axes(columns.rows(), columns.cols());
+  for (Eigen::Index i = 0; i < columns.cols(); ++i) {
+    Eigen::Index most = 0;
+    left.diagonal().maxCoeff(&most);
+    axes.col(i) = left.col(most).normalized();
+    left -= axes.col(i) * (axes.col(i).transpose() * left);
+  }
+  return axes;
+}
+
 RigidMotion combined(const std::vector<RigidMotion> &motions, const Eigen::VectorXd &parts) {
   RigidMotion sum{{}, {}, motions.front().centre};
   for (std::size_t i = 0; i < motions.size(); ++i)
@@ -69,10 +81,11 @@ std::vector<RigidMotion> free_modes(const Case &asked, const std::vector<Support
   const std::vector<RigidMotion> all = rigid_motions(asked, centre, size);
   const auto springs = dense::spectrum(resistance(all, supports));
   const double strongest = springs.values.maxCoeff();
+  const Eigen::Index n = (springs.values.array() <= tolerance * strongest).count();
+  const MatrixXd axes = along_axes(springs.vectors.leftCols(n));
   std::vector<RigidMotion> free;
-  for (Eigen::Index i = 0; i < springs.values.size(); ++i)
-    if (springs.values[i] <= tolerance * strongest)
-      free.push_back(combined(all, springs.vectors.col(i)));
+  for (Eigen::Index i = 0; i < n; ++i)
+    free.push_back(combined(all, axes.col(i)));
   return free;
 }
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
 
 #include "output/place.h"
 #include "solve/leaning.h"
@@ -27,36 +27,58 @@ std::vector<casefile::Support> Adrift<dim>::supports(const solve::StepOutcome &o
   return solve::supports_of(model_, outcome.status, rubs);
 }
 
+template <int dim>
+solve::RigidWork Adrift<dim>::work_of(solve::RigidWork work, std::span<const double> loads) const {
+  for (body::Node node = 0; node < model_.body.n_nodes(); ++node)
+    if (model_.sharing().counts(node))
+      work.add(model_.body.points()[node], &loads[body::unknown<dim>(node, 0)], dim);
+  work.sum(model_.sharing());
+  return work;
+}
+
 // Round-off of a stiffness that has nothing there may hold the body against any load, and whether
 // it does differs from one way of summing to the next: loads are asked, not displacements.
 template <int dim>
-bool Adrift<dim>::works_on(const casefile::RigidMotion &motion,
-                           std::span<const double> loads) const {
-  constexpr double counts = 1e-5;  // of all that works: loads may balance to few digits
-  std::array<double, 2> work{};    // and the sum of its sizes
-  for (body::Node node = 0; node < model_.body.n_nodes(); ++node) {
-    if (!model_.sharing().counts(node))
-      continue;
-    const Vector3 moved = motion.at(model_.body.points()[node]);
-    for (int c = 0; c < dim; ++c) {
-      const double of_one = loads[body::unknown<dim>(node, c)] * moved[c];
-      work[0] += of_one;
-      work[1] += std::abs(of_one);
-    }
-  }
-  model_.sharing().sum(work);
-  return std::abs(work[0]) > counts * work[1];
+void Adrift<dim>::require_held(double time, const std::vector<casefile::Support> &held,
+                               std::span<const double> loads) const {
+  using solve::RigidWork;
+  const RigidWork work = work_of(RigidWork(solve::free_modes_of(model_, held)), loads);
+  if (!(work.imbalance(RigidWork::summed) <= RigidWork::unbalanced))
+    solve::let_go(time, casefile::free_motions_in_words(model_.asked, held));
 }
 
+// Of the forces at a body that is where its contact holds it [N].
 template <int dim>
-bool Adrift<dim>::is_carried_off(const std::vector<casefile::Support> &held,
-                                 std::span<const double> loads) const {
-  const auto &[low, high] = model_.body.bounds();
-  const Vector3 middle{(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2};
-  const auto free = casefile::free_modes(model_.asked, held, middle,
-                                         output::largest_extent(model_.body.bounds()));
-  return std::any_of(free.begin(), free.end(),
-                     [&](const casefile::RigidMotion &motion) { return works_on(motion, loads); });
+double Adrift<dim>::round_off(int n) const {
+  const std::vector<double> diagonal = model_.op.diagonal(model_.step);
+  double stiffness = 0;
+  for (std::size_t i = 0; i < diagonal.size(); ++i)
+    if (body::field_of<dim>(i) == 0 && model_.counts(i))
+      stiffness += diagonal[i];
+  return std::numeric_limits<double>::epsilon() * model_.sharing().sum(stiffness) *
+         solve::held_motion(model_, model_.time(n));
+}
+
+// Nor does what holds one direction hide what another lacks.
+template <int dim>
+void Adrift<dim>::require_balanced(int n, const solve::StepOutcome &outcome,
+                                   std::span<const double> loads) const {
+  using solve::RigidWork;
+  RigidWork work = work_of(RigidWork::left_to_contact(model_), loads);
+  for (std::size_t i = 0; i < model_.interface.size(); ++i)
+    work.add(model_.interface[i].point, &outcome.contact_forces[dim * static_cast<Eigen::Index>(i)],
+             dim);
+  const double lacks = work.imbalance(RigidWork::uncertain, round_off(n));
+  if (lacks <= RigidWork::unbalanced)
+    return;
+  throw SolveError(fmt::format(
+      "step {}, t = {:g} s: loads and contact forces differ by {:.1e} of their size along what "
+      "nothing but contact keeps the body from, {}: under these loads the body slides or leaves, "
+      "or no equilibrium was found that holds it. Nothing of this step was written. Prescribe "
+      "further components of `displacement`, press the body to the foundation, let inertia or "
+      "damping resist (time.regime = \"dynamic\"){}",
+      n, model_.time(n), lacks, left_to_contact_,
+      model_.asked.solver.method == "condensed" ? "" : ", or take solver.method = \"condensed\""));
 }
 
 template <int dim>
@@ -88,11 +110,12 @@ void Adrift<dim>::step(int n, const solve::StepOutcome &outcome, std::span<const
   if (left_to_contact_.empty())
     return;
   const std::vector<casefile::Support> held = supports(outcome);
-  const std::string free = casefile::free_motions_in_words(model_.asked, held);
-  if (!free.empty() && is_carried_off(held, loads))
-    solve::let_go(model_.time(n), free);
+  const bool is_held = casefile::free_motions(model_.asked, held).empty();
+  if (!is_held)
+    require_held(model_.time(n), held, loads);
   require_near(n, state);
-  if (!free.empty() && ++steps_ == 1)
+  require_balanced(n, outcome, loads);
+  if (!is_held && ++steps_ == 1)
     first_ = n;
 }
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "case/free_modes.h"
 #include "case/holding.h"
 #include "output/checkpoint.h"
 #include "solve/model.h"
+#include "solve/rigid_work.h"
 #include "solve/route.h"
 
 namespace tourmaline::run {
@@ -33,9 +33,12 @@ class Adrift {
 
  private:
   std::vector<casefile::Support> supports(const solve::StepOutcome &outcome) const;
-  bool works_on(const casefile::RigidMotion &motion, std::span<const double> loads) const;
-  bool is_carried_off(const std::vector<casefile::Support> &held,
-                      std::span<const double> loads) const;
+  solve::RigidWork work_of(solve::RigidWork work, std::span<const double> loads) const;
+  void require_held(double time, const std::vector<casefile::Support> &held,
+                    std::span<const double> loads) const;
+  double round_off(int n) const;
+  void require_balanced(int n, const solve::StepOutcome &outcome,
+                        std::span<const double> loads) const;
   void require_near(int n, std::span<const double> state) const;
 
   const solve::Model<dim> &model_;

@@ -17,6 +17,7 @@
 #include "solve/judgement.h"
 #include "solve/leaning.h"
 #include "solve/leaning_programme.h"
+#include "solve/rigid_work.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::solve {
@@ -171,14 +172,15 @@ CoupledSolution CondensedContact<dim>::solve_with_exchange(double time, const Ve
   if (!left_to_contact_.empty() &&
       (!solution.interface.converged || is_carried_off(programme.whole, solution.interface)))
     solution = solve_exchanging(programme, from, settings(&whole_factor_), solve_held, false);
-  require_solved(time, programme.whole, solution.interface);
+  require_solved(time, s, programme.whole, solution.interface);
   return solution;
 }
 
 template <int dim>
-void CondensedContact<dim>::require_solved(double time, const InterfaceProgramme &programme,
+void CondensedContact<dim>::require_solved(double time, const VectorXd &s,
+                                           const InterfaceProgramme &programme,
                                            const InterfaceSolution &solution) const {
-  if (is_conclusive(model_, solution) && is_lost(programme, solution)) {
+  if (is_conclusive(model_, solution) && is_lost(time, s, programme, solution)) {
     const std::string unheld = unheld_motions(model_, nodes_, solution.status);
     let_go(time, unheld.empty() ? left_to_contact_ : unheld);
   }
@@ -198,7 +200,7 @@ CoupledSolution CondensedContact<dim>::solve_contact(double time, const VectorXd
   const InterfaceProgramme programme{slip_stiffness_, force, nodes_.points(), scale};
   CoupledSolution solution =
       solve_programme(programme, unless_unloaded(start, force), settings(&factor_));
-  require_solved(time, programme, solution.interface);
+  require_solved(time, s, programme, solution.interface);
   return solution;
 }
 
@@ -223,10 +225,24 @@ VectorXd CondensedContact<dim>::sharpen(double time, const VectorXd &s, CoupledS
   return c;
 }
 
+// A body that nothing works on goes with its foundation, or stands where round-off puts it: it is
+// not lost for that its forces are all round-off.
 template <int dim>
-bool CondensedContact<dim>::is_lost(const InterfaceProgramme &programme,
+bool CondensedContact<dim>::is_lost(double time, const VectorXd &s,
+                                    const InterfaceProgramme &programme,
                                     const InterfaceSolution &solution) const {
-  return !left_to_contact_.empty() && is_carried_off(programme, solution);
+  if (left_to_contact_.empty() || !is_carried_off(programme, solution))
+    return false;
+  const Eigen::SparseMatrix<double> &directions = nodes_.directions();
+  const VectorXd forces =
+      s.head(directions.rows()) - directions * solution.force.head(directions.cols());
+  RigidWork work = RigidWork::left_to_contact(model_);
+  for (std::size_t i = 0; i < model_.interface.size(); ++i)
+    work.add(model_.interface[i].point,
+             forces.template segment<dim>(dim * static_cast<Index>(i)).eval());
+  const double round_off = std::numeric_limits<double>::epsilon() *
+                           slip_stiffness_.diagonal().sum() * held_motion(model_, time);
+  return !(work.imbalance(RigidWork::uncertain, round_off) <= RigidWork::unbalanced);
 }
 
 template <int dim>

@@ -61,12 +61,13 @@ class CondensedContact {
                                   const InterfaceSettings &settings) const;
   CoupledSolution solve_with_exchange(double time, const Eigen::VectorXd &s,
                                       const Eigen::VectorXd &start);
-  void require_solved(double time, const InterfaceProgramme &programme,
+  void require_solved(double time, const Eigen::VectorXd &s, const InterfaceProgramme &programme,
                       const InterfaceSolution &solution) const;
   CoupledSolution solve_contact(double time, const Eigen::VectorXd &s,
                                 const Eigen::VectorXd &start);
   Eigen::VectorXd sharpen(double time, const Eigen::VectorXd &s, CoupledSolution &solution);
-  bool is_lost(const InterfaceProgramme &programme, const InterfaceSolution &solution) const;
+  bool is_lost(double time, const Eigen::VectorXd &s, const InterfaceProgramme &programme,
+               const InterfaceSolution &solution) const;
   [[noreturn]] void give_up(double time, const InterfaceSolution &solution) const;
   void advance_on_first(double time, const Eigen::VectorXd &s, std::span<const double> before,
                         std::span<const double> state, Eigen::VectorXd &c, StepOutcome &outcome);

@@ -83,7 +83,7 @@ IterativeRoute<dim>::IterativeRoute(const Model<dim> &model)
     : model_(model),
       is_prescribed_(body::mask_of(model.prescribed, model.n_unknowns())),
       unknowns_(free_unknowns(model, is_prescribed_)),
-      left_to_contact_(casefile::left_to_contact(model.asked)),
+      left_to_contact_(resisted_by_contact_alone(model)),
       contact_tolerance_(
           10 * std::max(model.asked.solver.tolerance, model.asked.solver.linear_tolerance)),
       body_(model, is_prescribed_, so_far_),

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "output/place.h"
 #include "tourmaline/error.h"
 
 namespace tourmaline::solve {
@@ -37,6 +38,17 @@ std::vector<casefile::Support> supports_of(const Model<dim> &model,
       add(at.point, Vector::Unit(c));
   }
   return supports;
+}
+
+template <int dim>
+std::vector<casefile::RigidMotion> free_modes_of(const Model<dim> &model,
+                                                 const std::vector<casefile::Support> &supports) {
+  const auto &[low, high] = model.body.bounds();
+  Vector3 middle{};
+  for (int c = 0; c < dim; ++c)
+    middle[c] = (low[c] + high[c]) / 2;
+  return casefile::free_modes(model.asked, supports, middle,
+                              output::largest_extent(model.body.bounds()));
 }
 
 template <int dim>
@@ -92,6 +104,10 @@ template std::string resisted_by_contact_alone(const Model<3> &);
 template std::vector<casefile::Support> supports_of(const Model<2> &,
                                                     const std::vector<ContactStatus> &,
                                                     const std::function<bool(std::size_t)> &);
+template std::vector<casefile::RigidMotion> free_modes_of(const Model<2> &,
+                                                          const std::vector<casefile::Support> &);
+template std::vector<casefile::RigidMotion> free_modes_of(const Model<3> &,
+                                                          const std::vector<casefile::Support> &);
 template std::string unheld_motions(const Model<2> &, const std::vector<ContactStatus> &);
 template std::vector<casefile::Support> supports_of(const Model<3> &,
                                                     const std::vector<ContactStatus> &,

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "case/free_modes.h"
 #include "case/holding.h"
 #include "solve/contact_nodes.h"
 #include "solve/interface_newton.h"
@@ -23,6 +24,11 @@ template <int dim>
 std::vector<casefile::Support> supports_of(const Model<dim> &model,
                                            const std::vector<ContactStatus> &status,
                                            const std::function<bool(std::size_t node)> &rubs);
+
+/// The rigid motions that these supports leave free, about the middle of the body.
+template <int dim>
+std::vector<casefile::RigidMotion> free_modes_of(const Model<dim> &model,
+                                                 const std::vector<casefile::Support> &supports);
 
 /// The rigid motions that are left where the contact nodes that stick or touch, by their `status`,
 /// are all that holds the body beside its supports, as a phrase; empty: none.

@@ -18,7 +18,7 @@ class OnItsFoundation : public testing::Test {
   static solve::StepOutcome with(ContactStatus left, ContactStatus right) {
     solve::StepOutcome outcome;
     outcome.status = {left, right};
-    outcome.friction_forces = Eigen::VectorXd::Zero(4);
+    outcome.friction_forces = outcome.contact_forces = Eigen::VectorXd::Zero(4);
     return outcome;
   }
 
@@ -68,8 +68,19 @@ TEST_F(OnItsFoundation, ItIsNoSolutionWhereALoadWorksOnAMotionThatNothingResists
   const auto lifted = with(ContactStatus::open, ContactStatus::open);
   adrift.step(1, lifted, pulled(1, {1, -1, 0.5, -0.5}), near);
   adrift.step(2, lifted, pulled(0, {1, 1, 1, 1}), near);
-  adrift.step(3, with(ContactStatus::slip, ContactStatus::open), pulled(1, {1}), near);
   EXPECT_THROW(adrift.step(4, lifted, pulled(1, {1, -1, 0.5, -0.4}), near), SolveError);
+}
+
+TEST_F(OnItsFoundation, ItIsNoSolutionWhereContactForcesDoNotBalanceTheLoads) {
+  solve::StepOutcome pressed = with(ContactStatus::slip, ContactStatus::slip);
+  std::vector<double> loads = none;
+  loads[body::unknown<2>(3, 0)] = 1000;
+  loads[body::unknown<2>(3, 1)] = -1;
+  pressed.contact_forces[1] = 0.25;
+  pressed.contact_forces[3] = 0.75;
+  adrift.step(1, pressed, loads, near);
+  pressed.contact_forces[3] = 0.7;
+  EXPECT_THROW(adrift.step(2, pressed, loads, near), SolveError);
 }
 
 TEST_F(OnItsFoundation, ItIsNotAdriftWhereItsMassDampingHoldsIt) {

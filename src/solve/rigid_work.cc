@@ -1,0 +1,64 @@
+#include "solve/rigid_work.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "larger.h"
+#include "output/place.h"
+#include "solve/leaning.h"
+
+namespace tourmaline::solve {
+
+RigidWork::RigidWork(std::vector<casefile::RigidMotion> motions)
+    : motions_(std::move(motions)), sums_(2 * motions_.size() + 1, 0.) {}
+
+template <int dim>
+RigidWork RigidWork::left_to_contact(const Model<dim> &model) {
+  const std::vector<ContactStatus> open(model.interface.size(), ContactStatus::open);
+  return RigidWork(
+      free_modes_of(model, supports_of<dim>(model, open, [](std::size_t) { return false; })));
+}
+
+void RigidWork::add(const Vector3 &point, const double *force, int size) {
+  for (std::size_t m = 0; m < motions_.size(); ++m) {
+    const Vector3 moved = motions_[m].at(point);
+    double work = 0;
+    for (int c = 0; c < size; ++c)
+      work += force[c] * moved[c];
+    sums_[2 * m] += work;
+    sums_[2 * m + 1] += std::abs(work);
+  }
+  double square = 0;
+  for (int c = 0; c < size; ++c)
+    square += force[c] * force[c];
+  sums_.back() += std::sqrt(square);
+}
+
+void RigidWork::sum(const body::NodeSharing &sharing) {
+  sharing.sum(sums_);
+}
+
+double RigidWork::imbalance(double beside, double round_off) const {
+  double most = 0;
+  for (std::size_t m = 0; m < motions_.size(); ++m)
+    most = larger(most, relative_to(std::max(0., std::abs(sums_[2 * m]) - round_off),
+                                    sums_[2 * m + 1] + beside * sums_.back()));
+  return most;
+}
+
+template <int dim>
+double held_motion(const Model<dim> &model, double time) {
+  constexpr double small = 1e-2;
+  double gone = 0;
+  for (const contact::InterfaceNode<dim> &at : model.interface)
+    gone = std::max(gone, model.foundation(at, time).norm() + std::abs(model.reach(at, time)));
+  return small * output::largest_extent(model.body.bounds()) + gone;
+}
+
+template RigidWork RigidWork::left_to_contact(const Model<2> &);
+template RigidWork RigidWork::left_to_contact(const Model<3> &);
+template double held_motion(const Model<2> &, double);
+template double held_motion(const Model<3> &, double);
+
+}  // namespace tourmaline::solve

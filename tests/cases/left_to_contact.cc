@@ -1,0 +1,101 @@
+// Label: analytic. Bodies that nothing but contact keeps from a rigid motion: whether loads carry
+// them off is for forces to say, not for the round-off of their stiffness.
+
+#include <fmt/format.h>
+
+#include "contact_status.h"
+#include "read_table.h"
+#include "run_case.h"
+#include "tourmaline/error.h"
+
+namespace tourmaline::verified {
+namespace {
+
+constexpr const char *monolithic = "solver.method=monolithic", *iterative = "solver.body=iterative";
+
+std::string block(const std::string &rest) {
+  return R"toml(
+mesh.box = { min = [0, 0], max = [1, 1], cells = [6, 6], cell = "quadrilateral" }
+model = { thermal = false, electric = false }
+material = { young = 1e9, poisson = 0.3, symmetry = "isotropic", density = 1000 }
+time = { end = 1, steps = 10 }
+)toml" + rest;
+}
+
+// 10 N/m of friction, and a thousandth more or less of them along the foundation.
+std::string pushed(const char *normal, double load) {
+  return block(fmt::format(R"toml(
+load.force = [{}, -1000]
+boundary = []
+[contact]
+on = "bottom"
+normal = "{}"
+friction = {{ law = "tresca", bound = 10 }}
+)toml",
+                           load, normal));
+}
+
+TEST(LeftToContact, LoadsBeyondWhatFrictionBearsAreRefusedOnEveryRoute) {
+  for (const char *normal : {"unilateral", "bilateral"})
+    for (const double load : {10.01, 10.001})
+      for (const char *route : {"solver.body=direct", monolithic, iterative})
+        EXPECT_THROW(run_text(pushed(normal, load), {route}), SolveError) << normal << " " << load;
+}
+
+// Where the monolithic route does not find what holds the body, it says so.
+TEST(LeftToContact, LoadsThatFrictionBearsMoveTheBodyNoFurtherThanItDeforms) {
+  for (const char *normal : {"unilateral", "bilateral"})
+    for (const double load : {9.9, 9.99})
+      EXPECT_LT(largest(run_text(pushed(normal, load)).history(), "max_displacement"), 1e-6);
+  EXPECT_THROW(run_text(pushed("unilateral", 9.99), {monolithic}), SolveError);
+}
+
+TEST(LeftToContact, ABodyThatIsUnloadedIsPressedAgain) {
+  for (const char *normal : {"'unilateral'", "{ law = 'compliance', coefficient = 1e10 }"}) {
+    const std::string text = block(fmt::format(R"toml(
+boundary = [
+  {{ on = "left", displacement = [0, "free"] }},
+  {{ on = "top", traction = [0, "t < 0.25 ? -1000 : (t < 0.65 ? 0 : -1000)"] }} ]
+[contact]
+on = "bottom"
+normal = {}
+)toml",
+                                               normal));
+    for (const char *route : {"solver.body=direct", monolithic}) {
+      const std::vector<double> pressures =
+          run_text(text, {route}).history().numbers("max_pressure");
+      for (std::size_t n = 0; n < pressures.size(); ++n)
+        EXPECT_NEAR(pressures[n], n >= 2 && n < 6 ? 0 : 1000, 1e-3) << normal << " " << n;
+    }
+  }
+}
+
+TEST(LeftToContact, AFoundationLiftsABodyWithoutLoads) {
+  const RunCase run = run_text(block(R"toml(
+boundary = [ { on = "left", displacement = [0, "free"] } ]
+[contact]
+on = "bottom"
+normal = "unilateral"
+foundation_displacement = [0, "0.01*t"]
+)toml"));
+  for (const double moved : run.nodes().numbers("u_y"))
+    EXPECT_NEAR(moved, 0.01, 1e-4);
+  EXPECT_LT(largest(run.history(), "max_pressure"), 1e-3);
+}
+
+// The density of 1000 kg/m^3 at 1/s, that is, bears 1000 N at 1 m/s.
+TEST(LeftToContact, MassDampingHoldsABodyOnEveryRoute) {
+  const std::string text = block(R"toml(
+boundary = [ { on = "left", displacement = [0, "free"] }, { on = "top", traction = [0, 1e3] } ]
+[contact]
+on = "bottom"
+normal = "unilateral"
+)toml");
+  for (const char *route : {"solver.body=direct", monolithic, iterative})
+    EXPECT_NEAR(
+        largest(run_text(text, {"material.mass_damping=1", route}).history(), "max_displacement"),
+        1, 1e-5);
+}
+
+}  // namespace
+}  // namespace tourmaline::verified
