@@ -45,7 +45,8 @@ MatrixXd resistance(const std::vector<RigidMotion> &motions, const std::vector<S
   return springs;
 }
 
-// Spans the same as these orthonormal columns, and has as much as can be of each by itself.
+// Spans the same as these orthonormal columns, single motions where it can: columns of the
+// projector on them, by its largest pivots.
 MatrixXd along_axes(const MatrixXd &columns) {
   MatrixXd left = columns * columns.transpose(), axes(columns.rows(), columns.cols());
   for (Eigen::Index i = 0; i < columns.cols(); ++i) {
@@ -77,7 +78,7 @@ std::array<double, 3> RigidMotion::at(const std::array<double, 3> &point) const 
 
 std::vector<RigidMotion> free_modes(const Case &asked, const std::vector<Support> &supports,
                                     const std::array<double, 3> &centre, double size) {
-  constexpr double tolerance = 1e-14;  // of squares of the supports' entries
+  constexpr double tolerance = 1e-14;  // of squares, of which no more digits are certain
   const std::vector<RigidMotion> all = rigid_motions(asked, centre, size);
   const auto springs = dense::spectrum(resistance(all, supports));
   const double strongest = springs.values.maxCoeff();

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "output/place.h"
 #include "solve/leaning.h"
@@ -49,17 +48,24 @@ void Adrift<dim>::require_held(double time, const std::vector<casefile::Support>
 
 // Of the forces at a body that is where its contact holds it [N].
 template <int dim>
-double Adrift<dim>::round_off(int n) const {
+double Adrift<dim>::round_off(int n, const solve::StepOutcome &outcome) const {
   const std::vector<double> diagonal = model_.op.diagonal(model_.step);
-  double stiffness = 0;
+  double squares = 0;
   for (std::size_t i = 0; i < diagonal.size(); ++i)
     if (body::field_of<dim>(i) == 0 && model_.counts(i))
-      stiffness += diagonal[i];
-  return std::numeric_limits<double>::epsilon() * model_.sharing().sum(stiffness) *
-         solve::held_motion(model_, model_.time(n));
+      squares += diagonal[i] * diagonal[i];
+  return solve::RigidWork::round_off(std::sqrt(model_.sharing().sum(squares)),
+                                     solve::held_motion(model_, model_.time(n), outcome.status));
 }
 
-// Nor does what holds one direction hide what another lacks.
+// Solutions by iteration need not be known to more digits than were asked for.
+double largest_tolerance(const casefile::SolverCase &asked) {
+  constexpr double several = 10;
+  return std::max(solve::RigidWork::unbalanced,
+                  several * std::max(asked.tolerance, asked.linear_tolerance));
+}
+
+// What holds one direction does not hide what another lacks.
 template <int dim>
 void Adrift<dim>::require_balanced(int n, const solve::StepOutcome &outcome,
                                    std::span<const double> loads) const {
@@ -68,8 +74,11 @@ void Adrift<dim>::require_balanced(int n, const solve::StepOutcome &outcome,
   for (std::size_t i = 0; i < model_.interface.size(); ++i)
     work.add(model_.interface[i].point, &outcome.contact_forces[dim * static_cast<Eigen::Index>(i)],
              dim);
-  const double lacks = work.imbalance(RigidWork::uncertain, round_off(n));
-  if (lacks <= RigidWork::unbalanced)
+  const double tolerance = largest_tolerance(model_.asked.solver);
+  if (work.imbalance(RigidWork::uncertain) <= tolerance)
+    return;
+  const double lacks = work.imbalance(RigidWork::uncertain, round_off(n, outcome));
+  if (lacks <= tolerance)
     return;
   throw SolveError(fmt::format(
       "step {}, t = {:g} s: loads and contact forces differ by {:.1e} of their size along what "
@@ -124,8 +133,9 @@ std::string Adrift<dim>::warning() const {
   if (steps_ == 0)
     return "";
   return fmt::format(
-      "nothing held the body in {}: its contact had let go, and no load worked on all that only "
-      "contact keeps it from, {}. Where it stands along such a motion is arbitrary there; "
+      "nothing held the body in {}: its contact had let go, and no load worked on what was free of "
+      "that which only contact keeps it from, {}. Where it stands along such a motion is arbitrary "
+      "there; "
       "deformation, forces and the other fields are not. Prescribe further components of "
       "`displacement`, or press the body to the foundation",
       steps_ == 1 ? fmt::format("step {}", first_)

@@ -21,8 +21,9 @@ class Adrift {
   explicit Adrift(const solve::Model<dim> &model);
 
   /// Of step n, which ends in `state` under `loads`, by unknown. Throws SolveError where they work
-  /// on a motion that nothing resists, and where that state is so far away, in sizes of the body,
-  /// that neither deformation nor forces have digits left.
+  /// on a motion that nothing resists, or contact forces do not balance them along one that nothing
+  /// else resists, and where that state is so far away, in sizes of the body, that neither
+  /// deformation nor forces have digits left.
   void step(int n, const solve::StepOutcome &outcome, std::span<const double> loads,
             std::span<const double> state);
   /// Empty where the body was held in every step.
@@ -36,7 +37,7 @@ class Adrift {
   solve::RigidWork work_of(solve::RigidWork work, std::span<const double> loads) const;
   void require_held(double time, const std::vector<casefile::Support> &held,
                     std::span<const double> loads) const;
-  double round_off(int n) const;
+  double round_off(int n, const solve::StepOutcome &outcome) const;
   void require_balanced(int n, const solve::StepOutcome &outcome,
                         std::span<const double> loads) const;
   void require_near(int n, std::span<const double> state) const;

@@ -70,6 +70,7 @@ CondensedContact<dim>::CondensedContact(const Model<dim> &model, const Connected
     : model_(model),
       body_(body),
       left_to_contact_(casefile::left_to_contact(model.asked)),
+      is_alone_(!resisted_by_contact_alone(model).empty()),
       is_prescribed_(body::mask_of(model.prescribed, model.n_unknowns())),
       nodes_(model, is_prescribed_),
       exchange_(model) {
@@ -225,23 +226,23 @@ VectorXd CondensedContact<dim>::sharpen(double time, const VectorXd &s, CoupledS
   return c;
 }
 
-// A body that nothing works on goes with its foundation, or stands where round-off puts it: it is
-// not lost for that its forces are all round-off.
+// A body that nothing works on goes with its foundation, or stands where round-off puts it; that
+// all its forces are round-off does not mean that it is lost.
 template <int dim>
 bool CondensedContact<dim>::is_lost(double time, const VectorXd &s,
                                     const InterfaceProgramme &programme,
                                     const InterfaceSolution &solution) const {
-  if (left_to_contact_.empty() || !is_carried_off(programme, solution))
+  if (!is_alone_ || !is_carried_off(programme, solution))
     return false;
   const Eigen::SparseMatrix<double> &directions = nodes_.directions();
   const VectorXd forces =
       s.head(directions.rows()) - directions * solution.force.head(directions.cols());
   RigidWork work = RigidWork::left_to_contact(model_);
   for (std::size_t i = 0; i < model_.interface.size(); ++i)
-    work.add(model_.interface[i].point,
-             forces.template segment<dim>(dim * static_cast<Index>(i)).eval());
-  const double round_off = std::numeric_limits<double>::epsilon() *
-                           slip_stiffness_.diagonal().sum() * held_motion(model_, time);
+    work.add(model_.interface[i].point, &forces[dim * static_cast<Index>(i)], dim);
+  const double round_off = RigidWork::round_off(
+      slip_stiffness_.diagonal().norm(),
+      held_motion(model_, time, status_by_node(model_, nodes_, solution.status)));
   return !(work.imbalance(RigidWork::uncertain, round_off) <= RigidWork::unbalanced);
 }
 

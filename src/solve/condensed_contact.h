@@ -75,6 +75,7 @@ class CondensedContact {
   const Model<dim> &model_;
   const ConnectedBody<dim> &body_;
   std::string left_to_contact_;  // rigid motions
+  bool is_alone_;                // the contact, in resisting them: there is no damping
   std::vector<bool> is_prescribed_;
   ContactNodes<dim> nodes_;
   ExchangeNodes<dim> exchange_;

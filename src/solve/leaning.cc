@@ -58,8 +58,8 @@ std::string unheld_motions(const Model<dim> &model, const std::vector<ContactSta
 }
 
 template <int dim>
-std::string unheld_motions(const Model<dim> &model, const ContactNodes<dim> &contact,
-                           const std::vector<ContactStatus> &status) {
+std::vector<ContactStatus> status_by_node(const Model<dim> &model, const ContactNodes<dim> &contact,
+                                          const std::vector<ContactStatus> &status) {
   std::vector<ContactStatus> by_node(model.interface.size(), ContactStatus::slip);
   const std::vector<ContactPoint> &points = contact.points();
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -69,7 +69,13 @@ std::string unheld_motions(const Model<dim> &model, const ContactNodes<dim> &con
     if (decides)
       of_node = status[i];
   }
-  return unheld_motions(model, by_node);
+  return by_node;
+}
+
+template <int dim>
+std::string unheld_motions(const Model<dim> &model, const ContactNodes<dim> &contact,
+                           const std::vector<ContactStatus> &status) {
+  return unheld_motions(model, status_by_node(model, contact, status));
 }
 
 template <int dim>
@@ -113,6 +119,10 @@ template std::vector<casefile::Support> supports_of(const Model<3> &,
                                                     const std::vector<ContactStatus> &,
                                                     const std::function<bool(std::size_t)> &);
 template std::string unheld_motions(const Model<3> &, const std::vector<ContactStatus> &);
+template std::vector<ContactStatus> status_by_node(const Model<2> &, const ContactNodes<2> &,
+                                                   const std::vector<ContactStatus> &);
+template std::vector<ContactStatus> status_by_node(const Model<3> &, const ContactNodes<3> &,
+                                                   const std::vector<ContactStatus> &);
 template std::string unheld_motions(const Model<2> &, const ContactNodes<2> &,
                                     const std::vector<ContactStatus> &);
 template std::string unheld_motions(const Model<3> &, const ContactNodes<3> &,

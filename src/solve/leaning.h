@@ -34,6 +34,10 @@ std::vector<casefile::RigidMotion> free_modes_of(const Model<dim> &model,
 /// are all that holds the body beside its supports, as a phrase; empty: none.
 template <int dim>
 std::string unheld_motions(const Model<dim> &model, const std::vector<ContactStatus> &status);
+/// Of the contact's nodes, from the status of its points.
+template <int dim>
+std::vector<ContactStatus> status_by_node(const Model<dim> &model, const ContactNodes<dim> &contact,
+                                          const std::vector<ContactStatus> &status);
 /// The same by the status of the contact's points.
 template <int dim>
 std::string unheld_motions(const Model<dim> &model, const ContactNodes<dim> &contact,

@@ -102,7 +102,7 @@ MonolithicRoute<dim>::MonolithicRoute(const Model<dim> &model)
       system_(model.op, model.step, model.prescribed, multiplier_points(model),
               unknowns_of(exchange_.sites()), model.asked.solver.threads),
       contact_(model, system_),
-      left_to_contact_(casefile::left_to_contact(model.asked)) {
+      left_to_contact_(resisted_by_contact_alone(model)) {
   x_.multipliers = VectorXd::Zero(static_cast<Index>(system_.n_multipliers()));
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "larger.h"
@@ -40,25 +41,33 @@ void RigidWork::sum(const body::NodeSharing &sharing) {
 }
 
 double RigidWork::imbalance(double beside, double round_off) const {
-  double most = 0;
-  for (std::size_t m = 0; m < motions_.size(); ++m)
-    most = larger(most, relative_to(std::max(0., std::abs(sums_[2 * m]) - round_off),
-                                    sums_[2 * m + 1] + beside * sums_.back()));
+  double most = std::isfinite(round_off) ? 0 : std::nan("");
+  for (std::size_t m = 0; m < motions_.size(); ++m) {
+    const double lacks = larger(0., std::abs(sums_[2 * m]) - round_off);
+    most = larger(most, relative_to(lacks, sums_[2 * m + 1] + beside * sums_.back()));
+  }
   return most;
 }
 
+double RigidWork::round_off(double stiffness, double motion) {
+  constexpr double several = 10;
+  return several * std::numeric_limits<double>::epsilon() * stiffness * motion;
+}
+
 template <int dim>
-double held_motion(const Model<dim> &model, double time) {
+double held_motion(const Model<dim> &model, double time, const std::vector<ContactStatus> &status) {
   constexpr double small = 1e-2;
   double gone = 0;
-  for (const contact::InterfaceNode<dim> &at : model.interface)
-    gone = std::max(gone, model.foundation(at, time).norm() + std::abs(model.reach(at, time)));
+  for (std::size_t i = 0; i < model.interface.size(); ++i)
+    if (const contact::InterfaceNode<dim> &at = model.interface[i];
+        status[i] != ContactStatus::open)
+      gone = std::max(gone, model.foundation(at, time).norm() + std::abs(model.reach(at, time)));
   return small * output::largest_extent(model.body.bounds()) + gone;
 }
 
 template RigidWork RigidWork::left_to_contact(const Model<2> &);
 template RigidWork RigidWork::left_to_contact(const Model<3> &);
-template double held_motion(const Model<2> &, double);
-template double held_motion(const Model<3> &, double);
+template double held_motion(const Model<2> &, double, const std::vector<ContactStatus> &);
+template double held_motion(const Model<3> &, double, const std::vector<ContactStatus> &);
 
 }  // namespace tourmaline::solve
