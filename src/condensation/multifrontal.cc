@@ -44,7 +44,13 @@ class OneBlasThread {
 };
 
 std::size_t handed_on(const Front &front) {
-  return Trapezoid::at(nullptr, front.below, front.below).size();
+  return Trapezoid::broad(nullptr, front.below, front.below).size();
+}
+
+// Panels of a low front are narrow, and its columns are worked on in broad ones beside them.
+std::size_t beside(const Front &front) {
+  const Trapezoid l = Trapezoid::broad(nullptr, front.height(), front.pivots);
+  return l.is_low() ? l.size() : 0;
 }
 
 }  // namespace
@@ -53,11 +59,12 @@ std::size_t handed_on(const Front &front) {
 // a front on the other one than its children's, so each is left as it was found.
 class Multifrontal::Work {
  public:
-  Work(const Multifrontal &whole, const std::array<std::size_t, 2> &stacks);
+  Work(const Multifrontal &whole, const std::array<std::size_t, 2> &stacks, parallel::Team &team);
   int factorise(const GroupedMatrix &matrix, int front, std::vector<Trapezoid> &handed,
                 double *beyond, parallel::Team &team);
 
  private:
+  Trapezoid cleared(const Trapezoid &panels);
   void assemble(const GroupedMatrix &matrix, int front, const Trapezoid &l, const Trapezoid &rest);
   void add(const GroupedMatrix &matrix, int front, int group, std::size_t entry, const Trapezoid &l,
            const Trapezoid &rest);
@@ -66,14 +73,16 @@ class Multifrontal::Work {
 
   const Multifrontal &whole_;
   std::array<Stack, 2> stacks_;
-  std::vector<int> row_of_;  // of places below the front at hand
-  std::vector<double> block_;
+  std::vector<int> row_of_, rows_of_other_;  // of places below the front at hand; of a group
+  std::vector<double> beside_, block_;
 };
 
-Multifrontal::Work::Work(const Multifrontal &whole, const std::array<std::size_t, 2> &stacks)
+Multifrontal::Work::Work(const Multifrontal &whole, const std::array<std::size_t, 2> &stacks,
+                         parallel::Team &team)
     : whole_(whole),
-      stacks_{Stack(stacks[0]), Stack(stacks[1])},
-      row_of_(whole.elimination_.place.size()) {}
+      stacks_{Stack(stacks[0], team), Stack(stacks[1], team)},
+      row_of_(whole.elimination_.place.size()),
+      beside_(whole.beside_) {}
 
 // Returns the place of a pivot that is none, -1 if there is none; `beyond`: where to put what is
 // handed on if not on the stack.
@@ -82,9 +91,9 @@ int Multifrontal::Work::factorise(const GroupedMatrix &matrix, int f,
                                   parallel::Team &team) {
   const Elimination &e = whole_.elimination_;
   const Front &front = e.fronts[f];
-  const Trapezoid l = whole_.panels(f);
+  const Trapezoid panels = whole_.panels(f), l = panels.is_low() ? cleared(panels) : panels;
   double *to = beyond != nullptr ? beyond : stacks_[whole_.stack_[f]].push(handed_on(front));
-  const Trapezoid rest = handed[f] = Trapezoid::at(to, front.below, front.below);
+  const Trapezoid rest = handed[f] = Trapezoid::broad(to, front.below, front.below);
   assemble(matrix, f, l, rest);
   for (int c = e.child_first[f]; c < e.child_first[f + 1]; ++c)
     extend(e.children[c], handed[e.children[c]], l, rest, team);
@@ -99,7 +108,15 @@ int Multifrontal::Work::factorise(const GroupedMatrix &matrix, int f,
     if (!(root * root > no_digit * std::abs(entry)))
       return front.first + j;
   }
+  if (panels.is_low())
+    l.copy_to(panels);
   return -1;
+}
+
+Trapezoid Multifrontal::Work::cleared(const Trapezoid &panels) {
+  const Trapezoid l = Trapezoid::broad(beside_.data(), panels.height, panels.columns);
+  std::fill_n(beside_.begin(), l.size(), 0.);
+  return l;
 }
 
 // The entries of the matrix in rows or columns of the front's pivots.
@@ -130,9 +147,11 @@ void Multifrontal::Work::add(const GroupedMatrix &matrix, int f, int group, std:
     return;
   block_.resize(std::size_t(n) * m);
   matrix.block(matrix, group, entry, block_.data());
+  rows_of_other_.resize(m);
+  std::transform(columns, columns + m, rows_of_other_.begin(), row);
   for (int i = 0; i < n; ++i)
-    for (int j = 0; j < (other == group ? i + 1 : m); ++j) {
-      const auto [column, below] = std::minmax({row(rows[i]), row(columns[j])});
+    for (int j = 0, here = row(rows[i]); j < (other == group ? i + 1 : m); ++j) {
+      const auto [column, below] = std::minmax(here, rows_of_other_[j]);
       const double value = block_[std::size_t(i) * m + j];
       if (column < l.columns)
         *l.at(below, column) += value;
@@ -200,6 +219,8 @@ void Multifrontal::plan() {
   int height = 0;
   for (const Front &front : fronts)
     height = std::max(height, front.height());
+  for (const Front &front : fronts)
+    beside_ = std::max(beside_, beside(front));
   work_.assign(team_.members(), std::vector<double>(height));
   handed_.resize(elimination_.below.size());
   x_.resize(elimination_.place.size());
@@ -271,11 +292,12 @@ void Multifrontal::factorise(const GroupedMatrix &matrix) {
     entries += handed_on(elimination_.fronts[s.root]);
   }
   const auto of_top = stacks(top_);
-  const std::size_t of_members = subtrees_.empty() ? 0 : team_.members() * (most[0] + most[1]);
+  const std::size_t of_members =
+      subtrees_.empty() ? 0 : team_.members() * (most[0] + most[1] + beside_);
   parallel::give_back_freed_memory();
-  require_memory(factor_size_ + entries + of_members + of_top[0] + of_top[1]);
-  factor_ = Pages(factor_size_);
-  const Pages roots(entries);
+  require_memory(factor_size_ + entries + of_members + of_top[0] + of_top[1] + beside_);
+  factor_ = Pages(factor_size_, team_);
+  const Pages roots(entries, team_);
   double *next = roots.data();
   for (const Subtree &s : subtrees_) {
     beyond[s.root] = next;
@@ -286,7 +308,7 @@ void Multifrontal::factorise(const GroupedMatrix &matrix) {
   if (!subtrees_.empty()) {
     std::vector<Work> works;
     for (int t = 0; t < team_.members(); ++t)
-      works.emplace_back(*this, most);
+      works.emplace_back(*this, most, team_);
     team_.share_out(static_cast<int>(subtrees_.size()), [&](int s, int member) {
       for (int f = subtrees_[s].first; f <= subtrees_[s].root && weak[s] == none; ++f)
         if (const int place = works[member].factorise(matrix, f, handed, beyond[f], alone_);
@@ -297,7 +319,7 @@ void Multifrontal::factorise(const GroupedMatrix &matrix) {
   if (const auto first = std::min_element(weak.begin(), weak.end());
       first != weak.end() && *first != none)
     throw WeakPivot{elimination_.variable[*first]};
-  Work work(*this, of_top);
+  Work work(*this, of_top, team_);
   for (const int f : top_)
     if (const int place = work.factorise(matrix, f, handed, beyond[f], team_); place >= 0)
       throw WeakPivot{elimination_.variable[place]};

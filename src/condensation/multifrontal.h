@@ -61,6 +61,7 @@ class Multifrontal : public Factorisation {
   std::vector<char> stack_, is_subtree_;  // by front
   std::vector<int> front_of_;             // by group
   std::size_t factor_size_ = 0;
+  std::size_t beside_ = 0;  // the most that a front takes beside its panels
   Pages factor_;
   std::vector<double> schur_complement_;
   FactorisationStatistics statistics_;

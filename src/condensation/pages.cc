@@ -12,6 +12,8 @@ namespace tourmaline::condensation {
 
 namespace {
 
+constexpr std::size_t a_task = std::size_t{16} << 20;  // bytes
+
 // A virtual machine may give free blocks of 2^order pages and larger ones back to its host, which
 // has to find them anew when they are used. Smaller pieces it has kept (docs/factorisation.md).
 bool gives_huge_pages_back() {
@@ -23,7 +25,12 @@ bool gives_huge_pages_back() {
 
 }  // namespace
 
-Pages::Pages(std::size_t doubles) : size_(doubles) {
+Pages::Pages(std::size_t doubles) {
+  parallel::Team alone(1);
+  *this = Pages(doubles, alone);
+}
+
+Pages::Pages(std::size_t doubles, parallel::Team &team) : size_(doubles) {
   if (size_ == 0)
     return;
   void *pages = mmap(nullptr, size_ * sizeof(double), PROT_READ | PROT_WRITE,
@@ -34,8 +41,16 @@ Pages::Pages(std::size_t doubles) : size_(doubles) {
         "coarser mesh",
         static_cast<double>(size_) * sizeof(double) / (1 << 30)));
   static const bool takes_small_ones = gives_huge_pages_back();
-  madvise(pages, size_ * sizeof(double), takes_small_ones ? MADV_POPULATE_WRITE : MADV_HUGEPAGE);
   data_ = static_cast<double *>(pages);
+  const std::size_t bytes = size_ * sizeof(double);
+  if (!takes_small_ones)
+    madvise(data_, bytes, MADV_HUGEPAGE);
+  else
+    team.share_out(static_cast<int>((bytes + a_task - 1) / a_task), [&](int task, int) {
+      const std::size_t begin = task * a_task;
+      madvise(reinterpret_cast<char *>(data_) + begin, std::min(a_task, bytes - begin),
+              MADV_POPULATE_WRITE);
+    });
 }
 
 Pages::~Pages() {

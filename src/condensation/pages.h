@@ -3,15 +3,18 @@
 #include <cstddef>
 #include <utility>
 
+#include "parallel/team.h"
+
 namespace tourmaline::condensation {
 
 /// Doubles, zero at first, in memory of their own: in huge pages, each near the thread that uses it
-/// first; in small ones, all taken here, where a virtual machine has given huge ones back to its
-/// host. Throws MachineError where there is not enough.
+/// first; in small ones, all taken here by the whole team, where a virtual machine has given huge
+/// ones back to its host. Throws MachineError where there is not enough.
 class Pages {
  public:
   Pages() = default;
   explicit Pages(std::size_t doubles);
+  Pages(std::size_t doubles, parallel::Team &team);
   ~Pages();
   Pages(Pages &&other) noexcept
       : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)) {}
@@ -32,7 +35,7 @@ class Pages {
 /// What is pushed last is popped first.
 class Stack {
  public:
-  explicit Stack(std::size_t doubles) : pages_(doubles) {}
+  Stack(std::size_t doubles, parallel::Team &team) : pages_(doubles, team) {}
   /// Zeros.
   double *push(std::size_t doubles);
   void pop(std::size_t doubles) { used_ -= doubles; }

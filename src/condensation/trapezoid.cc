@@ -20,6 +20,8 @@ struct Block {
 
 // Rows that one thread takes at a time, whatever their number is.
 constexpr int rows_of_a_product = 512;
+// Of the panels of what is left, and rows that one thread takes of them.
+constexpr int broadest = 512, rows_of_a_tile = 1024;
 
 template <typename Task>
 void in_chunks(int begin, int end, int rows, parallel::Team &team, const Task &task) {
@@ -82,12 +84,12 @@ void subtract_from_rest(const Trapezoid &l, const std::vector<Block> &blocks, co
   };
   std::vector<Tile> tiles;
   for (int p = 0; p < rest.panels(); ++p)
-    for (int row = rest.first(p); row < rest.height; row += rows_of_a_product)
+    for (int row = rest.first(p); row < rest.height; row += rows_of_a_tile)
       tiles.push_back({p, row});
   const int n = static_cast<int>(tiles.size()), k = l.columns;
   team.share_out(n, [&](int t, int) {
     const auto [p, begin] = tiles[t];
-    const int end = std::min(rest.height, begin + rows_of_a_product);
+    const int end = std::min(rest.height, begin + rows_of_a_tile);
     for (const Block &by : blocks)
       subtract(l, by, rest.at(begin, rest.first(p)), rest.leading(p), k + begin, k + end,
                k + rest.first(p), k + rest.last(p));
@@ -97,7 +99,12 @@ void subtract_from_rest(const Trapezoid &l, const std::vector<Block> &blocks, co
 }  // namespace
 
 Trapezoid Trapezoid::at(double *data, int height, int columns) {
-  return {data, height, columns, std::max(1, std::min(columns, height < 1024 ? 32 : 128))};
+  const Trapezoid all{data, height, columns};
+  return {data, height, columns, std::clamp(columns, 1, all.is_low() ? 8 : 128)};
+}
+
+Trapezoid Trapezoid::broad(double *data, int height, int columns) {
+  return {data, height, columns, std::clamp(columns, 1, broadest)};
 }
 
 std::size_t Trapezoid::begin(int panel) const {
@@ -111,8 +118,13 @@ std::size_t Trapezoid::tail() const {
 }
 
 double *Trapezoid::column_from_row_0(int column) const {
-  const int p = column / width;
+  const int p = column < width ? 0 : column / width;  // mostly there is one alone
   return data + begin(p) + std::size_t(column - first(p)) * leading(p) - first(p);
+}
+
+void Trapezoid::copy_to(const Trapezoid &to) const {
+  for (int j = 0; j < columns; ++j)
+    std::copy_n(at(j, j), height - j, to.at(j, j));
 }
 
 int factorise(const Trapezoid &l, const Trapezoid &rest, int positive, parallel::Team &team) {

@@ -7,13 +7,15 @@
 namespace tourmaline::condensation {
 
 /// The lower trapezoid of a front's columns, doubles that somebody else owns: panels of `width`
-/// columns, one after another, each by columns from its first row down, as substitutions read them.
+/// columns, one after another, each by columns from its first row down.
 struct Trapezoid {
   double *data = nullptr;
   int height = 0, columns = 0, width = 1;
 
-  /// With the width that is best for this height.
+  /// In panels as substitutions read them: nearly without gaps where columns are short.
   static Trapezoid at(double *data, int height, int columns);
+  /// In panels as products work best: broad ones.
+  static Trapezoid broad(double *data, int height, int columns);
 
   int panels() const { return (columns + width - 1) / width; }
   int first(int panel) const { return panel * width; }
@@ -21,10 +23,13 @@ struct Trapezoid {
   int leading(int panel) const { return height - first(panel); }
   std::size_t begin(int panel) const;
   std::size_t size() const { return begin(panels() - 1) + tail(); }
+  bool is_low() const { return height < 1024; }
   /// Entry (row, column), on or below the diagonal.
   double *at(int row, int column) const { return column_from_row_0(column) + row; }
   /// What the rows of a column are counted from.
   double *column_from_row_0(int column) const;
+  /// `to`: of the same height and columns.
+  void copy_to(const Trapezoid &to) const;
 
  private:
   std::size_t tail() const;
