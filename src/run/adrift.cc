@@ -26,58 +26,34 @@ std::vector<casefile::Support> Adrift<dim>::supports(const solve::StepOutcome &o
   return solve::supports_of(model_, outcome.status, rubs);
 }
 
-template <int dim>
-solve::RigidWork Adrift<dim>::work_of(solve::RigidWork work, std::span<const double> loads) const {
-  for (body::Node node = 0; node < model_.body.n_nodes(); ++node)
-    if (model_.sharing().counts(node))
-      work.add(model_.body.points()[node], &loads[body::unknown<dim>(node, 0)], dim);
-  work.sum(model_.sharing());
-  return work;
-}
-
 // Round-off of a stiffness that has nothing there may hold the body against any load, and whether
 // it does differs from one way of summing to the next: loads are asked, not displacements.
 template <int dim>
 void Adrift<dim>::require_held(double time, const std::vector<casefile::Support> &held,
                                std::span<const double> loads) const {
   using solve::RigidWork;
-  const RigidWork work = work_of(RigidWork(solve::free_modes_of(model_, held)), loads);
+  RigidWork work(solve::free_modes_of(model_, held));
+  work.add_loads(model_, loads);
   if (!(work.imbalance(RigidWork::summed) <= RigidWork::unbalanced))
     solve::let_go(time, casefile::free_motions_in_words(model_.asked, held));
-}
-
-// Of the forces at a body that is where its contact holds it [N].
-template <int dim>
-double Adrift<dim>::round_off(int n, const solve::StepOutcome &outcome) const {
-  const std::vector<double> diagonal = model_.op.diagonal(model_.step);
-  double squares = 0;
-  for (std::size_t i = 0; i < diagonal.size(); ++i)
-    if (body::field_of<dim>(i) == 0 && model_.counts(i))
-      squares += diagonal[i] * diagonal[i];
-  return solve::RigidWork::round_off(std::sqrt(model_.sharing().sum(squares)),
-                                     solve::held_motion(model_, model_.time(n), outcome.status));
-}
-
-// Solutions by iteration need not be known to more digits than were asked for.
-double largest_tolerance(const casefile::SolverCase &asked) {
-  constexpr double several = 10;
-  return std::max(solve::RigidWork::unbalanced,
-                  several * std::max(asked.tolerance, asked.linear_tolerance));
 }
 
 // What holds one direction does not hide what another lacks.
 template <int dim>
 void Adrift<dim>::require_balanced(int n, const solve::StepOutcome &outcome,
-                                   std::span<const double> loads) const {
+                                   std::span<const double> loads, double displacement) const {
   using solve::RigidWork;
-  RigidWork work = work_of(RigidWork::left_to_contact(model_), loads);
-  for (std::size_t i = 0; i < model_.interface.size(); ++i)
-    work.add(model_.interface[i].point, &outcome.contact_forces[dim * static_cast<Eigen::Index>(i)],
-             dim);
-  const double tolerance = largest_tolerance(model_.asked.solver);
+  constexpr double far = 10;
+  RigidWork work = RigidWork::left_to_contact(model_);
+  work.add_loads(model_, loads);
+  work.add_at_contact(model_, outcome.contact_forces);
+  const bool is_far =
+      displacement > far * solve::held_motion(model_, model_.time(n), outcome.status);
+  const double tolerance = RigidWork::allowed(model_.asked.solver, is_far);
   if (work.imbalance(RigidWork::uncertain) <= tolerance)
     return;
-  const double lacks = work.imbalance(RigidWork::uncertain, round_off(n, outcome));
+  const double lacks = work.imbalance(
+      RigidWork::uncertain, solve::round_off_where_held(model_, model_.time(n), outcome.status));
   if (lacks <= tolerance)
     return;
   throw SolveError(fmt::format(
@@ -91,8 +67,7 @@ void Adrift<dim>::require_balanced(int n, const solve::StepOutcome &outcome,
 }
 
 template <int dim>
-void Adrift<dim>::require_near(int n, std::span<const double> state) const {
-  constexpr double farthest = 1e3;  // displacements that are small are a hundredth of the body
+double Adrift<dim>::largest_displacement(std::span<const double> state) const {
   double square = 0;
   for (body::Node node = 0; node < model_.body.n_nodes(); ++node) {
     double of_node = 0;
@@ -100,7 +75,12 @@ void Adrift<dim>::require_near(int n, std::span<const double> state) const {
       of_node += std::pow(state[body::unknown<dim>(node, c)], 2);
     square = std::max(square, of_node);
   }
-  const double displacement = std::sqrt(model_.sharing().largest(square));
+  return std::sqrt(model_.sharing().largest(square));
+}
+
+template <int dim>
+void Adrift<dim>::require_near(int n, double displacement) const {
+  constexpr double farthest = 1e3;  // displacements that are small are a hundredth of the body
   if (displacement <= farthest * output::largest_extent(model_.body.bounds()))
     return;
   throw SolveError(fmt::format(
@@ -122,8 +102,9 @@ void Adrift<dim>::step(int n, const solve::StepOutcome &outcome, std::span<const
   const bool is_held = casefile::free_motions(model_.asked, held).empty();
   if (!is_held)
     require_held(model_.time(n), held, loads);
-  require_near(n, state);
-  require_balanced(n, outcome, loads);
+  const double displacement = largest_displacement(state);
+  require_near(n, displacement);
+  require_balanced(n, outcome, loads, displacement);
   if (!is_held && ++steps_ == 1)
     first_ = n;
 }

@@ -34,13 +34,12 @@ class Adrift {
 
  private:
   std::vector<casefile::Support> supports(const solve::StepOutcome &outcome) const;
-  solve::RigidWork work_of(solve::RigidWork work, std::span<const double> loads) const;
   void require_held(double time, const std::vector<casefile::Support> &held,
                     std::span<const double> loads) const;
-  double round_off(int n, const solve::StepOutcome &outcome) const;
-  void require_balanced(int n, const solve::StepOutcome &outcome,
-                        std::span<const double> loads) const;
-  void require_near(int n, std::span<const double> state) const;
+  void require_balanced(int n, const solve::StepOutcome &outcome, std::span<const double> loads,
+                        double displacement) const;
+  void require_near(int n, double displacement) const;
+  double largest_displacement(std::span<const double> state) const;
 
   const solve::Model<dim> &model_;
   std::string left_to_contact_;  // the motions, as a phrase

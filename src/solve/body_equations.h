@@ -34,6 +34,8 @@ class BodyEquations {
   /// From now on K and b are those with what crosses the contact held as it is here.
   void hold(const HeldExchanges<dim> &exchange);
 
+  /// b as the step began.
+  std::span<const double> right_side() const { return loads_; }
   /// Looks at the state anew.
   void update_residual();
   /// b - K x; at contact nodes the force [N] that the contact bears.

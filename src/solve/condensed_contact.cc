@@ -238,12 +238,12 @@ bool CondensedContact<dim>::is_lost(double time, const VectorXd &s,
   const VectorXd forces =
       s.head(directions.rows()) - directions * solution.force.head(directions.cols());
   RigidWork work = RigidWork::left_to_contact(model_);
-  for (std::size_t i = 0; i < model_.interface.size(); ++i)
-    work.add(model_.interface[i].point, &forces[dim * static_cast<Index>(i)], dim);
+  work.add_at_contact(model_, forces);
   const double round_off = RigidWork::round_off(
       slip_stiffness_.diagonal().norm(),
       held_motion(model_, time, status_by_node(model_, nodes_, solution.status)));
-  return !(work.imbalance(RigidWork::uncertain, round_off) <= RigidWork::unbalanced);
+  return !(work.imbalance(RigidWork::uncertain, round_off) <=
+           RigidWork::allowed(model_.asked.solver, true));
 }
 
 template <int dim>

@@ -12,6 +12,7 @@
 #include "solve/leaning.h"
 #include "solve/leaning_programme.h"
 #include "solve/natural_map.h"
+#include "solve/rigid_work.h"
 
 namespace tourmaline::solve {
 
@@ -220,7 +221,8 @@ CoupledSolution ContactBySolutions<dim>::solved_by_matrix(const VectorXd &loads,
   CoupledSolution found = is_leaning_ ? solve_leaning(coupled, start, settings)
                                       : solve_coupled(coupled, start, settings);
   InterfaceSolution &contact = found.interface;
-  drifts_ = parallel::from_first(is_leaning_ && is_carried_off(programme, contact)) != 0;
+  drifts_ = parallel::from_first(is_leaning_ && is_carried_off(programme, contact)) != 0 &&
+            !is_balanced(contact);
   contact.converged = parallel::from_first(contact.converged) != 0;
   parallel::from_first(std::span(contact.increment.data(), std::size_t(contact.increment.size())));
   std::vector<int> status;
@@ -265,16 +267,34 @@ bool ContactBySolutions<dim>::settle_contact() {
   return true;
 }
 
-// Without any load round-off is all that the forces of a body are that its foundation carries.
+// By the forces of the contact, along what only that holds. A body that nothing works on goes with
+// its foundation, or stands where round-off puts it: that all its forces are round-off does not
+// mean that it is lost.
+template <int dim>
+bool ContactBySolutions<dim>::is_balanced(const InterfaceSolution &found) const {
+  if (found.force.size() != contact_.n_unknowns())  // nothing was found
+    return false;
+  RigidWork work = RigidWork::left_to_contact(model_);
+  work.add_loads(model_, body_.right_side());
+  const VectorXd forces = -(contact_.directions() * found.force);
+  work.add_at_contact(model_, forces);
+  const double round_off =
+      round_off_where_held(model_, time_, status_by_node(model_, contact_, found.status));
+  const bool is_so = work.imbalance(RigidWork::uncertain, round_off) <=
+                     RigidWork::allowed(model_.asked.solver, true);
+  return parallel::from_first(is_so) != 0;
+}
+
 template <int dim>
 std::string ContactBySolutions<dim>::carried_off() const {
   constexpr double counts = 1e-7;
   if (!is_leaning_)
     return "";
   const auto [largest, round_off] = body_.nodal_forces();
-  const bool is_lost =
-      drifts_ || round_off > counts * larger(largest, body_.first_nodal_forces().largest);
-  return is_lost ? unheld_motions(model_, contact_, solution_.interface.status) : "";
+  const bool is_far = round_off > counts * larger(largest, body_.first_nodal_forces().largest);
+  return drifts_ || (is_far && !is_balanced(solution_.interface))
+             ? unheld_motions(model_, contact_, solution_.interface.status)
+             : "";
 }
 
 // A few unknowns are worth a matrix, which takes as many solutions, if fewer do not help: 1,000

@@ -65,6 +65,7 @@ class ContactBySolutions {
   }
   CoupledContact coupled() { return {seen_, contact_.points(), contact_.couplings()}; }
   bool is_lost() const { return !solution_.interface.converged || !carried_off().empty(); }
+  bool is_balanced(const InterfaceSolution &found) const;
   bool is_in_doubt() const;
   bool find_fast();
   bool newton_step(const ContactTangent &tangent, std::vector<double> residual);

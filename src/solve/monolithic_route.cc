@@ -18,6 +18,7 @@
 #include "solve/held_bounds.h"
 #include "solve/held_exchanges.h"
 #include "solve/leaning.h"
+#include "solve/rigid_work.h"
 #include "solve/saddle_contact.h"
 #include "solve/saddle_newton.h"
 #include "solve/spring_path.h"
@@ -67,7 +68,7 @@ class MonolithicRoute : public Route {
   std::string unheld(const StepData &data, const SaddleNewton<dim> &newton) const;
   void find_stuck(double time, const StepData &data, std::vector<AugmentedLagrangian> &laws,
                   const SaddlePoint &start, StepOutcome &outcome);
-  bool is_carried_off(const StepData &data, const SaddleNewton<dim> &newton,
+  bool is_carried_off(double time, const StepData &data, const SaddleNewton<dim> &newton,
                       double first_force_size) const;
   void take(const SaddleNewton<dim> &newton, StepOutcome &outcome);
   void find_with_bounds(double time, const StepData &data, std::vector<AugmentedLagrangian> &laws,
@@ -210,13 +211,14 @@ void MonolithicRoute<dim>::find_leaning(double time, const StepData &data, Saddl
   for (std::size_t k = 0; true; ++k) {
     SaddleNewton<dim> newton(system_, with_lean, start);
     const bool is_solved = newton.solve(settings());
-    if (is_solved && !is_carried_off(data, newton, first_force_size))
+    if (is_solved && !is_carried_off(time, data, newton, first_force_size))
       return take(newton, outcome);
     outcome.newton_iterations += newton.iterations();
     if (k == weak.size()) {
       if (SaddlePoint x = first; follow_springs_to(x, with_lean, outcome)) {
         SaddleNewton<dim> from_springs(system_, with_lean, std::move(x));
-        if (from_springs.solve(settings()) && !is_carried_off(data, from_springs, first_force_size))
+        if (from_springs.solve(settings()) &&
+            !is_carried_off(time, data, from_springs, first_force_size))
           return take(from_springs, outcome);
       }
       if (is_solved)
@@ -242,14 +244,23 @@ std::string MonolithicRoute<dim>::unheld(const StepData &data,
 
 // Where nothing holds the body, what the tangent has beside its stiffness does: loads then move it
 // until their rest is small beside the terms of its forces, though not beside themselves. Without
-// any load that may be so of a body that its foundation carries along.
+// any load that may be so of a body that its foundation carries along: forces are asked.
 template <int dim>
-bool MonolithicRoute<dim>::is_carried_off(const StepData &data, const SaddleNewton<dim> &newton,
+bool MonolithicRoute<dim>::is_carried_off(double time, const StepData &data,
+                                          const SaddleNewton<dim> &newton,
                                           double first_force_size) const {
   constexpr double counts = 1e-4;
   const Verdict verdict = newton.verdict();
-  return verdict.blocks[0] * verdict.force_size > counts * first_force_size &&
-         !unheld_motions(model_, contact_.status(data, newton.x())).empty();
+  if (verdict.blocks[0] * verdict.force_size <= counts * first_force_size)
+    return false;
+  const std::vector<ContactStatus> status = contact_.status(data, newton.x());
+  if (unheld_motions(model_, status).empty())
+    return false;
+  RigidWork work = RigidWork::left_to_contact(model_);
+  work.add_loads(model_, data.right_side);
+  work.add_at_contact(model_, contact_.holding_forces(data, newton.x()));
+  return !(work.imbalance(RigidWork::uncertain, round_off_where_held(model_, time, status)) <=
+           RigidWork::allowed(model_.asked.solver, true));
 }
 
 template <int dim>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -36,8 +37,26 @@ void RigidWork::add(const Vector3 &point, const double *force, int size) {
   sums_.back() += std::sqrt(square);
 }
 
-void RigidWork::sum(const body::NodeSharing &sharing) {
-  sharing.sum(sums_);
+template <int dim>
+void RigidWork::add_loads(const Model<dim> &model, std::span<const double> loads) {
+  RigidWork of_loads(motions_);
+  for (body::Node node = 0; node < model.body.n_nodes(); ++node)
+    if (model.sharing().counts(node))
+      of_loads.add(model.body.points()[node], &loads[body::unknown<dim>(node, 0)], dim);
+  model.sharing().sum(of_loads.sums_);
+  std::ranges::transform(sums_, of_loads.sums_, sums_.begin(), std::plus());
+}
+
+template <int dim>
+void RigidWork::add_at_contact(const Model<dim> &model, const Eigen::VectorXd &forces) {
+  for (std::size_t i = 0; i < model.interface.size(); ++i)
+    add(model.interface[i].point, &forces[dim * static_cast<Eigen::Index>(i)], dim);
+}
+
+double RigidWork::allowed(const casefile::SolverCase &asked, bool is_far) {
+  constexpr double several = 10, far_away = 1e-9;
+  return std::max(is_far ? far_away : unbalanced,
+                  several * std::max(asked.tolerance, asked.linear_tolerance));
 }
 
 double RigidWork::imbalance(double beside, double round_off) const {
@@ -65,8 +84,26 @@ double held_motion(const Model<dim> &model, double time, const std::vector<Conta
   return small * output::largest_extent(model.body.bounds()) + gone;
 }
 
+template <int dim>
+double round_off_where_held(const Model<dim> &model, double time,
+                            const std::vector<ContactStatus> &status) {
+  const std::vector<double> diagonal = model.op.diagonal(model.step);
+  double squares = 0;
+  for (std::size_t i = 0; i < diagonal.size(); ++i)
+    if (body::field_of<dim>(i) == 0 && model.counts(i))
+      squares += diagonal[i] * diagonal[i];
+  return RigidWork::round_off(std::sqrt(model.sharing().sum(squares)),
+                              held_motion(model, time, status));
+}
+
 template RigidWork RigidWork::left_to_contact(const Model<2> &);
 template RigidWork RigidWork::left_to_contact(const Model<3> &);
+template void RigidWork::add_loads(const Model<2> &, std::span<const double>);
+template void RigidWork::add_loads(const Model<3> &, std::span<const double>);
+template void RigidWork::add_at_contact(const Model<2> &, const Eigen::VectorXd &);
+template void RigidWork::add_at_contact(const Model<3> &, const Eigen::VectorXd &);
+template double round_off_where_held(const Model<2> &, double, const std::vector<ContactStatus> &);
+template double round_off_where_held(const Model<3> &, double, const std::vector<ContactStatus> &);
 template double held_motion(const Model<2> &, double, const std::vector<ContactStatus> &);
 template double held_motion(const Model<3> &, double, const std::vector<ContactStatus> &);
 

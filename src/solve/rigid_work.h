@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "case/free_modes.h"
@@ -25,10 +27,18 @@ class RigidWork {
   static RigidWork left_to_contact(const Model<dim> &model);
   explicit RigidWork(std::vector<casefile::RigidMotion> motions);
 
+  /// The imbalance that solutions may have, which need not be known to more digits than were asked
+  /// for. `is_far`: the body has moved so far that round-off of its stiffness balances a load.
+  static double allowed(const casefile::SolverCase &asked, bool is_far);
+
   /// The force's first `size` components, in N, at a point.
   void add(const Vector3 &point, const double *force, int size);
-  /// Where each rank has added forces of its own.
-  void sum(const body::NodeSharing &sharing);
+  /// `loads` by unknown, of all ranks.
+  template <int dim>
+  void add_loads(const Model<dim> &model, std::span<const double> loads);
+  /// `forces` at the interface, `dim` of each node.
+  template <int dim>
+  void add_at_contact(const Model<dim> &model, const Eigen::VectorXd &forces);
 
   /// The most that is left along a motion beyond `round_off` [N], over the sizes of what works
   /// there and `beside` of the sizes of all forces. NaN where forces or `round_off` are not finite.
@@ -47,5 +57,9 @@ class RigidWork {
 /// round-off of forces that balance.
 template <int dim>
 double held_motion(const Model<dim> &model, double time, const std::vector<ContactStatus> &status);
+/// What that is at the nodes of a body, `RigidWork::round_off` of its whole stiffness [N].
+template <int dim>
+double round_off_where_held(const Model<dim> &model, double time,
+                            const std::vector<ContactStatus> &status);
 
 }  // namespace tourmaline::solve

@@ -50,6 +50,9 @@ class SaddleContact {
 
   /// A node slips when the multiplier's point does: itself, or any of the facets around it.
   std::vector<ContactStatus> status(const StepData &data, const SaddlePoint &x) const;
+  /// At the interface, `dim` of each node [N]: those of the contact and, where displacements are
+  /// prescribed, of what prescribes them.
+  Eigen::VectorXd holding_forces(const StepData &data, const SaddlePoint &x) const;
   /// A node that the law or a condition holds is put exactly there, not where the round-off of the
   /// last increment has left it. For nodal multipliers, whose points are the interface nodes.
   void settle(const StepData &data, const std::vector<ContactStatus> &status, SaddlePoint &x) const;
@@ -74,7 +77,6 @@ class SaddleContact {
   }
   contact::Tangent whole_friction(const StepData &data, const SaddlePoint &x, std::size_t p,
                                   const Eigen::VectorXd &holding) const;
-  Eigen::VectorXd holding_forces(const StepData &data, const SaddlePoint &x) const;
   std::size_t interface_index(body::Node node) const;
 
   const Model<dim> &model_;

@@ -89,6 +89,21 @@ TEST_F(OnItsFoundation, ItIsNoSolutionWhereContactForcesDoNotBalanceTheLoads) {
               ThrowsMessage<SolveError>(HasSubstr("loads and contact forces differ by")));
 }
 
+// Loads may be given to six digits; but a body that has moved by a fifth of its size may do so
+// until round-off of its stiffness bears what friction does not.
+TEST_F(OnItsFoundation, FarAwayForcesBalanceToMoreDigits) {
+  solve::StepOutcome pressed = with(ContactStatus::slip, ContactStatus::slip);
+  std::vector<double> loads = none, far = near;
+  loads[body::unknown<2>(3, 1)] = -1;
+  pressed.contact_forces[1] = 1 - 1e-6;
+  far[body::unknown<2>(3, 0)] = 2e-3;
+  adrift.step(1, pressed, loads, near);
+  EXPECT_THAT([&] { adrift.step(2, pressed, loads, far); },
+              ThrowsMessage<SolveError>(HasSubstr("loads and contact forces differ by 4")));
+  pressed.contact_forces[1] = 1 - 1e-12;
+  adrift.step(2, pressed, loads, far);
+}
+
 TEST_F(OnItsFoundation, ItIsNotAdriftWhereItsMassDampingHoldsIt) {
   const casefile::Case damped = on_foundation({"material.mass_damping=1"});
   const solve::Model<2> model_of(damped);
