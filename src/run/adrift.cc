@@ -79,9 +79,10 @@ double Adrift<dim>::largest_displacement(std::span<const double> state) const {
 }
 
 template <int dim>
-void Adrift<dim>::require_near(int n, double displacement) const {
-  constexpr double farthest = 1e3;  // displacements that are small are a hundredth of the body
-  if (displacement <= farthest * output::largest_extent(model_.body.bounds()))
+void Adrift<dim>::require_near(int n, const solve::StepOutcome &outcome, bool is_held,
+                               double displacement) const {
+  const double farthest = is_held ? 1e3 : 1e5;  // of what is small
+  if (displacement <= farthest * solve::held_motion(model_, model_.time(n), outcome.status))
     return;
   throw SolveError(fmt::format(
       "step {}: the body has left by {:.2g} m; nothing but contact keeps it from {}, and the "
@@ -103,7 +104,7 @@ void Adrift<dim>::step(int n, const solve::StepOutcome &outcome, std::span<const
   if (!is_held)
     require_held(model_.time(n), held, loads);
   const double displacement = largest_displacement(state);
-  require_near(n, displacement);
+  require_near(n, outcome, is_held, displacement);
   require_balanced(n, outcome, loads, displacement);
   if (!is_held && ++steps_ == 1)
     first_ = n;

@@ -38,7 +38,8 @@ class Adrift {
                     std::span<const double> loads) const;
   void require_balanced(int n, const solve::StepOutcome &outcome, std::span<const double> loads,
                         double displacement) const;
-  void require_near(int n, double displacement) const;
+  void require_near(int n, const solve::StepOutcome &outcome, bool is_held,
+                    double displacement) const;
   double largest_displacement(std::span<const double> state) const;
 
   const solve::Model<dim> &model_;

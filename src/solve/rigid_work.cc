@@ -54,7 +54,7 @@ void RigidWork::add_at_contact(const Model<dim> &model, const Eigen::VectorXd &f
 }
 
 double RigidWork::allowed(const casefile::SolverCase &asked, bool is_far) {
-  constexpr double several = 10, far_away = 1e-9;
+  constexpr double several = 10, far_away = 1e-8;
   return std::max(is_far ? far_away : unbalanced,
                   several * std::max(asked.tolerance, asked.linear_tolerance));
 }
