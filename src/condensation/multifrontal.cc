@@ -74,7 +74,7 @@ class Multifrontal::Work {
   const Multifrontal &whole_;
   std::array<Stack, 2> stacks_;
   std::vector<int> row_of_, rows_of_other_;  // of places below the front at hand; of a group
-  std::vector<double> beside_, block_;
+  std::vector<double> columns_, block_;      // of the front, of two groups
 };
 
 Multifrontal::Work::Work(const Multifrontal &whole, const std::array<std::size_t, 2> &stacks,
@@ -82,7 +82,7 @@ Multifrontal::Work::Work(const Multifrontal &whole, const std::array<std::size_t
     : whole_(whole),
       stacks_{Stack(stacks[0], team), Stack(stacks[1], team)},
       row_of_(whole.elimination_.place.size()),
-      beside_(whole.beside_) {}
+      columns_(whole.beside_) {}
 
 // Returns the place of a pivot that is none, -1 if there is none; `beyond`: where to put what is
 // handed on if not on the stack.
@@ -114,8 +114,8 @@ int Multifrontal::Work::factorise(const GroupedMatrix &matrix, int f,
 }
 
 Trapezoid Multifrontal::Work::cleared(const Trapezoid &panels) {
-  const Trapezoid l = Trapezoid::broad(beside_.data(), panels.height, panels.columns);
-  std::fill_n(beside_.begin(), l.size(), 0.);
+  const Trapezoid l = Trapezoid::broad(columns_.data(), panels.height, panels.columns);
+  std::fill_n(columns_.begin(), l.size(), 0.);
   return l;
 }
 
@@ -295,7 +295,7 @@ void Multifrontal::factorise(const GroupedMatrix &matrix) {
   const std::size_t of_members =
       subtrees_.empty() ? 0 : team_.members() * (most[0] + most[1] + beside_);
   parallel::give_back_freed_memory();
-  require_memory(factor_size_ + entries + of_members + of_top[0] + of_top[1] + beside_);
+  require_memory(factor_size_ + entries + std::max(of_members, of_top[0] + of_top[1] + beside_));
   factor_ = Pages(factor_size_, team_);
   const Pages roots(entries, team_);
   double *next = roots.data();

@@ -20,8 +20,10 @@ struct Block {
 
 // Rows that one thread takes at a time, whatever their number is.
 constexpr int rows_of_a_product = 512;
-// Of the panels of what is left, and rows that one thread takes of them.
+// Columns of a broad panel, and rows that one thread takes of what is left.
 constexpr int broadest = 512, rows_of_a_tile = 1024;
+// Whoever has the first of a panel's columns has all of its diagonal block.
+static_assert(broadest <= rows_of_a_product && broadest <= rows_of_a_tile);
 
 template <typename Task>
 void in_chunks(int begin, int end, int rows, parallel::Team &team, const Task &task) {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "output/place.h"
+#include "larger.h"
 #include "solve/leaning.h"
 #include "tourmaline/error.h"
 
@@ -73,7 +73,7 @@ double Adrift<dim>::largest_displacement(std::span<const double> state) const {
     double of_node = 0;
     for (int c = 0; c < dim; ++c)
       of_node += std::pow(state[body::unknown<dim>(node, c)], 2);
-    square = std::max(square, of_node);
+    square = larger(square, of_node);
   }
   return std::sqrt(model_.sharing().largest(square));
 }
@@ -81,7 +81,7 @@ double Adrift<dim>::largest_displacement(std::span<const double> state) const {
 template <int dim>
 void Adrift<dim>::require_near(int n, const solve::StepOutcome &outcome, bool is_held,
                                double displacement) const {
-  const double farthest = is_held ? 1e3 : 1e5;  // of what is small
+  const double farthest = is_held ? 1e3 : 1e5;  // where it is not held it may stand anywhere
   if (displacement <= farthest * solve::held_motion(model_, model_.time(n), outcome.status))
     return;
   throw SolveError(fmt::format(

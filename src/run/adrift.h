@@ -22,8 +22,8 @@ class Adrift {
 
   /// Of step n, which ends in `state` under `loads`, by unknown. Throws SolveError where they work
   /// on a motion that nothing resists, or contact forces do not balance them along one that nothing
-  /// else resists, and where that state is so far away, in sizes of the body, that neither
-  /// deformation nor forces have digits left.
+  /// else resists, and where that state is farther away than the contact can have held it, or so
+  /// far that neither deformation nor forces have digits left.
   void step(int n, const solve::StepOutcome &outcome, std::span<const double> loads,
             std::span<const double> state);
   /// Empty where the body was held in every step.

@@ -35,7 +35,7 @@ class BodyEquations {
   void hold(const HeldExchanges<dim> &exchange);
 
   /// b as the step began.
-  std::span<const double> right_side() const { return loads_; }
+  std::span<const double> loads() const { return loads_; }
   /// Looks at the state anew.
   void update_residual();
   /// b - K x; at contact nodes the force [N] that the contact bears.

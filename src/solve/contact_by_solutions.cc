@@ -275,7 +275,7 @@ bool ContactBySolutions<dim>::is_balanced(const InterfaceSolution &found) const 
   if (found.force.size() != contact_.n_unknowns())  // nothing was found
     return false;
   RigidWork work = RigidWork::left_to_contact(model_);
-  work.add_loads(model_, body_.right_side());
+  work.add_loads(model_, body_.loads());
   const VectorXd forces = -(contact_.directions() * found.force);
   work.add_at_contact(model_, forces);
   const double round_off =

@@ -81,6 +81,9 @@ double held_motion(const Model<dim> &model, double time, const std::vector<Conta
     if (const contact::InterfaceNode<dim> &at = model.interface[i];
         status[i] != ContactStatus::open)
       gone = std::max(gone, model.foundation(at, time).norm() + std::abs(model.reach(at, time)));
+  for (const body::Prescribed &component : model.prescribed)
+    if (body::field_of<dim>(component.unknown) == 0)
+      gone = std::max(gone, std::abs(component.value.value(component.point, time)));
   return small * output::largest_extent(model.body.bounds()) + gone;
 }
 

@@ -52,9 +52,9 @@ class RigidWork {
   std::vector<double> sums_;  // of each motion work and the sizes of its terms; of all, sizes
 };
 
-/// How far a body moves that its contact holds [m]: a hundredth of its size, and as far as nodes
-/// that are not open, by their `status`, follow gaps and foundation. A stiffness times that has the
-/// round-off of forces that balance.
+/// How far a body moves that its contact holds [m]: a hundredth of its size, and as far as it is
+/// prescribed or nodes that are not open, by their `status`, follow gaps and foundation. A
+/// stiffness times that has the round-off of forces that balance.
 template <int dim>
 double held_motion(const Model<dim> &model, double time, const std::vector<ContactStatus> &status);
 /// What that is at the nodes of a body, `RigidWork::round_off` of its whole stiffness [N].

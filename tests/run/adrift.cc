@@ -104,6 +104,18 @@ TEST_F(OnItsFoundation, FarAwayForcesBalanceToMoreDigits) {
   adrift.step(2, pressed, loads, far);
 }
 
+TEST_F(OnItsFoundation, WhereItIsPrescribedItIsNotFarAway) {
+  const casefile::Case dragged = on_foundation({"boundary[0].displacement=['0.3*t','free']"});
+  const solve::Model<2> model_of(dragged);
+  solve::StepOutcome pressed = with(ContactStatus::slip, ContactStatus::slip);
+  std::vector<double> loads = none, state = near;
+  loads[body::unknown<2>(3, 1)] = -1;
+  pressed.contact_forces[1] = 1 - 1e-6;
+  for (body::Node node = 0; node < 4; ++node)
+    state[body::unknown<2>(node, 0)] = 0.3;
+  Adrift<2>(model_of).step(9, pressed, loads, state);
+}
+
 TEST_F(OnItsFoundation, ItIsNotAdriftWhereItsMassDampingHoldsIt) {
   const casefile::Case damped = on_foundation({"material.mass_damping=1"});
   const solve::Model<2> model_of(damped);
